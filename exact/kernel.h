@@ -1,0 +1,39 @@
+// The exact kernel: CGAL's Epeck (interval filter over GMP rationals). No rounding, no tolerance; a decision
+// that intervals cannot make is made in rationals.
+#pragma once
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+
+#include <string>
+
+#include "scene/mesh.h"
+
+namespace clues::exact {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using FT = Kernel::FT;
+using Point3 = Kernel::Point_3;
+using Vector3 = Kernel::Vector_3;
+using Plane3 = Kernel::Plane_3;
+using Point2 = Kernel::Point_2;
+using Vector2 = Kernel::Vector_2;
+
+enum class Side : signed char { negative = -1, on = 0, positive = 1 };
+
+inline Side to_side(CGAL::Sign s) { return static_cast<Side>(static_cast<int>(s)); }
+
+inline Point3 to_exact(const scene::Point& p) { return Point3(p[0], p[1], p[2]); }
+
+// Nearest-ish doubles for pictures and reports; never used in a decision.
+inline scene::Point to_double_estimate(const Point3& p) {
+  return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
+}
+
+// "p/q" in lowest terms, "p" when the denominator is 1.
+std::string to_string_exact(const FT& x);
+
+// Replaces the lazy expression by its value, so that its history can be freed.
+Point3 collapsed(const Point3& p);
+FT collapsed(const FT& x);
+
+}  // namespace clues::exact

@@ -1,0 +1,33 @@
+// D18, the point-occlusion oracle: one point p against the whole cell V. Seen from p the triangles are convex
+// cones; V is another one. p is occluded exactly when the cones of the parts of the triangles that lie between p
+// and V cover the (relatively open) cone of V. Decided by subtracting convex cones, exactly; a gap is open, so it
+// holds a rational sight line, which is returned.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "exact/convex_cell.h"
+#include "exact/kernel.h"
+
+namespace clues::exact {
+
+struct OcclusionAnswer {
+  bool occluded = false;
+  std::optional<Point3> witness;  // not occluded: v in int V such that the open segment (v,p) meets no triangle (D5)
+};
+
+// A triangle soup seen by the oracle: exact corners. Degenerate triangles must have been dropped.
+using TriangleCorners = std::array<Point3, 3>;
+
+// `side`: when p lies on a surface and is asked for on one side of it, the plane whose positive side v must lie
+// strictly on (D14 rule 3); std::nullopt for a point of free space. Triangles that contain p are ignored when `side` is given
+// and lie in that plane; otherwise a triangle containing p occludes by D5 only where it lies between p and v.
+// A point of V is not occluded (D3). O(n) triangles, each cut against the cells still uncovered; with many triangles
+// pass only those that can matter.
+OcclusionAnswer point_occlusion(const Point3& p, const std::optional<Plane3>& side, const ConvexCell& cell,
+                                const std::vector<TriangleCorners>& triangles);
+
+}  // namespace clues::exact

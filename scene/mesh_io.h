@@ -1,0 +1,18 @@
+// Readers for the scene formats of docs/formats.md: OBJ, OFF, PLY (ascii, binary little and big endian), STL
+// (ascii and binary). Decimal text is read to the nearest double (hex floats too), binary floats exactly.
+// A face with more than three corners becomes a fan from its first corner (D1).
+#pragma once
+
+#include <filesystem>
+
+#include "scene/mesh.h"
+
+namespace clues::scene {
+
+// Chooses the reader by the file's extension (case-insensitive). Throws Error: file_not_found,
+// file_unreadable, unsupported (extension or feature), malformed (syntax, truncated, a face with fewer
+// than three corners), non_finite, index_out_of_range. The message names file and line (or face).
+// A file with zero triangles is malformed ("no triangles"). O(size of the file).
+TriangleMesh read_mesh(const std::filesystem::path& path);
+
+}  // namespace clues::scene

@@ -1,0 +1,67 @@
+// The result file *.clues.json ("clues-result/1", docs/formats.md) and the plain PVS list.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/mesh.h"
+
+namespace clues::scene {
+
+// A polygon of the map: corners in order, exact coordinates as "p/q" strings ("p" when q is 1) and the nearest doubles.
+struct MapRegion {
+  std::uint32_t triangle = 0;
+  bool front = true;
+  bool visible = true;
+  std::string area_fraction;  // exact part of the triangle's area, "p/q"
+  std::vector<std::vector<std::array<std::string, 3>>> rings_exact;  // outer ring first, then holes
+  std::vector<std::vector<Point>> rings;
+};
+
+struct MapSegment {  // a DM segment; boundary: also an OB segment (D15)
+  std::uint32_t triangle = 0;
+  bool front = true;
+  bool boundary = false;
+  std::array<std::array<std::string, 3>, 2> exact;
+  std::array<Point, 2> points;
+};
+
+struct MapWedge {
+  std::string kind;  // "SV-ME", "SE-ME", "SE-MV"
+  int generation = 0;
+  std::array<std::array<std::string, 3>, 4> exact;  // near segment (2 points), far segment (2 points)
+  std::array<Point, 4> points;
+  bool unbounded = false;
+};
+
+struct Result {
+  std::string scene_file, scene_sha256;
+  std::uint64_t scene_triangles = 0;
+  std::vector<Point> cell;
+  std::string method = "first-order";  // or "backprojected"
+  std::string kernel = "exact";        // or "fast"
+  std::string mode = "sheet";          // or "solid"
+  std::vector<std::uint32_t> visible;  // sorted, unique
+  std::map<std::string, std::int64_t> stats;  // always holds "conservative_fallbacks"
+  bool has_map = false;
+  std::vector<MapRegion> regions;
+  std::vector<MapSegment> segments;
+  std::vector<MapWedge> wedges;
+};
+
+// Keys sorted, two-space indent, trailing newline; the same Result gives the same bytes.
+std::string to_json_text(const Result& result);
+
+// A PVS from a result file (*.json) or a plain list (one id a line, '#' comments, blank lines allowed).
+// Sorted and unique. Throws Error: file errors, malformed (file and line), index_out_of_range when an id is
+// >= triangles.
+std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, std::uint64_t triangles);
+std::string to_pvs_text(const std::vector<std::uint32_t>& visible);
+
+// Lower-case hex SHA-256 of a file's bytes.
+std::string sha256_of_file(const std::filesystem::path& path);
+
+}  // namespace clues::scene
