@@ -1,0 +1,50 @@
+// D16: the scene as an embedded, conforming complex. Wherever input triangles pierce, touch or overlap each other
+// they are cut exactly, so that two pieces meet in a common vertex, a common edge, or not at all; coincident pieces
+// are one piece with several origins. Every contact in the scene is then a matter of shared indices.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "exact/kernel.h"
+#include "scene/mesh.h"
+
+namespace clues::exact {
+
+struct Origin {
+  std::uint32_t triangle = 0;  // input id (D1)
+  bool same_side = true;       // the piece's front side is the input triangle's front side
+};
+
+struct Piece {
+  std::array<std::uint32_t, 3> corners{};  // indices into Complex::points
+  std::vector<Origin> origins;             // at least one, ascending by triangle
+};
+
+struct Edge {
+  std::uint32_t a = 0, b = 0;            // a < b
+  std::vector<std::uint32_t> pieces;     // incident pieces, ascending
+};
+
+struct Complex {
+  std::vector<Point3> points;
+  std::vector<Piece> pieces;
+  std::vector<Plane3> planes;                              // per piece; positive side = front
+  std::vector<Edge> edges;                                 // ascending by (a, b)
+  std::vector<std::array<std::uint32_t, 3>> piece_edges;   // per piece: edges (c0c1, c1c2, c2c0)
+  std::vector<std::vector<std::uint32_t>> point_pieces;    // per point: incident pieces
+  std::vector<std::vector<std::uint32_t>> point_edges;     // per point: incident edges
+  std::vector<std::uint32_t> degenerate;                   // input ids without area: no surface
+  std::uint64_t input_triangles = 0;
+  std::uint64_t refined_triangles = 0;                     // input triangles that had to be cut
+};
+
+// O(n log n + k) box tests for k box contacts, then the exact cuts: quadratic where every triangle meets every other.
+Complex build_complex(const scene::TriangleMesh& mesh);
+
+// D4: closed and consistently oriented: every edge has exactly two sides leaving it for each entering it. Returns the ids of
+// input triangles at offending edges (empty: solid mode is allowed).
+std::vector<std::uint32_t> triangles_not_solid(const Complex& complex);
+
+}  // namespace clues::exact

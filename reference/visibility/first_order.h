@@ -1,0 +1,90 @@
+// First-order CLUES (D8-D17a): from a scene and a convex view cell to the exact visibility map. This is the door; the
+// ideas live one to a file beside it: contour.h (D10, D11), anticone.h (D12), on_wedge.h (D13), walk.h (D14),
+// fixpoint.h (D17, D17a), regions.h (D15).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "exact/complex.h"
+#include "exact/convex_cell.h"
+#include "exact/kernel.h"
+#include "reference/visibility/wedge.h"
+#include "scene/cell_spec.h"
+#include "scene/mesh.h"
+#include "scene/result.h"
+
+namespace clues::reference {
+
+enum class Mode { sheet, solid };  // D4
+
+// Told from time to time; stages "refine", "wedges", "regions". Called from one thread at a time.
+using Progress = std::function<void(const std::string& stage, std::uint64_t done, std::uint64_t total)>;
+
+// The planted bugs of the tests of the tests. A user never sets one.
+enum class PlantedBug { none, wrong_wedge_side, retested_csv, no_rule_3, rounded_comparison };
+
+struct Options {
+  Mode mode = Mode::sheet;
+  int generation_limit = 16;  // D17: wedges of a later generation are not built; what they could show is labelled visible
+  int threads = 0;            // 0: all cores; the answer does not depend on it
+  bool check_two_walks = false;  // D14: walk twice, from two independent v, and count disagreements
+  Progress progress;
+  PlantedBug planted_bug = PlantedBug::none;
+};
+
+// One face of the arrangement of DM segments on one side of one piece of the complex (D15).
+struct Region {
+  std::uint32_t piece = 0;
+  bool front = true;     // side of the piece (the origins say what that is for the input triangles)
+  bool visible = false;  // label (D14)
+  std::vector<std::vector<exact::Point3>> rings;  // outer boundary first, then holes
+  exact::FT area_fraction;                        // of the piece's own area, exactly
+  exact::Point3 sample;                           // the interior point whose label this is
+};
+
+struct DmSegment {
+  std::uint32_t piece = 0;
+  bool front = true;
+  bool boundary = false;  // labels differ on its two sides: an OB segment
+  exact::Point3 a, b;
+};
+
+struct Statistics {
+  std::uint64_t sv_me = 0, se_me = 0, se_mv = 0;  // wedges with a valid piece
+  std::uint64_t csv = 0;                          // compound silhouette vertices made
+  std::uint64_t inside_corners = 0;               // SE-MV wedges at mesh vertices
+  int generations = 0;                            // highest generation of a wedge
+  std::uint64_t parallel_edges = 0;               // contour edges whose supporting plane touches V along an edge or facet
+  std::uint64_t refined_triangles = 0;
+  std::uint64_t regions_visible = 0, regions_hidden = 0;
+  std::uint64_t walks = 0, walk_segments = 0;
+  std::uint64_t walk_disagreements = 0;           // D14; must stay 0
+  std::uint64_t rounds = 0;
+  std::uint64_t conservative_fallbacks = 0;       // D17
+};
+
+struct VisibilityMap {
+  exact::Complex complex;
+  exact::ConvexCell cell;
+  Mode mode = Mode::sheet;
+  std::vector<Wedge> wedges;        // the valid pieces
+  std::vector<DmSegment> segments;
+  std::vector<Region> regions;      // by piece, front before back
+  std::vector<std::uint32_t> visible;  // the PVS: input triangle ids, ascending
+  Statistics statistics;
+
+  // Whether any visible region / any hidden region of input triangle t exists (partly visible: both), on sides that count in
+  // the mode.
+  std::vector<std::uint8_t> triangle_state() const;  // per input triangle: bit 0 a visible region, bit 1 a hidden one
+};
+
+// Throws scene::Error not_solid when mode is solid and the mesh is not closed and consistently oriented.
+VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options);
+
+// The result file's contents; scene_file and scene_sha256 are left to the caller. with_map adds regions, segments and wedges.
+scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map);
+
+}  // namespace clues::reference
