@@ -1,0 +1,21 @@
+# The installable package: libraries, headers, the program and the files by which find_package(clues) finds them
+# (targets clues::scene, clues::exact, clues::reference, clues::validate, clues::fuzz).
+include(CMakePackageConfigHelpers)
+
+install(TARGETS clues_scene clues_exact clues_reference clues_validate clues_fuzz
+  EXPORT cluesTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS clues RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+
+foreach(folder scene exact reference validate fuzz)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/clues
+    FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/clues)
+install(EXPORT cluesTargets NAMESPACE clues:: DESTINATION ${package_dir})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/cluesConfig.cmake.in ${PROJECT_BINARY_DIR}/cluesConfig.cmake
+  INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/cluesConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/cluesConfig.cmake ${PROJECT_BINARY_DIR}/cluesConfigVersion.cmake
+  DESTINATION ${package_dir})

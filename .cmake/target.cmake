@@ -1,0 +1,21 @@
+# clues_target(name): what every library and program of ours has in common. The warnings never reach a consumer.
+# -ffp-contract=off: a product and a sum are rounded apart, on every machine; -frounding-math: CGAL's interval
+# arithmetic changes the rounding mode.
+function(clues_target name)
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/clues>)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -frounding-math -ffp-contract=off
+    $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror>)
+  get_target_property(sources ${name} SOURCES)
+  if(NOT sources)  # a folder that is still empty is a library all the same
+    file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp CONTENT "// nothing yet\n")
+    target_sources(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp)
+  endif()
+  get_target_property(type ${name} TYPE)
+  if(type STREQUAL "STATIC_LIBRARY")
+    # clues_scene is clues::scene here and for whoever finds the installed package.
+    string(REPLACE "clues_" "" short ${name})
+    add_library(clues::${short} ALIAS ${name})
+    set_target_properties(${name} PROPERTIES EXPORT_NAME ${short})
+  endif()
+endfunction()
