@@ -1,0 +1,29 @@
+// Exact numbers as text, and lazy numbers without their history (D1: coordinates are exact rationals).
+#include "exact/kernel.h"
+
+#include <CGAL/Fraction_traits.h>
+
+#include <sstream>
+
+namespace clues::exact {
+
+std::string to_string_exact(const FT& x) {
+  using Value = FT::Exact_type;
+  using Traits = CGAL::Fraction_traits<Value>;
+  Value value = x.exact();
+  Traits::Numerator_type numerator;
+  Traits::Denominator_type denominator;
+  Traits::Decompose()(value, numerator, denominator);
+  std::ostringstream text;
+  text << numerator;
+  if (denominator != Traits::Denominator_type(1)) {
+    text << '/' << denominator;
+  }
+  return text.str();
+}
+
+FT collapsed(const FT& x) { return FT(x.exact()); }
+
+Point3 collapsed(const Point3& p) { return Point3(collapsed(p.x()), collapsed(p.y()), collapsed(p.z())); }
+
+}  // namespace clues::exact
