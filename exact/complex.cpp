@@ -1,0 +1,228 @@
+// D16: cutting the scene into a conforming complex.
+//
+// 1. Equal corners become one point, triangles without area are set aside, identical triangles become one.
+// 2. Box tests propose pairs; a pair that meets in more than its common corners or edge is cut.
+// 3. Triangles that overlap in a plane are cut together (a cluster), every other triangle alone: a constrained
+//    triangulation of all edges and contact segments in that plane, in exact arithmetic. A face of it belongs to
+//    every triangle of the cluster that contains it.
+#include "exact/complex.h"
+
+#include <CGAL/Box_intersection_d/Box_with_handle_d.h>
+#include <CGAL/box_intersection_d.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "exact/complex_internal.h"
+#include "exact/kernel.h"
+
+namespace clues::exact {
+namespace {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+// Points by value: equal coordinates (also +0 and -0) are one point.
+class PointPool {
+ public:
+  std::uint32_t id_of(const Point3& p) {
+    const auto [it, fresh] = ids_.try_emplace(p, static_cast<std::uint32_t>(points_.size()));
+    if (fresh) points_.push_back(p);
+    return it->second;
+  }
+  const Point3& operator[](std::uint32_t id) const { return points_[id]; }
+  std::vector<Point3> take() { return std::move(points_); }
+
+ private:
+  std::map<Point3, std::uint32_t, Kernel::Less_xyz_3> ids_;
+  std::vector<Point3> points_;
+};
+
+// An input triangle with area; identical ones share it.
+struct Sheet {
+  Corners corners;
+  std::vector<Origin> origins;
+};
+
+bool is_even_permutation(const Corners& a, const Corners& b) {
+  for (int i = 0; i < 3; ++i) {
+    if (b[static_cast<std::size_t>(i)] == a[0]) return b[static_cast<std::size_t>((i + 1) % 3)] == a[1];
+  }
+  return false;
+}
+
+int common_corners(const Corners& a, const Corners& b) {
+  return static_cast<int>(std::count_if(a.begin(), a.end(), [&](auto c) { return std::find(b.begin(), b.end(), c) != b.end(); }));
+}
+
+// Whether every corner of b that a lacks lies strictly on one side of a's plane: then they meet in common corners only.
+bool strictly_beside(const PointPool& pool, const Corners& a, const Corners& b) {
+  CGAL::Orientation side = CGAL::COPLANAR;
+  for (const std::uint32_t c : b) {
+    if (std::find(a.begin(), a.end(), c) != a.end()) continue;
+    const CGAL::Orientation o = CGAL::orientation(pool[a[0]], pool[a[1]], pool[a[2]], pool[c]);
+    if (o == CGAL::COPLANAR || (side != CGAL::COPLANAR && o != side)) return false;
+    side = o;
+  }
+  return true;
+}
+
+void find_edges(Complex& complex) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> by_ends;
+  for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
+    const Corners& c = complex.pieces[t].corners;
+    for (std::size_t i = 0; i < 3; ++i) by_ends[std::minmax(c[i], c[(i + 1) % 3])].push_back(t);
+  }
+  complex.piece_edges.resize(complex.pieces.size());
+  complex.point_pieces.resize(complex.points.size());
+  complex.point_edges.resize(complex.points.size());
+  for (const auto& [ends, pieces] : by_ends) {
+    const auto id = static_cast<std::uint32_t>(complex.edges.size());
+    complex.edges.push_back({ends.first, ends.second, pieces});
+    complex.point_edges[ends.first].push_back(id);
+    complex.point_edges[ends.second].push_back(id);
+    for (const std::uint32_t t : pieces) {
+      const Corners& c = complex.pieces[t].corners;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::pair<std::uint32_t, std::uint32_t> side = std::minmax(c[i], c[(i + 1) % 3]);
+        if (side == ends) complex.piece_edges[t][i] = id;
+      }
+    }
+  }
+  for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
+    for (const std::uint32_t c : complex.pieces[t].corners) complex.point_pieces[c].push_back(t);
+  }
+}
+
+}  // namespace
+
+Complex build_complex(const scene::TriangleMesh& mesh) {
+  Complex complex;
+  complex.input_triangles = mesh.triangles.size();
+
+  PointPool pool;
+  std::vector<std::uint32_t> point_of(mesh.points.size());
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const auto& t : mesh.triangles) {
+    for (const std::uint32_t c : t) used[c] = true;
+  }
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+    if (used[i]) point_of[i] = pool.id_of(to_exact(mesh.points[i]));
+  }
+
+  std::vector<Sheet> sheets;
+  std::map<Corners, std::size_t> sheet_of;
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& in = mesh.triangles[t];
+    const Corners corners{point_of[in[0]], point_of[in[1]], point_of[in[2]]};
+    if (CGAL::collinear(pool[corners[0]], pool[corners[1]], pool[corners[2]])) {
+      complex.degenerate.push_back(t);
+      continue;
+    }
+    Corners key = corners;
+    std::sort(key.begin(), key.end());
+    const auto [it, fresh] = sheet_of.try_emplace(key, sheets.size());
+    if (fresh) sheets.push_back({corners, {}});
+    Sheet& sheet = sheets[it->second];
+    sheet.origins.push_back({t, is_even_permutation(sheet.corners, corners)});
+  }
+
+  // Contacts that need a cut.
+  std::vector<std::vector<Contact>> contacts(sheets.size());
+  std::vector<std::size_t> cluster(sheets.size());
+  std::iota(cluster.begin(), cluster.end(), std::size_t{0});
+  const auto root = [&](std::size_t i) {
+    while (cluster[i] != i) i = cluster[i] = cluster[cluster[i]];
+    return i;
+  };
+  using Box = CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_intersection_d::ID_EXPLICIT>;
+  struct SheetBox : Box {
+    std::size_t sheet;
+    SheetBox(const CGAL::Bbox_3& b, std::size_t s) : Box(b), sheet(s) {}
+  };
+  std::vector<SheetBox> boxes;
+  boxes.reserve(sheets.size());
+  const auto triangle3 = [&](const Sheet& s) {
+    return Kernel::Triangle_3(pool[s.corners[0]], pool[s.corners[1]], pool[s.corners[2]]);
+  };
+  for (std::size_t i = 0; i < sheets.size(); ++i) boxes.emplace_back(triangle3(sheets[i]).bbox(), i);
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
+                                [&](const SheetBox& a, const SheetBox& b) { pairs.push_back(std::minmax(a.sheet, b.sheet)); });
+  std::sort(pairs.begin(), pairs.end());
+  for (const auto& [i, j] : pairs) {
+    const Sheet &a = sheets[i], &b = sheets[j];
+    if (strictly_beside(pool, a.corners, b.corners) || strictly_beside(pool, b.corners, a.corners)) continue;
+    const Contact contact = meet(triangle3(a), triangle3(b));
+    const int common = common_corners(a.corners, b.corners);
+    if (contact.points.empty()) continue;
+    if (contact.overlap) {
+      cluster[root(i)] = root(j);
+      continue;
+    }
+    if (static_cast<int>(contact.points.size()) <= common) continue;  // one common corner, or one whole common edge
+    contacts[i].push_back(contact);
+    contacts[j].push_back(contact);
+  }
+
+  // Cut each cluster; clusters in order of their first sheet, so that the result does not depend on union order.
+  std::map<std::size_t, std::vector<std::size_t>> members;
+  for (std::size_t i = 0; i < sheets.size(); ++i) members[root(i)].push_back(i);
+  std::vector<std::pair<std::vector<std::size_t>, bool>> work;
+  for (auto& [r, m] : members) work.emplace_back(m, false);
+  std::sort(work.begin(), work.end());
+  for (const auto& [sheet_ids, unused] : work) {
+    const Sheet& first = sheets[sheet_ids.front()];
+    if (sheet_ids.size() == 1 && contacts[sheet_ids.front()].empty()) {
+      complex.pieces.push_back({first.corners, first.origins});
+      continue;
+    }
+    std::vector<std::array<Point3, 3>> triangles;
+    std::vector<Contact> cuts;
+    for (const std::size_t s : sheet_ids) {
+      const Corners& c = sheets[s].corners;
+      triangles.push_back({pool[c[0]], pool[c[1]], pool[c[2]]});
+      cuts.insert(cuts.end(), contacts[s].begin(), contacts[s].end());
+      complex.refined_triangles += sheets[s].origins.size();
+    }
+    for (const CutFace& face : cut_in_plane(triangles, cuts)) {
+      Piece piece;
+      for (std::size_t k = 0; k < 3; ++k) piece.corners[k] = pool.id_of(face.corners[k]);
+      for (const auto& [member, same_side] : face.owners) {
+        for (const Origin& o : sheets[sheet_ids[member]].origins) piece.origins.push_back({o.triangle, o.same_side == same_side});
+      }
+      std::sort(piece.origins.begin(), piece.origins.end(), [](const Origin& x, const Origin& y) { return x.triangle < y.triangle; });
+      complex.pieces.push_back(std::move(piece));
+    }
+  }
+
+  complex.points = pool.take();
+  for (const Piece& p : complex.pieces) {
+    complex.planes.emplace_back(complex.points[p.corners[0]], complex.points[p.corners[1]], complex.points[p.corners[2]]);
+  }
+  find_edges(complex);
+  return complex;
+}
+
+std::vector<std::uint32_t> triangles_not_solid(const Complex& complex) {
+  std::vector<std::uint32_t> bad;
+  for (const Edge& e : complex.edges) {
+    std::int64_t balance = 0;
+    for (const std::uint32_t t : e.pieces) {
+      const Piece& p = complex.pieces[t];
+      const auto at = static_cast<std::size_t>(std::find(p.corners.begin(), p.corners.end(), e.a) - p.corners.begin());
+      const bool forward = p.corners[(at + 1) % 3] == e.b;
+      for (const Origin& o : p.origins) balance += forward == o.same_side ? 1 : -1;
+    }
+    if (balance == 0) continue;
+    for (const std::uint32_t t : e.pieces) {
+      for (const Origin& o : complex.pieces[t].origins) bad.push_back(o.triangle);
+    }
+  }
+  std::sort(bad.begin(), bad.end());
+  bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+  return bad;
+}
+
+}  // namespace clues::exact
