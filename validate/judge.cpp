@@ -1,0 +1,179 @@
+// D19: looks for a confirmed witness wherever the first-order map says "visible", and weighs the PVS with what it found.
+#include "validate/judge.h"
+
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "exact/point_occlusion.h"
+#include "exact/witness.h"
+#include "validate/region_points.h"
+
+namespace clues::validate {
+namespace {
+
+using exact::Point3;
+using reference::Region;
+
+// A region as a side of one input triangle.
+struct Seat {
+  const Region* region = nullptr;
+  bool front = true;  // of the input triangle
+};
+
+class Judge {
+ public:
+  Judge(const scene::TriangleMesh& mesh, const reference::VisibilityMap& map)
+      : mesh_(mesh), map_(map), seats_(mesh.triangles.size()) {
+    for (const auto& piece : map.complex.pieces) {
+      soup_.push_back({corner(piece, 0), corner(piece, 1), corner(piece, 2)});
+    }
+    for (const auto& region : map.regions) {
+      for (const auto& origin : map.complex.pieces[region.piece].origins) {
+        const bool front = region.front == origin.same_side;
+        if (front || map.mode == reference::Mode::sheet) seats_[origin.triangle].push_back({&region, front});
+      }
+    }
+  }
+
+  bool touches_cell(std::uint32_t triangle) const {
+    const auto& [a, b, c] = mesh_.triangles[triangle];
+    return meets_cell(exact::to_exact(mesh_.points[a]), exact::to_exact(mesh_.points[b]),
+                      exact::to_exact(mesh_.points[c]), map_.cell);
+  }
+
+  // A confirmed witness for the triangle on one of its regions with the given label; `count` places a region.
+  std::optional<Witness> find_witness(std::uint32_t triangle, bool label, std::size_t count) const {
+    for (const auto& seat : seats_[triangle]) {
+      if (seat.region->visible != label) continue;
+      if (auto found = try_point(triangle, seat, seat.region->sample)) return found;
+    }
+    for (const auto& seat : seats_[triangle]) {
+      if (seat.region->visible != label || count <= 1) continue;
+      for (const auto& p : interior_points(seat.region->rings, count - 1)) {
+        if (auto found = try_point(triangle, seat, p)) return found;
+      }
+    }
+    return std::nullopt;
+  }
+
+ private:
+  const Point3& corner(const exact::Piece& piece, int i) const { return map_.complex.points[piece.corners[i]]; }
+
+  std::optional<Witness> try_point(std::uint32_t triangle, const Seat& seat, const Point3& p) const {
+    // The cheap try first; the oracle knows all of the cell.
+    const auto& cell = map_.cell;
+    if (auto found = confirmed(triangle, seat.front, cell.center(), p)) return found;
+    const exact::Plane3& plane = map_.complex.planes[seat.region->piece];
+    const exact::Plane3 side = seat.region->front ? plane : plane.opposite();
+    const auto answer = exact::point_occlusion(p, side, cell, soup_);
+    if (answer.occluded || !answer.witness) return std::nullopt;
+    return confirmed(triangle, seat.front, *answer.witness, p);
+  }
+
+  std::optional<Witness> confirmed(std::uint32_t triangle, bool front, const Point3& v, const Point3& p) const {
+    if (!exact::check_witness(mesh_, map_.cell, triangle, front, v, p).valid) return std::nullopt;
+    return Witness{triangle, front, v, p};
+  }
+
+  const scene::TriangleMesh& mesh_;
+  const reference::VisibilityMap& map_;
+  std::vector<exact::TriangleCorners> soup_;
+  std::vector<std::vector<Seat>> seats_;  // per input triangle, the sides that count in the mode
+};
+
+double area_estimate(const scene::TriangleMesh& mesh, std::uint32_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  const auto p = exact::to_exact(mesh.points[a]), q = exact::to_exact(mesh.points[b]),
+             r = exact::to_exact(mesh.points[c]);
+  return std::sqrt(CGAL::to_double(CGAL::squared_area(p, q, r)));
+}
+
+}  // namespace
+
+bool meets_cell(const Point3& a, const Point3& b, const Point3& c, const exact::ConvexCell& cell) {
+  const exact::Kernel::Triangle_3 triangle(a, b, c);
+  const auto& corners = cell.vertices();
+  if (cell.dimension() == 0) return triangle.has_on(corners[0]);
+  if (cell.dimension() == 1) return CGAL::do_intersect(triangle, exact::Kernel::Segment_3(corners[0], corners[1]));
+  // Either a corner lies in the cell, or the triangle leaves it (or never enters it) through a facet.
+  if (cell.contains(a) || cell.contains(b) || cell.contains(c)) return true;
+  for (const auto& facet : cell.facets()) {
+    for (std::size_t i = 1; i + 1 < facet.corners.size(); ++i) {
+      const exact::Kernel::Triangle_3 part(corners[facet.corners[0]], corners[facet.corners[i]],
+                                           corners[facet.corners[i + 1]]);
+      if (CGAL::do_intersect(triangle, part)) return true;
+    }
+  }
+  return false;
+}
+
+Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::VisibilityMap& map,
+                    const std::vector<std::uint32_t>& pvs, const JudgeOptions& options) {
+  const Judge judge(mesh, map);
+  const auto& degenerate = map.complex.degenerate;
+  const auto total = static_cast<std::uint32_t>(mesh.triangles.size());
+  Judgement result;
+  result.triangles.resize(total, TriangleVerdict::hidden);
+  for (std::uint32_t t = 0; t < total; ++t) {
+    const bool listed = std::binary_search(pvs.begin(), pvs.end(), t);
+    const bool in_omega = std::binary_search(map.visible.begin(), map.visible.end(), t);
+    const bool surface = !std::binary_search(degenerate.begin(), degenerate.end(), t);
+    bool seen = false;
+    if (surface && judge.touches_cell(t)) {
+      seen = true;
+      result.meet_cell.push_back(t);
+    } else if (in_omega) {
+      if (auto witness = judge.find_witness(t, true, options.points_per_region)) {
+        seen = true;
+        result.witnesses.push_back(*witness);
+      }
+    } else if (options.cross_check && surface) {
+      if (auto witness = judge.find_witness(t, false, 1)) {
+        seen = true;
+        result.witnesses.push_back(*witness);
+        result.contradictions.push_back(*witness);
+      }
+    }
+    auto& verdict = result.triangles[t];
+    if (listed) {
+      verdict = seen ? TriangleVerdict::exact : in_omega ? TriangleVerdict::first_order : TriangleVerdict::loose;
+    } else {
+      verdict = seen       ? TriangleVerdict::missing_visible
+                : in_omega ? TriangleVerdict::missing_undecided
+                           : TriangleVerdict::hidden;
+    }
+    const double area = listed ? area_estimate(mesh, t) : 0;
+    result.area_listed_estimate += area;
+    switch (verdict) {
+      case TriangleVerdict::hidden:
+        break;
+      case TriangleVerdict::missing_undecided:
+        ++result.missing_undecided;
+        break;
+      case TriangleVerdict::missing_visible:
+        ++result.missing_visible;
+        break;
+      case TriangleVerdict::exact:
+        ++result.exact;
+        break;
+      case TriangleVerdict::first_order:
+        ++result.first_order;
+        result.area_first_order_estimate += area;
+        break;
+      case TriangleVerdict::loose:
+        ++result.loose;
+        result.area_loose_estimate += area;
+        break;
+    }
+    if (options.progress) options.progress(t + 1, total);
+  }
+  result.verdict = result.missing_visible > 0     ? Verdict::unsound
+                   : result.missing_undecided > 0 ? Verdict::undecided
+                                                  : Verdict::sound;
+  return result;
+}
+
+}  // namespace clues::validate

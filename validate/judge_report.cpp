@@ -1,0 +1,147 @@
+// Text and JSON of a judgement (D19). Exact coordinates are strings; doubles beside them are for reading only.
+#include "validate/judge_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace clues::validate {
+namespace {
+
+using nlohmann::json;
+
+json point_json(const exact::Point3& p) {
+  return {{"exact", {exact::to_string_exact(p.x()), exact::to_string_exact(p.y()), exact::to_string_exact(p.z())}},
+          {"estimate", exact::to_double_estimate(p)}};
+}
+
+json witness_json(const Witness& w) {
+  return {
+      {"triangle", w.triangle}, {"side", w.front ? "front" : "back"}, {"v", point_json(w.v)}, {"p", point_json(w.p)}};
+}
+
+std::string witness_line(const Witness& w) {
+  return fmt::format("  triangle {}, {} side: free sight line from {} in the cell\n    to {} on the triangle\n",
+                     w.triangle, w.front ? "front" : "back", to_string_exact(w.v), to_string_exact(w.p));
+}
+
+std::vector<std::uint32_t> with_verdict(const Judgement& judgement, TriangleVerdict verdict) {
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t t = 0; t < judgement.triangles.size(); ++t) {
+    if (judgement.triangles[t] == verdict) ids.push_back(t);
+  }
+  return ids;
+}
+
+std::string id_list(const std::vector<std::uint32_t>& ids, std::size_t limit) {
+  std::string text;
+  for (std::size_t i = 0; i < ids.size() && i < limit; ++i) text += fmt::format("{}{}", i ? ", " : "", ids[i]);
+  if (ids.size() > limit) text += fmt::format(", ... ({} in all)", ids.size());
+  return text;
+}
+
+double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
+
+}  // namespace
+
+const char* to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::sound:
+      return "sound";
+    case Verdict::undecided:
+      return "undecided";
+    case Verdict::unsound:
+      return "unsound";
+  }
+  return "?";
+}
+
+const char* to_string(TriangleVerdict verdict) {
+  switch (verdict) {
+    case TriangleVerdict::hidden:
+      return "hidden";
+    case TriangleVerdict::missing_undecided:
+      return "missing-undecided";
+    case TriangleVerdict::missing_visible:
+      return "missing-visible";
+    case TriangleVerdict::exact:
+      return "exact";
+    case TriangleVerdict::first_order:
+      return "first-order";
+    case TriangleVerdict::loose:
+      return "loose";
+  }
+  return "?";
+}
+
+std::string to_string_exact(const exact::Point3& p) {
+  return fmt::format("({}, {}, {})", exact::to_string_exact(p.x()), exact::to_string_exact(p.y()),
+                     exact::to_string_exact(p.z()));
+}
+
+std::string to_text(const Judgement& judgement, std::size_t limit) {
+  std::string text = fmt::format("verdict: {}\n", to_string(judgement.verdict));
+  const auto missing = with_verdict(judgement, TriangleVerdict::missing_visible);
+  if (!missing.empty()) {
+    text += fmt::format("missing although visible: {}\n", id_list(missing, limit));
+    std::size_t shown = 0;
+    for (const auto& w : judgement.witnesses) {
+      if (shown < limit && judgement.triangles[w.triangle] == TriangleVerdict::missing_visible) {
+        text += witness_line(w);
+        ++shown;
+      }
+    }
+    for (const auto t : judgement.meet_cell) {
+      if (shown < limit && judgement.triangles[t] == TriangleVerdict::missing_visible) {
+        text += fmt::format("  triangle {} meets the cell\n", t);
+        ++shown;
+      }
+    }
+  }
+  const auto undecided = with_verdict(judgement, TriangleVerdict::missing_undecided);
+  if (!undecided.empty()) {
+    text += fmt::format("missing, first-order visible, no witness found: {}\n", id_list(undecided, limit));
+  }
+  text +=
+      fmt::format("listed: {} triangles: {} exact, {} first-order (no witness found), {} loose (certainly hidden)\n",
+                  judgement.exact + judgement.first_order + judgement.loose, judgement.exact, judgement.first_order,
+                  judgement.loose);
+  text += fmt::format(
+      "overestimate: at least {} triangles ({:.2f} % of the listed area), at most {} ({:.2f} %)\n", judgement.loose,
+      percent(judgement.area_loose_estimate, judgement.area_listed_estimate), judgement.loose + judgement.first_order,
+      percent(judgement.area_loose_estimate + judgement.area_first_order_estimate, judgement.area_listed_estimate));
+  if (!judgement.contradictions.empty()) {
+    text += "CONTRADICTION: the reference map hides what a confirmed sight line sees; please report this:\n";
+    for (std::size_t i = 0; i < judgement.contradictions.size() && i < limit; ++i) {
+      text += witness_line(judgement.contradictions[i]);
+    }
+  }
+  return text;
+}
+
+std::string to_json_text(const Judgement& judgement) {
+  json verdicts = json::array(), witnesses = json::array(), contradictions = json::array();
+  for (const auto verdict : judgement.triangles) verdicts.push_back(to_string(verdict));
+  for (const auto& w : judgement.witnesses) witnesses.push_back(witness_json(w));
+  for (const auto& w : judgement.contradictions) contradictions.push_back(witness_json(w));
+  const json out = {{"format", "clues-judgement/1"},
+                    {"verdict", to_string(judgement.verdict)},
+                    {"counts",
+                     {{"missing_visible", judgement.missing_visible},
+                      {"missing_undecided", judgement.missing_undecided},
+                      {"exact", judgement.exact},
+                      {"first_order", judgement.first_order},
+                      {"loose", judgement.loose}}},
+                    {"area",
+                     {{"listed", judgement.area_listed_estimate},
+                      {"first_order", judgement.area_first_order_estimate},
+                      {"loose", judgement.area_loose_estimate}}},
+                    {"meet_cell", judgement.meet_cell},
+                    {"triangles", verdicts},
+                    {"witnesses", witnesses},
+                    {"contradictions", contradictions}};
+  return out.dump(2) + "\n";
+}
+
+}  // namespace clues::validate
