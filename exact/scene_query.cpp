@@ -1,0 +1,127 @@
+// Exact segment-piece tests by orientation signs; D3 (the cell's inside does not occlude) and D5 (closed occluders).
+#include "exact/scene_query.h"
+
+#include <algorithm>
+
+namespace clues::exact {
+namespace {
+
+// The part of the closed polygon on the closed positive (keep = +1) or negative side of a plane.
+std::vector<Point3> clip(const std::vector<Point3>& polygon, const Plane3& h, int keep) {
+  std::vector<Point3> out;
+  const auto value = [&](const Point3& p) { return FT(keep) * (h.a() * p.x() + h.b() * p.y() + h.c() * p.z() + h.d()); };
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const FT vp = value(p), vq = value(q);
+    if (!CGAL::is_negative(vp)) out.push_back(p);
+    if ((CGAL::is_negative(vp) && CGAL::is_positive(vq)) || (CGAL::is_positive(vp) && CGAL::is_negative(vq))) {
+      out.push_back(p + (vp / (vp - vq)) * (q - p));
+    }
+  }
+  return out;
+}
+
+// Whether the closed triangle meets the closed cell. A flat cell is bounded by its plane (both sides) and by its edges.
+bool triangle_meets_cell(const std::array<Point3, 3>& t, const ConvexCell& cell) {
+  std::vector<Point3> rest(t.begin(), t.end());
+  if (cell.dimension() == 3) {
+    for (const CellFacet& f : cell.facets()) {
+      rest = clip(rest, f.plane, -1);
+      if (rest.empty()) return false;
+    }
+    return true;
+  }
+  const Kernel::Triangle_3 triangle(t[0], t[1], t[2]);
+  const auto& s = cell.vertices();
+  if (cell.dimension() == 0) return triangle.has_on(s[0]);
+  if (cell.dimension() == 1) return CGAL::do_intersect(triangle, Kernel::Segment_3(s[0], s[1]));
+  const CellFacet& f = cell.facets().front();
+  for (std::size_t i = 2; i < f.corners.size(); ++i) {
+    const Kernel::Triangle_3 part(s[static_cast<std::size_t>(f.corners[0])], s[static_cast<std::size_t>(f.corners[i - 1])],
+                                  s[static_cast<std::size_t>(f.corners[i])]);
+    if (CGAL::do_intersect(triangle, part)) return true;
+  }
+  return false;
+}
+
+FT value(const Plane3& h, const Point3& p) { return h.a() * p.x() + h.b() * p.y() + h.c() * p.z() + h.d(); }
+
+}  // namespace
+
+SceneQuery::SceneQuery(const Complex& complex, const ConvexCell& cell) : complex_(&complex), cell_(&cell) {
+  CGAL::Bbox_3 cell_box;
+  for (const Point3& s : cell.vertices()) cell_box += s.bbox();
+  bounds_ = cell_box;
+  std::vector<CGAL::Bbox_3> boxes;
+  boxes.reserve(complex.pieces.size());
+  for (const Piece& piece : complex.pieces) {
+    const auto& c = piece.corners;
+    boxes.push_back(complex.points[c[0]].bbox() + complex.points[c[1]].bbox() + complex.points[c[2]].bbox());
+    bounds_ += boxes.back();
+    meets_cell_.push_back(CGAL::do_overlap(boxes.back(), cell_box) &&
+                          triangle_meets_cell({complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]}, cell));
+  }
+  tree_ = BoxTree(std::move(boxes));
+}
+
+SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p) const {
+  SegmentAnswer answer;
+  for (const std::uint32_t t : tree_.candidates(SegmentBoxTest(v, p))) {
+    const auto& c = complex_->pieces[t].corners;
+    const Point3 &a = complex_->points[c[0]], &b = complex_->points[c[1]], &d = complex_->points[c[2]];
+    const CGAL::Orientation at_p = CGAL::orientation(a, b, d, p);
+    const CGAL::Orientation at_v = CGAL::orientation(a, b, d, v);
+    if (at_p == CGAL::COPLANAR) {
+      if (at_v == CGAL::COPLANAR) answer.degenerate = true;
+      continue;
+    }
+    if (at_v == at_p) continue;
+    const CGAL::Orientation o1 = CGAL::orientation(v, p, a, b), o2 = CGAL::orientation(v, p, b, d), o3 = CGAL::orientation(v, p, d, a);
+    const bool negative = o1 == CGAL::NEGATIVE || o2 == CGAL::NEGATIVE || o3 == CGAL::NEGATIVE;
+    const bool positive = o1 == CGAL::POSITIVE || o2 == CGAL::POSITIVE || o3 == CGAL::POSITIVE;
+    if (negative && positive) continue;
+    if (at_v == CGAL::COPLANAR || o1 == CGAL::COPLANAR || o2 == CGAL::COPLANAR || o3 == CGAL::COPLANAR) {
+      answer.degenerate = true;
+      return answer;
+    }
+    const FT at_end = value(complex_->planes[t], p), at_start = value(complex_->planes[t], v);
+    const FT s = at_start / (at_start - at_end);
+    if (meets_cell_[t] && cell_->interior_contains(v + s * (p - v))) continue;
+    answer.hits.push_back({t, s});
+  }
+  std::sort(answer.hits.begin(), answer.hits.end(), [](const Hit& x, const Hit& y) { return x.t < y.t; });
+  for (std::size_t i = 1; i < answer.hits.size(); ++i) {
+    if (answer.hits[i - 1].t == answer.hits[i].t) answer.degenerate = true;
+  }
+  return answer;
+}
+
+bool SceneQuery::is_free(const Point3& v, const Point3& p) const {
+  const Kernel::Segment_3 segment(v, p);
+  for (const std::uint32_t t : tree_.candidates(SegmentBoxTest(v, p))) {
+    const auto& c = complex_->pieces[t].corners;
+    const Kernel::Triangle_3 triangle(complex_->points[c[0]], complex_->points[c[1]], complex_->points[c[2]]);
+    if (!CGAL::do_intersect(segment, triangle)) continue;
+    const auto met = CGAL::intersection(segment, triangle);
+    if (!met) continue;
+    // The met part, from the end at v to the end at p. Only points of the open segment outside int V block.
+    Point3 nearest_p;
+    if (const auto* x = boost::get<Point3>(&*met)) {
+      nearest_p = *x;
+    } else {
+      const auto& s = boost::get<Kernel::Segment_3>(*met);
+      const bool source_nearer = CGAL::has_smaller_distance_to_point(p, s.source(), s.target());
+      const Point3 far_end = source_nearer ? s.target() : s.source();
+      nearest_p = source_nearer ? s.source() : s.target();
+      if (nearest_p == p && far_end != p) {  // a whole stretch up to p: some of it is outside int V unless p is inside
+        if (!cell_->interior_contains(p)) return false;
+        continue;
+      }
+    }
+    if (nearest_p == p || nearest_p == v) continue;
+    if (!cell_->interior_contains(nearest_p)) return false;
+  }
+  return true;
+}
+
+}  // namespace clues::exact

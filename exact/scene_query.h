@@ -1,0 +1,58 @@
+// Exact segment queries on the complex: which pieces does an open segment cross, and where. All contacts that are not a clean
+// crossing of a piece's interior are reported as degenerate: callers choose their segments and can choose again (definition, section 5).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "exact/box_tree.h"
+#include "exact/complex.h"
+#include "exact/convex_cell.h"
+
+namespace clues::exact {
+
+struct Hit {
+  std::uint32_t piece = 0;
+  FT t;  // 0 at the first end, 1 at the second; strictly between
+};
+
+struct SegmentAnswer {
+  bool degenerate = false;  // touches an edge, a vertex, or runs in a plane: choose another segment
+  std::vector<Hit> hits;    // ascending in t; complete unless degenerate
+};
+
+class SceneQuery {
+ public:
+  // Keeps references: complex and cell must outlive it.
+  SceneQuery(const Complex& complex, const ConvexCell& cell);
+
+  // The clean crossings of the open segment (v,p), v in int V. A piece whose plane contains p is not crossed (it can only be met
+  // at p). Crossings inside int V do not count (D3). O(log n + boxes met).
+  SegmentAnswer crossings(const Point3& v, const Point3& p) const;
+
+  // Whether the open segment (v,p) meets no closed piece outside int V (D5): exact for every position, never degenerate.
+  bool is_free(const Point3& v, const Point3& p) const;
+
+  // Pieces whose boxes the test cannot exclude.
+  template <class Test>
+  std::vector<std::uint32_t> candidates(const Test& may_meet) const {
+    return tree_.candidates(may_meet);
+  }
+
+  // Whether piece t meets the closed cell (D3).
+  bool meets_cell(std::uint32_t piece) const { return meets_cell_[piece]; }
+  const CGAL::Bbox_3& bounds() const { return bounds_; }  // of scene and cell
+  const Complex& complex() const { return *complex_; }
+  const ConvexCell& cell() const { return *cell_; }
+
+ private:
+  const Complex* complex_;
+  const ConvexCell* cell_;
+  BoxTree tree_;
+  std::vector<bool> meets_cell_;
+  CGAL::Bbox_3 bounds_;
+};
+
+}  // namespace clues::exact
