@@ -77,7 +77,8 @@ std::vector<std::vector<Point3>> hull_polygons(const std::vector<Point3>& points
   std::map<std::size_t, Vector3> normals;
   for (const auto face : mesh.faces()) {
     const auto h = mesh.halfedge(face);
-    const Point3 &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)), &c = mesh.point(mesh.target(mesh.next(h)));
+    const Point3 &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h)),
+                 &c = mesh.point(mesh.target(mesh.next(h)));
     auto& group = corners[root(face)];
     group.insert(group.end(), {a, b, c});
     normals.emplace(root(face), CGAL::cross_product(b - a, c - a));
@@ -97,12 +98,14 @@ int affine_dimension(const std::vector<Point3>& points, Vector3& normal) {
   if (b == points.end()) {
     return 0;
   }
-  const auto c = std::find_if(points.begin(), points.end(), [&](const Point3& p) { return !CGAL::collinear(a, *b, p); });
+  const auto c =
+      std::find_if(points.begin(), points.end(), [&](const Point3& p) { return !CGAL::collinear(a, *b, p); });
   if (c == points.end()) {
     return 1;
   }
   normal = CGAL::cross_product(*b - a, *c - a);
-  const bool flat = std::all_of(points.begin(), points.end(), [&](const Point3& p) { return CGAL::coplanar(a, *b, *c, p); });
+  const bool flat =
+      std::all_of(points.begin(), points.end(), [&](const Point3& p) { return CGAL::coplanar(a, *b, *c, p); });
   return flat ? 2 : 3;
 }
 
@@ -145,7 +148,8 @@ ConvexCell::ConvexCell(const std::vector<Point3>& points) {
   for (const auto& polygon : polygons) {
     CellFacet facet;
     for (const Point3& p : polygon) {
-      facet.corners.push_back(static_cast<int>(std::lower_bound(vertices_.begin(), vertices_.end(), p) - vertices_.begin()));
+      facet.corners.push_back(
+          static_cast<int>(std::lower_bound(vertices_.begin(), vertices_.end(), p) - vertices_.begin()));
     }
     auto& corners = facet.corners;
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
@@ -157,7 +161,8 @@ ConvexCell::ConvexCell(const std::vector<Point3>& points) {
     facet.plane = collapsed_plane(at(0), at(1), at(2));
     facets_.push_back(std::move(facet));
   }
-  std::sort(facets_.begin(), facets_.end(), [](const CellFacet& a, const CellFacet& b) { return a.corners < b.corners; });
+  std::sort(facets_.begin(), facets_.end(),
+            [](const CellFacet& a, const CellFacet& b) { return a.corners < b.corners; });
   if (dimension_ >= 2) {
     edges_.assign(edges.begin(), edges.end());
   }
