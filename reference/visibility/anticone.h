@@ -1,0 +1,23 @@
+// D12: the facets of the anti-cone A(x) of a point x outside the cell. Each is a planar sector with apex x, spanned by the
+// reflections of two extreme cell vertices (a silhouette edge of V seen from x); its plane supports V.
+//
+// All facets are found by plane sides alone: no sweep along the cell's contour, so no start, no direction and no
+// order to get wrong (hazards B-1, B-3, B-4).
+#pragma once
+
+#include <vector>
+
+#include "exact/convex_cell.h"
+#include "exact/kernel.h"
+
+namespace clues::reference {
+
+struct AnticoneFacet {
+  exact::Plane3 plane;       // V in the closed negative side H+
+  exact::Vector3 ray0, ray1; // x - s0, x - s1; counter-clockwise about the plane's normal
+};
+
+// Empty when x lies in V or V is a point. O(cell edges * cell vertices).
+std::vector<AnticoneFacet> anticone_facets(const exact::Point3& x, const exact::ConvexCell& cell);
+
+}  // namespace clues::reference

@@ -1,0 +1,84 @@
+#include "reference/visibility/apex.h"
+
+#include <algorithm>
+
+#include "reference/visibility/anticone.h"
+
+namespace clues::reference {
+
+using exact::FT;
+using exact::Point3;
+using exact::Vector3;
+
+Apex Apex::at_vertex(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t point) {
+  Apex apex(cell, complex.points[point], LocalStar::around_vertex(complex, point));
+  apex.id_ = point;
+  return apex;
+}
+
+Apex Apex::at_edge(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t edge, const Point3& x) {
+  Apex apex(cell, x, LocalStar::around_edge_point(complex, edge, x));
+  apex.on_edge_ = true;
+  apex.id_ = edge;
+  apex.generation = -1;
+  return apex;
+}
+
+Apex::Apex(const exact::ConvexCell& cell, const Point3& x, LocalStar star) : x_(x), star_(std::move(star)) {
+  for (const AnticoneFacet& f : anticone_facets(x, cell)) {
+    const Vector3 n = f.plane.orthogonal_vector();
+    const auto turns_left = [&](const Vector3& u, const Vector3& w) { return CGAL::is_positive(n * CGAL::cross_product(u, w)); };
+    std::vector<Vector3> rays{f.ray0};
+    for (const Vector3& t : star_.traces(n)) {
+      if (turns_left(f.ray0, t) && turns_left(t, f.ray1)) rays.push_back(t);
+    }
+    std::sort(rays.begin() + 1, rays.end(), turns_left);
+    rays.push_back(f.ray1);
+    for (std::size_t i = 0; i + 1 < rays.size(); ++i) {
+      if (!turns_left(rays[i], rays[i + 1])) continue;
+      const auto size = [](const Vector3& v) { return CGAL::abs(v.x()) + CGAL::abs(v.y()) + CGAL::abs(v.z()); };
+      const Vector3 middle = rays[i] / size(rays[i]) + rays[i + 1] / size(rays[i + 1]);
+      sectors_.push_back({f.plane, rays[i], rays[i + 1], middle, star_.face_of(star_.nudged(middle, n)), nullptr, false});
+    }
+  }
+}
+
+Probe Apex::probe(const Vector3& limit, const Vector3& aside, const Vector3& off) const {
+  Vector3 d = limit;
+  if (aside != CGAL::NULL_VECTOR) d = star_.nudged(d, aside);
+  return {limit, star_.nudged(d, off), CGAL::NULL_VECTOR};
+}
+
+void Apex::start_round() {
+  probes_.clear();
+  fresh_ = false;
+  generation = on_edge_ ? -1 : 0;
+  for (ApexSector& s : sectors_) s.built = false;
+}
+
+std::vector<std::size_t> Apex::new_sectors() {
+  std::vector<std::size_t> found;
+  if (!fresh_) return found;
+  fresh_ = false;
+  std::vector<std::vector<int>> faces;
+  for (const Probe& p : probes_) faces.push_back(star_.face_of(p.actual));
+  for (std::size_t i = 0; i < sectors_.size(); ++i) {
+    ApexSector& s = sectors_[i];
+    if (s.built || std::find(faces.begin(), faces.end(), s.face) == faces.end()) continue;
+    const Vector3 n = s.plane.orthogonal_vector();
+    // Visible space strictly in H+ that surely reaches the points just off `middle` in H+ too. A point of the visible part of a
+    // crossed edge reaches every direction of its own face.
+    bool bounds_nothing = false;
+    for (std::size_t k = 0; k < probes_.size() && !bounds_nothing; ++k) {
+      const Probe& p = probes_[k];
+      bounds_nothing = (p.lit_edge != CGAL::NULL_VECTOR && faces[k] == s.face && CGAL::is_negative(n * p.lit_edge)) ||
+                       (CGAL::is_negative(n * p.limit) && CGAL::is_negative(n * p.actual) && star_.free_between(p.actual, s.middle));
+    }
+    if (bounds_nothing) continue;
+    s.built = true;
+    found.push_back(i);
+  }
+  return found;
+}
+
+}  // namespace clues::reference

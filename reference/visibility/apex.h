@@ -1,0 +1,70 @@
+// D12 at one point: which SE-MV wedges start at a contour vertex (a mesh vertex, or a CSV on an edge).
+//
+// On the small sphere around x (LocalStar) a wedge with apex x goes in directions w of the boundary of the anti-cone. It exists where
+// visible space near x, known by a few probes, lies in the same local face as the points just off w in H-: a sight line that
+// reaches x there goes on in every direction of A(x). It is left out where that same visible space surely reaches the other side (H+)
+// of the wedge as well: such a piece bounds nothing. Building too many pieces would be correct too, only slower (D12).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "exact/convex_cell.h"
+#include "exact/scene_query.h"
+#include "reference/visibility/local_star.h"
+#include "reference/visibility/on_wedge.h"
+
+namespace clues::reference {
+
+// Visible space beside x: the limit direction it is known for, and a true direction just off it, inside the visible face.
+struct Probe {
+  exact::Vector3 limit, actual;
+  exact::Vector3 lit_edge = CGAL::NULL_VECTOR;  // at a CSV: the direction of the visible part of the crossed edge
+};
+
+// A sector of the anti-cone's boundary between two neighbouring traces of incident pieces, its middle, and its local face.
+struct ApexSector {
+  exact::Plane3 plane;
+  exact::Vector3 ray0, ray1, middle;
+  std::vector<int> face;
+  std::shared_ptr<const OnWedge> on_wedge;  // made when first needed
+  bool built = false;                       // in this round
+};
+
+class Apex {
+ public:
+  static Apex at_vertex(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t point);
+  static Apex at_edge(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t edge, const exact::Point3& x);
+
+  // A probe just off `limit` towards `aside` (may be zero: exactly along limit) and then towards `off`.
+  Probe probe(const exact::Vector3& limit, const exact::Vector3& aside, const exact::Vector3& off) const;
+
+  void add_probe(const Probe& p) {
+    probes_.push_back(p);
+    fresh_ = true;
+  }
+  // The sectors that exist by the probes so far and were not given before in this round.
+  std::vector<std::size_t> new_sectors();
+  void start_round();
+
+  int generation = 0;  // of its wedges; at a CSV: -1 until one is found in this round
+
+  const exact::Point3& x() const { return x_; }
+  bool on_edge() const { return on_edge_; }
+  std::uint32_t id() const { return id_; }
+  std::vector<ApexSector>& sectors() { return sectors_; }
+
+ private:
+  Apex(const exact::ConvexCell& cell, const exact::Point3& x, LocalStar star);
+
+  exact::Point3 x_;
+  LocalStar star_;
+  bool on_edge_ = false;
+  std::uint32_t id_ = 0;
+  std::vector<ApexSector> sectors_;
+  std::vector<Probe> probes_;
+  bool fresh_ = false;
+};
+
+}  // namespace clues::reference

@@ -1,0 +1,405 @@
+#include "reference/visibility/fixpoint.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <tuple>
+
+#include "reference/visibility/apex.h"
+#include "reference/visibility/contour.h"
+#include "reference/visibility/walk.h"
+#include "scene/error.h"
+
+namespace clues::reference {
+
+using exact::Point3;
+using exact::Vector3;
+
+namespace {
+
+constexpr std::uint64_t kSourceSeed = 0x51;
+
+bool before(const Point3& a, const Point3& b) { return CGAL::lexicographically_xyz_smaller(a, b); }
+
+// The planted bug of a tolerance: strips that look narrow in doubles are taken for nothing.
+bool is_narrow(const Strip& s, const Point3& center) {
+  const auto c = exact::to_double_estimate(center), a = exact::to_double_estimate(s.on_ray0.p), b = exact::to_double_estimate(s.on_ray1.p);
+  double dot = 0, aa = 0, bb = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    dot += (a[i] - c[i]) * (b[i] - c[i]);
+    aa += (a[i] - c[i]) * (a[i] - c[i]);
+    bb += (b[i] - c[i]) * (b[i] - c[i]);
+  }
+  return dot * dot > 0.98 * aa * bb;
+}
+
+// A piece of a contour edge between two neighbouring cuts, seen from one supporting plane: one source, one label (D13a).
+struct Source {
+  std::size_t contour = 0;
+  Point3 lo, hi, y;  // lexicographic order along the edge; y its middle
+  std::uint64_t seed = kSourceSeed;
+  Walk walk;
+  bool lit = false;
+};
+
+// A sector waiting to become valid pieces: either a contour edge seen from a touching cell vertex, or a sector of an apex.
+struct Job {
+  std::size_t source = 0;
+  int touching = -1;  // index into ContourEdge::touching; -1: an apex sector
+  Apex* apex = nullptr;
+  std::size_t sector = 0;
+  std::shared_ptr<const OnWedge>* slot = nullptr;
+};
+
+class Search {
+ public:
+  Search(const exact::SceneQuery& scene, const Options& options, Statistics& statistics)
+      : scene_(scene), complex_(scene.complex()), options_(options), statistics_(statistics),
+        walker_(scene, options.planted_bug != PlantedBug::no_rule_3),
+        contours_(contour_edges(complex_, scene.cell())), cuts_(complex_.edges.size()), wedges_(scene) {
+    edge_wedges_.resize(contours_.size());
+    for (std::size_t i = 0; i < contours_.size(); ++i) edge_wedges_[i].resize(contours_[i].touching.size());
+    if (options.planted_bug == PlantedBug::wrong_wedge_side) {
+      for (ContourEdge& c : contours_) c.plane = c.plane.opposite();
+    }
+  }
+
+  Fixpoint run() {
+    for (bool changed = true; changed;) {
+      ++statistics_.rounds;
+      changed = round();
+    }
+    count();
+    return {std::move(wedges_), std::move(beyond_limit_)};
+  }
+
+ private:
+  // --- one round ------------------------------------------------------------------------------------------------------------
+
+  bool round() {
+    wedges_ = WedgeSet(scene_);
+    beyond_limit_.clear();
+    for (auto& [key, apex] : csvs_) apex->start_round();
+    for (auto& [key, apex] : corners_) apex->start_round();
+    new_cuts_.assign(complex_.edges.size(), {});
+    make_sources();
+
+    std::vector<std::size_t> lit;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      if (sources_[i].walk.ends_at_cell) lit.push_back(i);
+    }
+    std::vector<Job> jobs = light(lit);
+    while (!jobs.empty()) {
+      report();
+      const std::size_t first = wedges_.pieces().size();
+      std::vector<ValidPiece> batch = build(jobs);
+      wedges_.add(std::move(batch));
+      for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
+      jobs = light(newly_lit(first));
+    }
+
+    bool changed = false;
+    for (std::size_t e = 0; e < cuts_.size(); ++e) {
+      std::set<Point3, decltype(&before)> all(cuts_[e].begin(), cuts_[e].end(), &before);
+      all.insert(new_cuts_[e].begin(), new_cuts_[e].end());
+      if (all.size() == cuts_[e].size()) continue;
+      cuts_[e].assign(all.begin(), all.end());
+      if (is_contour_.contains(static_cast<std::uint32_t>(e))) changed = true;
+    }
+    return changed;
+  }
+
+  // The sources of this round; walks are kept from the last one where the piece of the edge is still the same.
+  void make_sources() {
+    std::map<std::tuple<std::size_t, Point3>, Source> known;
+    for (Source& s : sources_) known.emplace(std::tuple(s.contour, s.y), std::move(s));
+    sources_.clear();
+    for (std::size_t c = 0; c < contours_.size(); ++c) {
+      const exact::Edge& e = complex_.edges[contours_[c].edge];
+      is_contour_.insert(contours_[c].edge);
+      std::vector<Point3> stops{complex_.points[e.a]};
+      if (before(complex_.points[e.a], complex_.points[e.b])) {
+        stops.insert(stops.end(), cuts_[contours_[c].edge].begin(), cuts_[contours_[c].edge].end());
+      } else {
+        stops.insert(stops.end(), cuts_[contours_[c].edge].rbegin(), cuts_[contours_[c].edge].rend());
+      }
+      stops.push_back(complex_.points[e.b]);
+      for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+        Source s;
+        s.contour = c;
+        s.lo = stops[i];
+        s.hi = stops[i + 1];
+        s.y = exact::collapsed(CGAL::midpoint(s.lo, s.hi));
+        sources_.push_back(std::move(s));
+      }
+    }
+    std::vector<Source*> unknown;
+    for (Source& s : sources_) {
+      const auto it = known.find(std::tuple(s.contour, s.y));
+      if (it == known.end()) {
+        unknown.push_back(&s);
+      } else {
+        s.walk = std::move(it->second.walk);
+        s.seed = it->second.seed;
+      }
+    }
+    tbb::parallel_for(std::size_t{0}, unknown.size(), [&](std::size_t i) { unknown[i]->walk = walker_.walk(start_of(*unknown[i]), unknown[i]->seed); });
+    statistics_.walks += unknown.size();
+  }
+
+  Start start_of(const Source& s) const { return {s.y, std::nullopt, &contours_[s.contour]}; }
+
+  // Hidden sources that the pieces from index `first` on make visible.
+  std::vector<std::size_t> newly_lit(std::size_t first) {
+    std::vector<Meets> label(sources_.size(), Meets::no);
+    tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
+      Source& s = sources_[i];
+      if (s.lit) return;
+      label[i] = walker_.visible(start_of(s), s.walk, wedges_, first);
+      for (int attempt = 0; label[i] == Meets::degenerate && attempt < 100; ++attempt) {  // walk elsewhere, and ask all pieces
+        s.walk = walker_.walk(start_of(s), ++s.seed);
+        label[i] = walker_.visible(start_of(s), s.walk, wedges_, 0);
+      }
+    });
+    std::vector<std::size_t> lit;
+    for (std::size_t i = 0; i < label.size(); ++i) {
+      if (label[i] == Meets::yes) lit.push_back(i);
+      if (label[i] == Meets::degenerate) throw scene::Error(scene::ErrorCode::internal, "fixpoint: an edge piece without a walk in general position");
+    }
+    return lit;
+  }
+
+  // The wedges that newly visible sources make: their own (D10, D11), and those at the corners and CSVs they light (D12).
+  std::vector<Job> light(const std::vector<std::size_t>& lit) {
+    std::vector<Job> jobs;
+    for (const std::size_t i : lit) {
+      Source& s = sources_[i];
+      s.lit = true;
+      const ContourEdge& c = contours_[s.contour];
+      for (int k = 0; k < static_cast<int>(c.touching.size()); ++k) {
+        jobs.push_back({i, k, nullptr, 0, &edge_wedges_[s.contour][static_cast<std::size_t>(k)]});
+      }
+      const exact::Edge& e = complex_.edges[c.edge];
+      for (const auto& [end, other] : {std::pair(e.a, e.b), std::pair(e.b, e.a)}) {
+        const Point3& x = complex_.points[end];
+        if (s.lo != x && s.hi != x) continue;
+        Apex* apex = corner(end);
+        const Vector3 along = complex_.points[other] - x;
+        apex->add_probe(apex->probe(along, CGAL::NULL_VECTOR, c.plane.orthogonal_vector()));
+        touched_.insert(apex);
+      }
+    }
+    std::vector<Apex*> order(touched_.begin(), touched_.end());
+    touched_.clear();
+    std::sort(order.begin(), order.end(), [](const Apex* a, const Apex* b) {
+      if (a->on_edge() != b->on_edge()) return b->on_edge();
+      if (a->id() != b->id()) return a->id() < b->id();
+      return before(a->x(), b->x());
+    });
+    for (Apex* apex : order) {
+      if (apex->generation > options_.generation_limit) {
+        beyond_limit_.push_back(apex->x());
+        continue;
+      }
+      for (const std::size_t k : apex->new_sectors()) jobs.push_back({0, -1, apex, k, &apex->sectors()[k].on_wedge});
+    }
+    return jobs;
+  }
+
+  // --- wedges -----------------------------------------------------------------------------------------------------------------
+
+  Sector sector_of(const Job& job) const {
+    Sector out;
+    if (job.touching < 0) {
+      const ApexSector& s = job.apex->sectors()[job.sector];
+      out.plane = s.plane;
+      out.center = out.near0 = out.near1 = job.apex->x();
+      out.on_ray0 = out.center + s.ray0;
+      out.on_ray1 = out.center + s.ray1;
+      if (!job.apex->on_edge()) out.on_plane = {job.apex->id()};
+      return out;
+    }
+    const ContourEdge& c = contours_[sources_[job.source].contour];
+    const exact::Edge& e = complex_.edges[c.edge];
+    out.plane = c.plane;
+    out.center = scene_.cell().vertices()[static_cast<std::size_t>(c.touching[static_cast<std::size_t>(job.touching)])];
+    out.near0 = complex_.points[e.a];
+    out.near1 = complex_.points[e.b];
+    if (CGAL::is_negative(c.plane.orthogonal_vector() * CGAL::cross_product(out.near0 - out.center, out.near1 - out.center))) {
+      std::swap(out.near0, out.near1);
+    }
+    out.on_ray0 = out.near0;
+    out.on_ray1 = out.near1;
+    out.on_plane = {e.a, e.b};
+    return out;
+  }
+
+  std::vector<ValidPiece> build(const std::vector<Job>& jobs) {
+    std::vector<const Job*> missing;
+    std::set<std::shared_ptr<const OnWedge>*> claimed;
+    for (const Job& job : jobs) {
+      if (!*job.slot && claimed.insert(job.slot).second) missing.push_back(&job);
+    }
+    tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
+      *missing[i]->slot = std::make_shared<const OnWedge>(on_wedge_visibility(sector_of(*missing[i]), scene_));
+    });
+    std::vector<std::vector<ValidPiece>> made(jobs.size());
+    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) { made[i] = pieces_of(jobs[i]); });
+    std::vector<ValidPiece> batch;
+    for (auto& pieces : made) std::move(pieces.begin(), pieces.end(), std::back_inserter(batch));
+    return batch;
+  }
+
+  std::vector<ValidPiece> pieces_of(const Job& job) const {
+    const Sector sector = sector_of(job);
+    const std::shared_ptr<const OnWedge>& on = *job.slot;
+    std::vector<Strip> strips = on->strips;
+    if (job.touching >= 0) {
+      const Source& s = sources_[job.source];
+      Spot lo{s.lo, on->frame(s.lo)}, hi{s.hi, on->frame(s.hi)};
+      if (CGAL::orientation(on->center, lo.q, hi.q) == CGAL::RIGHT_TURN) std::swap(lo, hi);
+      strips = strips_between(*on, lo, hi);
+    }
+    std::vector<ValidPiece> pieces;
+    for (const Strip& strip : strips) {
+      if (options_.planted_bug == PlantedBug::rounded_comparison && is_narrow(strip, sector.center)) continue;
+      ValidPiece piece{{}, on, strip};
+      Wedge& w = piece.wedge;
+      w.kind = job.touching < 0 ? WedgeKind::se_mv : contours_[sources_[job.source].contour].touching.size() > 1 ? WedgeKind::se_me : WedgeKind::sv_me;
+      w.generation = job.touching < 0 ? job.apex->generation : 0;
+      w.plane = sector.plane;
+      w.center = sector.center;
+      w.near0 = sector.near0;
+      w.near1 = sector.near1;
+      w.on_ray0 = strip.on_ray0.p;
+      w.on_ray1 = strip.on_ray1.p;
+      w.unbounded = !strip.blocker;
+      if (strip.blocker) {
+        const Blocker& b = on->blockers[*strip.blocker];
+        w.blocker = b.piece;
+        w.far0 = far_point(*on, b, strip.on_ray0);
+        w.far1 = far_point(*on, b, strip.on_ray1);
+      }
+      pieces.push_back(std::move(piece));
+    }
+    return pieces;
+  }
+
+  // --- CSVs -------------------------------------------------------------------------------------------------------------------
+
+  // The edges and vertices that valid piece i meets: cuts for the next round, and apexes of secondary wedges.
+  void meet_edges(std::size_t i) {
+    const ValidPiece& piece = wedges_.pieces()[i];
+    const OnWedge& on = *piece.on_wedge;
+    for (const Crossing& c : on.crossings) {
+      if (CGAL::orientation(on.center, piece.strip.on_ray0.q, c.at.q) == CGAL::RIGHT_TURN) continue;
+      if (CGAL::orientation(on.center, piece.strip.on_ray1.q, c.at.q) == CGAL::LEFT_TURN) continue;
+      if (!reaches(on, piece.strip, c.at.q)) continue;
+      if (!c.at_vertex) new_cuts_[c.id].push_back(c.at.p);
+      add_csv(piece, c);
+    }
+    for (const std::uint32_t e : on.coplanar_edges) cut_coplanar(piece, e);
+  }
+
+  void add_csv(const ValidPiece& piece, const Crossing& c) {
+    if (options_.planted_bug == PlantedBug::retested_csv && !walker_.label({c.at.p, std::nullopt, nullptr}, wedges_, kSourceSeed)) return;
+    Apex* apex = c.at_vertex ? corner(c.id) : csv(c.id, c.at.p);
+    const int generation = piece.wedge.generation + 1;
+    if (apex->on_edge() && (apex->generation < 0 || generation < apex->generation)) apex->generation = generation;
+    const Point3& x = c.at.p;
+    const Wedge& w = piece.wedge;
+    const Vector3 n = w.plane.orthogonal_vector(), back = w.center - x;
+    // The piece lies on both sides of the ray through x, or on one. aside: counter-clockwise about n, or clockwise.
+    const Vector3 ccw = CGAL::cross_product(n, x - w.center);
+    const OnWedge& on = *piece.on_wedge;
+    const auto add = [&](const Vector3& aside) {
+      Probe probe = apex->probe(back, aside, n);
+      if (apex->on_edge()) {
+        const Vector3 along = complex_.points[complex_.edges[c.id].b] - complex_.points[complex_.edges[c.id].a];
+        probe.lit_edge = CGAL::is_positive(n * along) ? along : -along;
+      }
+      apex->add_probe(probe);
+    };
+    if (CGAL::orientation(on.center, c.at.q, piece.strip.on_ray1.q) == CGAL::LEFT_TURN) add(ccw);
+    if (CGAL::orientation(on.center, piece.strip.on_ray0.q, c.at.q) == CGAL::LEFT_TURN) add(-ccw);
+    touched_.insert(apex);
+  }
+
+  // The outline of a piece that runs over an edge in its plane changes the label along that edge.
+  void cut_coplanar(const ValidPiece& piece, std::uint32_t e) {
+    const Point3 &a = complex_.points[complex_.edges[e].a], &b = complex_.points[complex_.edges[e].b];
+    const OnWedge& on = *piece.on_wedge;
+    const exact::Point2 qa = on.frame(a), qb = on.frame(b);
+    for (const Spot* ray : {&piece.strip.on_ray0, &piece.strip.on_ray1}) {
+      const exact::Vector2 d = ray->q - on.center;
+      const exact::FT at_a = CGAL::determinant(d, qa - on.center), at_b = CGAL::determinant(d, qb - on.center);
+      if (CGAL::sign(at_a) * CGAL::sign(at_b) >= 0) continue;
+      const Point3 x = exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a));
+      if (CGAL::is_positive((on.frame(x) - on.center) * d)) new_cuts_[e].push_back(x);
+    }
+  }
+
+  Apex* csv(std::uint32_t edge, const Point3& x) {
+    auto& slot = csvs_[{edge, x}];
+    if (!slot) slot = std::make_unique<Apex>(Apex::at_edge(complex_, scene_.cell(), edge, x));
+    return slot.get();
+  }
+
+  Apex* corner(std::uint32_t point) {
+    auto& slot = corners_[point];
+    if (!slot) slot = std::make_unique<Apex>(Apex::at_vertex(complex_, scene_.cell(), point));
+    return slot.get();
+  }
+
+  // --- reporting --------------------------------------------------------------------------------------------------------------
+
+  void report() const {
+    if (options_.progress) options_.progress("wedges", statistics_.rounds, wedges_.pieces().size());
+  }
+
+  void count() {
+    for (const ValidPiece& p : wedges_.pieces()) {
+      statistics_.sv_me += p.wedge.kind == WedgeKind::sv_me;
+      statistics_.se_me += p.wedge.kind == WedgeKind::se_me;
+      statistics_.se_mv += p.wedge.kind == WedgeKind::se_mv;
+      statistics_.generations = std::max(statistics_.generations, p.wedge.generation);
+      statistics_.inside_corners += p.wedge.kind == WedgeKind::se_mv && p.wedge.generation == 0;
+    }
+    for (const auto& [key, apex] : csvs_) statistics_.csv += std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
+    for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
+    statistics_.conservative_fallbacks += beyond_limit_.size();
+  }
+
+  struct CsvLess {
+    bool operator()(const std::pair<std::uint32_t, Point3>& a, const std::pair<std::uint32_t, Point3>& b) const {
+      return a.first != b.first ? a.first < b.first : before(a.second, b.second);
+    }
+  };
+
+  const exact::SceneQuery& scene_;
+  const exact::Complex& complex_;
+  const Options& options_;
+  Statistics& statistics_;
+  Walker walker_;
+  std::vector<ContourEdge> contours_;
+  std::vector<std::vector<std::shared_ptr<const OnWedge>>> edge_wedges_;  // per contour edge and touching vertex
+  std::set<std::uint32_t> is_contour_;
+  std::vector<std::vector<Point3>> cuts_, new_cuts_;  // per edge; cuts_ in lexicographic order
+  std::vector<Source> sources_;
+  WedgeSet wedges_;
+  std::map<std::pair<std::uint32_t, Point3>, std::unique_ptr<Apex>, CsvLess> csvs_;
+  std::map<std::uint32_t, std::unique_ptr<Apex>> corners_;
+  std::set<Apex*> touched_;
+  std::vector<Point3> beyond_limit_;
+};
+
+}  // namespace
+
+Fixpoint find_wedges(const exact::SceneQuery& scene, const Options& options, Statistics& statistics) {
+  return Search(scene, options, statistics).run();
+}
+
+}  // namespace clues::reference

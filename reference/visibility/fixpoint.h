@@ -1,0 +1,25 @@
+// D17, D17a: all valid wedge pieces of a scene and cell.
+//
+// Only valid sources make wedges, and valid wedges make CSVs, which make wedges. Within a round the contour edges are cut at a fixed set
+// of points and the work runs until nothing new appears; every label only ever turns from hidden to visible. At its end the
+// CSVs met become cuts, and the next round starts over with them: a piece of an edge then has one label (D13a). When a round
+// makes no new cut, every label was taken with all event surfaces in place. Wedge geometry and walks are kept between rounds.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "exact/scene_query.h"
+#include "reference/visibility/first_order.h"
+#include "reference/visibility/wedge_set.h"
+
+namespace clues::reference {
+
+struct Fixpoint {
+  WedgeSet wedges;
+  std::vector<exact::Point3> beyond_limit;  // apexes whose wedges the generation limit left out (D17)
+};
+
+Fixpoint find_wedges(const exact::SceneQuery& scene, const Options& options, Statistics& statistics);
+
+}  // namespace clues::reference

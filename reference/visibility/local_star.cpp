@@ -1,0 +1,193 @@
+// Faces of the local arrangement around a point, by union of arc sides.
+#include "reference/visibility/local_star.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "scene/error.h"
+
+namespace clues::reference {
+
+using exact::FT;
+using exact::Vector3;
+
+namespace {
+
+CGAL::Sign det_sign(const Vector3& a, const Vector3& b, const Vector3& c) { return CGAL::sign(CGAL::determinant(a, b, c)); }
+
+// Whether y, in the plane of the arc ab with normal a x b, lies in the closed arc. The arc is shorter than a half turn.
+bool in_arc(const Vector3& a, const Vector3& b, const Vector3& normal, const Vector3& y) {
+  return !CGAL::is_negative(normal * CGAL::cross_product(a, y)) && !CGAL::is_negative(normal * CGAL::cross_product(y, b)) &&
+         (CGAL::is_positive(normal * CGAL::cross_product(a, y)) || CGAL::is_positive(normal * CGAL::cross_product(y, b)));
+}
+
+}  // namespace
+
+LocalStar LocalStar::around_vertex(const exact::Complex& complex, std::uint32_t point) {
+  LocalStar star;
+  std::map<std::uint32_t, int> node_of;
+  const auto node = [&](std::uint32_t other) {
+    const auto [it, fresh] = node_of.try_emplace(other, static_cast<int>(star.nodes_.size()));
+    if (fresh) star.nodes_.push_back(complex.points[other] - complex.points[point]);
+    return it->second;
+  };
+  for (const std::uint32_t t : complex.point_pieces[point]) {
+    const auto& c = complex.pieces[t].corners;
+    const auto at = static_cast<std::size_t>(std::find(c.begin(), c.end(), point) - c.begin());
+    const int a = node(c[(at + 1) % 3]), b = node(c[(at + 2) % 3]);
+    star.arcs_.push_back({a, b, {}});
+  }
+  star.finish();
+  return star;
+}
+
+LocalStar LocalStar::around_edge_point(const exact::Complex& complex, std::uint32_t edge, const exact::Point3& x) {
+  LocalStar star;
+  const exact::Edge& e = complex.edges[edge];
+  const Vector3 along = complex.points[e.b] - complex.points[e.a];
+  star.nodes_ = {along, -along};
+  for (const std::uint32_t t : e.pieces) {
+    const auto& c = complex.pieces[t].corners;
+    const auto third = *std::find_if(c.begin(), c.end(), [&](auto i) { return i != e.a && i != e.b; });
+    const int m = static_cast<int>(star.nodes_.size());
+    star.nodes_.push_back(complex.points[third] - x);
+    star.arcs_.push_back({0, m, {}});
+    star.arcs_.push_back({m, 1, {}});
+  }
+  star.finish();
+  return star;
+}
+
+void LocalStar::finish() {
+  for (Arc& arc : arcs_) {
+    arc.normal = CGAL::cross_product(nodes_[static_cast<std::size_t>(arc.a)], nodes_[static_cast<std::size_t>(arc.b)]);
+  }
+  face_.resize(arcs_.size() * 2);
+  std::iota(face_.begin(), face_.end(), 0);
+  component_.resize(arcs_.size());
+  std::iota(component_.begin(), component_.end(), 0);
+  for (int n = 0; n < static_cast<int>(nodes_.size()); ++n) {
+    const Vector3& axis = nodes_[static_cast<std::size_t>(n)];
+    struct Spoke {
+      int arc;
+      Vector3 to;
+      int left, right;  // arc sides counter-clockwise and clockwise of the spoke, seen from the tip of axis
+    };
+    std::vector<Spoke> spokes;
+    for (int i = 0; i < static_cast<int>(arcs_.size()); ++i) {
+      const Arc& arc = arcs_[static_cast<std::size_t>(i)];
+      if (arc.a == n) spokes.push_back({i, nodes_[static_cast<std::size_t>(arc.b)], 2 * i, 2 * i + 1});
+      if (arc.b == n) spokes.push_back({i, nodes_[static_cast<std::size_t>(arc.a)], 2 * i + 1, 2 * i});
+    }
+    if (spokes.empty()) continue;
+    const Vector3 reference = spokes.front().to;
+    const auto half = [&](const Vector3& to) {  // 0: the reference, 1: first half turn, 2: opposite, 3: second half turn
+      const CGAL::Sign s = det_sign(axis, reference, to);
+      if (s != CGAL::ZERO) return s == CGAL::POSITIVE ? 1 : 3;
+      return CGAL::is_positive(CGAL::cross_product(axis, reference) * CGAL::cross_product(axis, to)) ? 0 : 2;
+    };
+    std::sort(spokes.begin() + 1, spokes.end(), [&](const Spoke& x, const Spoke& y) {
+      const int hx = half(x.to), hy = half(y.to);
+      return hx != hy ? hx < hy : det_sign(axis, x.to, y.to) == CGAL::POSITIVE;
+    });
+    for (std::size_t i = 0; i < spokes.size(); ++i) {
+      const Spoke &x = spokes[i], &y = spokes[(i + 1) % spokes.size()];
+      face_[static_cast<std::size_t>(root(x.left))] = root(y.right);
+      const int from = component_[static_cast<std::size_t>(x.arc)], to = component_[static_cast<std::size_t>(y.arc)];
+      std::replace(component_.begin(), component_.end(), from, to);
+    }
+  }
+}
+
+int LocalStar::root(int side) const {
+  while (face_[static_cast<std::size_t>(side)] != side) side = face_[static_cast<std::size_t>(side)];
+  return side;
+}
+
+std::vector<int> LocalStar::face_of(const Vector3& d) const {
+  std::vector<int> name;
+  std::vector<int> done;
+  for (std::size_t first = 0; first < arcs_.size(); ++first) {
+    const int component = component_[first];
+    if (std::find(done.begin(), done.end(), component) != done.end()) continue;
+    done.push_back(component);
+    // Go from d towards a point of the component; the first arc met tells the face. A path through a node tells nothing:
+    // aim at another point.
+    const Vector3 &p = nodes_[static_cast<std::size_t>(arcs_[first].a)], &q = nodes_[static_cast<std::size_t>(arcs_[first].b)];
+    bool found = false;
+    for (int aim = 1; aim < 64 && !found; ++aim) {
+      const Vector3 target = FT(aim) * p + FT(1 + (aim * 7) % 11) * q;
+      bool clean = true;
+      int side = -1;
+      FT nearest(2);
+      for (std::size_t i = 0; i < arcs_.size() && clean; ++i) {
+        if (component_[i] != component) continue;
+        const Arc& arc = arcs_[i];
+        const FT at_d = arc.normal * d, at_target = i == first ? FT(0) : arc.normal * target;
+        const CGAL::Sign sd = CGAL::sign(at_d), st = CGAL::sign(at_target);
+        if (sd == CGAL::ZERO) {
+          clean = st != CGAL::ZERO;
+          continue;
+        }
+        if (sd == st) continue;
+        const FT t = at_d / (at_d - at_target);
+        const Vector3 y = (FT(1) - t) * d + t * target;
+        const Vector3 &a = nodes_[static_cast<std::size_t>(arc.a)], &b = nodes_[static_cast<std::size_t>(arc.b)];
+        if (!in_arc(a, b, arc.normal, y)) continue;
+        if (CGAL::is_zero(arc.normal * CGAL::cross_product(a, y)) || CGAL::is_zero(arc.normal * CGAL::cross_product(y, b))) {
+          clean = false;
+        } else if (t < nearest) {
+          nearest = t;
+          side = static_cast<int>(2 * i) + (sd == CGAL::POSITIVE ? 0 : 1);
+        }
+      }
+      if (!clean || side < 0) continue;
+      name.push_back(root(side));
+      found = true;
+    }
+    if (!found) throw scene::Error(scene::ErrorCode::internal, "local star: no clean path to an incident piece");
+  }
+  return name;
+}
+
+bool LocalStar::free_between(const Vector3& d0, const Vector3& d1) const {
+  for (const Arc& arc : arcs_) {
+    const FT at0 = arc.normal * d0, at1 = arc.normal * d1;
+    const CGAL::Sign s0 = CGAL::sign(at0), s1 = CGAL::sign(at1);
+    if (s0 == CGAL::ZERO && s1 != CGAL::ZERO) continue;  // leaves the arc's plane at once
+    if (s0 != CGAL::ZERO && s0 == s1) continue;
+    if (s0 == CGAL::ZERO) return false;  // runs within the arc's plane: not surely free
+    const Vector3 y = CGAL::abs(at1) * d0 + CGAL::abs(at0) * d1;
+    if (in_arc(nodes_[static_cast<std::size_t>(arc.a)], nodes_[static_cast<std::size_t>(arc.b)], arc.normal, y)) return false;
+  }
+  return true;
+}
+
+Vector3 LocalStar::nudged(const Vector3& d, const Vector3& by) const {
+  constexpr int kHalvings = 4096;  // reached only if `by` runs inside an arc through d
+  FT step(1);
+  for (int i = 0; i < kHalvings; ++i, step = step / FT(4)) {
+    const Vector3 moved = d + step * by;
+    const auto on = [&](const Arc& arc) {
+      return CGAL::is_zero(arc.normal * moved) &&
+             in_arc(nodes_[static_cast<std::size_t>(arc.a)], nodes_[static_cast<std::size_t>(arc.b)], arc.normal, moved);
+    };
+    if (free_between(d, moved) && std::none_of(arcs_.begin(), arcs_.end(), on)) return moved;
+  }
+  throw scene::Error(scene::ErrorCode::internal, "local star: a direction cannot leave its arc");
+}
+
+std::vector<Vector3> LocalStar::traces(const Vector3& normal) const {
+  std::vector<Vector3> found;
+  for (const Arc& arc : arcs_) {
+    const Vector3 &a = nodes_[static_cast<std::size_t>(arc.a)], &b = nodes_[static_cast<std::size_t>(arc.b)];
+    const FT at_a = normal * a, at_b = normal * b;
+    if (CGAL::is_zero(at_a)) found.push_back(a);
+    if (CGAL::is_zero(at_b)) found.push_back(b);
+    if (CGAL::sign(at_a) * CGAL::sign(at_b) < 0) found.push_back(CGAL::abs(at_b) * a + CGAL::abs(at_a) * b);
+  }
+  return found;
+}
+
+}  // namespace clues::reference

@@ -1,0 +1,47 @@
+// The scene around one point x, as seen on a small sphere: every incident piece is an arc of a great circle, and the free space
+// around x falls into faces between the arcs. A sight line that passes x close by runs on the sphere along the shorter great
+// circle arc from where it comes from to where it goes. Used to decide on which sides of the surface at x a wedge with apex x exists (D12, D13).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "exact/complex.h"
+#include "exact/kernel.h"
+
+namespace clues::reference {
+
+class LocalStar {
+ public:
+  // Around mesh vertex `point`, or around x inside edge `edge`.
+  static LocalStar around_vertex(const exact::Complex& complex, std::uint32_t point);
+  static LocalStar around_edge_point(const exact::Complex& complex, std::uint32_t edge, const exact::Point3& x);
+
+  // Names the face of the sphere that contains d (not on an arc): two directions lie in one face exactly when the names are equal.
+  std::vector<int> face_of(const exact::Vector3& d) const;
+
+  // Whether the great circle arc from d0 (excluded) to d1 (included) surely meets no incident piece. d0 and d1 not opposite.
+  bool free_between(const exact::Vector3& d0, const exact::Vector3& d1) const;
+
+  // d moved towards `by` so little that no piece lies between.
+  exact::Vector3 nudged(const exact::Vector3& d, const exact::Vector3& by) const;
+
+  // The directions of the plane through x with this normal in which a piece crosses or touches it.
+  std::vector<exact::Vector3> traces(const exact::Vector3& normal) const;
+
+ private:
+  struct Arc {
+    int a, b;               // nodes
+    exact::Vector3 normal;  // a x b
+  };
+  void finish();  // joins the two sides of arcs into faces
+  int root(int side) const;
+
+  std::vector<exact::Vector3> nodes_;
+  std::vector<Arc> arcs_;
+  std::vector<int> face_;       // per arc side (2i: positive side of the normal, 2i+1: negative): union-find parent
+  std::vector<int> component_;  // per arc: connected component of the arcs
+};
+
+}  // namespace clues::reference

@@ -1,0 +1,26 @@
+// Two coordinates in a plane, so that "counter-clockwise about the plane's normal" is "counter-clockwise" of the flat points.
+#pragma once
+
+#include <utility>
+
+#include "exact/complex_internal.h"
+#include "exact/kernel.h"
+
+namespace clues::reference {
+
+class PlaneFrame {
+ public:
+  explicit PlaneFrame(const exact::Plane3& plane)
+      : axis_(exact::dominant_axis(plane.orthogonal_vector())), flip_(CGAL::is_negative(plane.orthogonal_vector()[axis_])) {}
+
+  exact::Point2 operator()(const exact::Point3& p) const {
+    const exact::Point2 q = exact::drop_axis(p, axis_);
+    return flip_ ? exact::Point2(q.y(), q.x()) : q;
+  }
+
+ private:
+  int axis_;
+  bool flip_;
+};
+
+}  // namespace clues::reference

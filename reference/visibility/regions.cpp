@@ -1,0 +1,289 @@
+#include "reference/visibility/regions.h"
+
+#include <CGAL/Arr_segment_traits_2.h>
+#include <CGAL/Arrangement_2.h>
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Polygon_2.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+
+#include "reference/visibility/anticone.h"
+#include "reference/visibility/walk.h"
+#include "scene/error.h"
+
+namespace clues::reference {
+
+using exact::FT;
+using exact::Kernel;
+using exact::Point2;
+using exact::Point3;
+
+namespace {
+
+constexpr std::uint64_t kRegionSeed = 0x1d, kSecondSeed = 0x7a3;
+
+using Segment3 = std::pair<Point3, Point3>;
+using SideKey = std::pair<std::uint32_t, bool>;  // piece, front
+using Traits = CGAL::Arr_segment_traits_2<Kernel>;
+using Arrangement = CGAL::Arrangement_2<Traits>;
+
+// The part of segment ab inside triangle t, all in one plane (flat coordinates); none when it is empty or a point.
+std::vector<std::pair<Point2, Point2>> clipped(const Kernel::Triangle_2& t, const Point2& a, const Point2& b) {
+  if (a == b) return {};
+  const auto met = CGAL::intersection(Kernel::Segment_2(a, b), t);
+  if (!met) return {};
+  if (const auto* s = boost::get<Kernel::Segment_2>(&*met)) return {{s->source(), s->target()}};
+  return {};
+}
+
+// A point inside the face: of a triangle of its constrained triangulation, which one depends on `which`.
+Point2 inner_point(const std::vector<std::vector<Point2>>& rings, std::size_t which) {
+  if (rings.size() == 1 && rings[0].size() == 3) {
+    return CGAL::barycenter(rings[0][0], FT(3 + static_cast<int>(which) % 5), rings[0][1], FT(4 + static_cast<int>(which) % 7), rings[0][2], FT(5));
+  }
+  using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+  CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::Exact_intersections_tag> cdt;
+  for (const auto& ring : rings) cdt.insert_constraint(ring.begin(), ring.end(), true);
+  std::vector<Point2> found;
+  std::vector<CGAL::Polygon_2<Kernel>> polygons;
+  for (const auto& ring : rings) polygons.emplace_back(ring.begin(), ring.end());
+  std::vector<std::pair<FT, Point2>> by_size;
+  for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
+    const Point2 a = f->vertex(0)->point(), b = f->vertex(1)->point(), c = f->vertex(2)->point();
+    const Point2 p = CGAL::barycenter(a, FT(3 + static_cast<int>(which) % 5), b, FT(4 + static_cast<int>(which) % 7), c, FT(5));
+    bool inside = polygons[0].bounded_side(p) == CGAL::ON_BOUNDED_SIDE;
+    for (std::size_t h = 1; h < polygons.size(); ++h) inside = inside && polygons[h].bounded_side(p) == CGAL::ON_UNBOUNDED_SIDE;
+    if (inside) by_size.emplace_back(CGAL::abs(CGAL::area(a, b, c)), p);
+  }
+  if (by_size.empty()) throw scene::Error(scene::ErrorCode::internal, "regions: a face without an inner point");
+  std::sort(by_size.begin(), by_size.end());
+  return by_size[by_size.size() - 1 - which % by_size.size()].second;
+}
+
+class SideMapper {
+ public:
+  SideMapper(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options)
+      : scene_(scene), fixpoint_(fixpoint), options_(options), walker_(scene, options.planted_bug != PlantedBug::no_rule_3) {
+    for (const ValidPiece& piece : fixpoint.wedges.pieces()) {
+      const Wedge& w = piece.wedge;
+      if (!w.unbounded) {
+        const bool front = scene.complex().planes[w.blocker].oriented_side(w.center) == CGAL::ON_POSITIVE_SIDE;
+        traces_[{w.blocker, front}].push_back({w.far0, w.far1});
+      }
+      for (const std::uint32_t t : piece.on_wedge->coplanar_pieces) {
+        const bool front = CGAL::is_positive(scene.complex().planes[t].orthogonal_vector() * w.plane.orthogonal_vector());
+        upon_[{t, front}].push_back(&piece);
+      }
+    }
+  }
+
+  struct Output {
+    std::vector<Region> regions;
+    std::vector<DmSegment> segments;
+    std::uint64_t walks = 0, disagreements = 0;
+  };
+
+  Output map_side(std::uint32_t t, bool front) const {
+    Output out;
+    const exact::Complex& complex = scene_.complex();
+    const auto& corners = complex.pieces[t].corners;
+    const exact::Plane3& plane = complex.planes[t];
+    const PlaneFrame frame(plane);
+    const std::array<Point3, 3> p{complex.points[corners[0]], complex.points[corners[1]], complex.points[corners[2]]};
+    const Kernel::Triangle_2 triangle(frame(p[0]), frame(p[1]), frame(p[2]));
+    const auto lift = [&](const Point2& q) {  // affine: barycentric coordinates carry over
+      const FT area = CGAL::area(triangle[0], triangle[1], triangle[2]);
+      const FT u = CGAL::area(q, triangle[1], triangle[2]) / area, w = CGAL::area(triangle[0], q, triangle[2]) / area;
+      return exact::collapsed(p[2] + u * (p[0] - p[2]) + w * (p[1] - p[2]));
+    };
+
+    const auto flat = segments_on({t, front}, frame, triangle);
+    if (flat.empty()) {
+      Region r{t, front, false, {{p[0], p[1], p[2]}}, FT(1), {}};
+      finish(r, {{triangle[0], triangle[1], triangle[2]}}, lift, out);
+      out.regions.push_back(std::move(r));
+      return out;
+    }
+    Arrangement arrangement;
+    std::vector<Traits::X_monotone_curve_2> curves;
+    for (int i = 0; i < 3; ++i) curves.emplace_back(triangle[i], triangle[i + 1]);
+    for (const auto& [a, b] : flat) curves.emplace_back(a, b);
+    CGAL::insert(arrangement, curves.begin(), curves.end());
+    std::map<const void*, bool> label;
+    std::vector<std::pair<std::vector<Point2>, Arrangement::Face_const_handle>> faces;
+    for (auto f = arrangement.faces_begin(); f != arrangement.faces_end(); ++f) {
+      if (f->is_unbounded()) continue;
+      std::vector<std::vector<Point2>> rings;
+      const auto ring = [&](Arrangement::Ccb_halfedge_const_circulator start) {
+        std::vector<Point2> points;
+        auto h = start;
+        do {
+          points.push_back(h->source()->point());
+        } while (++h != start);
+        return points;
+      };
+      rings.push_back(without_spurs(ring(f->outer_ccb())));
+      for (auto hole = f->inner_ccbs_begin(); hole != f->inner_ccbs_end(); ++hole) {
+        auto points = without_spurs(ring(*hole));
+        if (points.size() >= 3) rings.push_back(std::move(points));
+      }
+      Region r{t, front, false, {}, {}, {}};
+      FT area(0);
+      for (const auto& points : rings) {
+        area += CGAL::Polygon_2<Kernel>(points.begin(), points.end()).area();  // holes run clockwise
+        std::vector<Point3> lifted;
+        for (const Point2& q : points) lifted.push_back(lift(q));
+        r.rings.push_back(std::move(lifted));
+      }
+      r.area_fraction = exact::collapsed(area / CGAL::area(triangle[0], triangle[1], triangle[2]));
+      finish(r, rings, lift, out);
+      label[&*f] = r.visible;
+      out.regions.push_back(std::move(r));
+    }
+    for (auto e = arrangement.edges_begin(); e != arrangement.edges_end(); ++e) {
+      if (e->face()->is_unbounded() || e->twin()->face()->is_unbounded()) continue;
+      Point3 a = lift(e->source()->point()), b = lift(e->target()->point());
+      if (CGAL::lexicographically_xyz_smaller(b, a)) std::swap(a, b);
+      out.segments.push_back({t, front, label[&*e->face()] != label[&*e->twin()->face()], a, b});
+    }
+    std::sort(out.regions.begin(), out.regions.end(),
+              [](const Region& x, const Region& y) { return CGAL::lexicographically_xyz_smaller(x.sample, y.sample); });
+    std::sort(out.segments.begin(), out.segments.end(), [](const DmSegment& x, const DmSegment& y) {
+      return x.a != y.a ? CGAL::lexicographically_xyz_smaller(x.a, y.a) : CGAL::lexicographically_xyz_smaller(x.b, y.b);
+    });
+    return out;
+  }
+
+ private:
+  // Antennas into a face are walked twice; they bound nothing.
+  static std::vector<Point2> without_spurs(std::vector<Point2> ring) {
+    for (bool changed = true; changed && ring.size() >= 3;) {
+      changed = false;
+      for (std::size_t i = 0; i < ring.size() && ring.size() >= 3; ++i) {
+        const std::size_t n = ring.size();
+        if (ring[(i + n - 1) % n] == ring[(i + 1) % n]) {
+          const std::size_t j = (i + 1) % n;
+          ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(std::max(i, j)));
+          ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(std::min(i, j)));
+          changed = true;
+        }
+      }
+    }
+    return ring;
+  }
+
+  std::vector<std::pair<Point2, Point2>> segments_on(const SideKey& key, const PlaneFrame& frame, const Kernel::Triangle_2& triangle) const {
+    std::vector<std::pair<Point2, Point2>> flat;
+    const auto add = [&](const Point2& a, const Point2& b) {
+      for (const auto& s : clipped(triangle, a, b)) {
+        bool on_border = false;  // along the triangle's own border a segment separates nothing
+        for (int i = 0; i < 3; ++i) on_border |= CGAL::collinear(triangle[i], triangle[i + 1], s.first) && CGAL::collinear(triangle[i], triangle[i + 1], s.second);
+        if (!on_border) flat.push_back(s);
+      }
+    };
+    const auto traces = traces_.find(key);
+    if (traces != traces_.end()) {
+      for (const Segment3& s : traces->second) add(frame(s.first), frame(s.second));
+    }
+    const auto upon = upon_.find(key);
+    if (upon == upon_.end()) return flat;
+    for (const ValidPiece* piece : upon->second) {  // the outline of a piece that lies on this side
+      const Wedge& w = piece->wedge;
+      add(frame(w.near0), frame(w.near1));
+      const auto side = [&](const Point3& near, const Point3& on_ray, const Point3& far) {
+        if (!w.unbounded) {
+          add(frame(near), frame(far));
+          return;
+        }
+        const auto met = CGAL::intersection(Kernel::Ray_2(frame(near), frame(on_ray) - frame(w.center)), triangle);
+        if (!met) return;
+        if (const auto* s = boost::get<Kernel::Segment_2>(&*met)) add(s->source(), s->target());
+      };
+      side(w.near0, w.on_ray0, w.far0);
+      side(w.near1, w.on_ray1, w.far1);
+      if (!w.unbounded) add(frame(w.far0), frame(w.far1));
+    }
+    return flat;
+  }
+
+  template <class Lift>
+  void finish(Region& r, const std::vector<std::vector<Point2>>& rings, const Lift& lift, Output& out) const {
+    for (std::size_t which = 0;; ++which) {
+      r.sample = lift(inner_point(rings, which));
+      const Start start{r.sample, SurfaceSide{r.piece, r.front}, nullptr};
+      ++out.walks;
+      try {
+        r.visible = walker_.label(start, fixpoint_.wedges, kRegionSeed + which);
+        if (options_.check_two_walks) {
+          ++out.walks;
+          out.disagreements += walker_.label(start, fixpoint_.wedges, kSecondSeed + which) != r.visible;
+        }
+      } catch (const scene::Error&) {
+        if (which < 8) continue;  // the sample itself lies in special position: take another
+        throw;
+      }
+      break;
+    }
+    if (!r.visible) r.visible = beyond_limit(r);
+  }
+
+  // D17: what the wedges left out by the generation limit could show lies in the anti-cones of their apexes.
+  bool beyond_limit(const Region& r) const {
+    for (const Point3& x : fixpoint_.beyond_limit) {
+      bool outside = false;
+      for (const AnticoneFacet& f : anticone_facets(x, scene_.cell())) {
+        outside |= std::all_of(r.rings[0].begin(), r.rings[0].end(), [&](const Point3& q) { return f.plane.oriented_side(q) == CGAL::ON_NEGATIVE_SIDE; });
+      }
+      if (!outside) return true;
+    }
+    return false;
+  }
+
+  const exact::SceneQuery& scene_;
+  const Fixpoint& fixpoint_;
+  const Options& options_;
+  Walker walker_;
+  std::map<SideKey, std::vector<Segment3>> traces_;
+  std::map<SideKey, std::vector<const ValidPiece*>> upon_;
+};
+
+}  // namespace
+
+void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options, VisibilityMap& map) {
+  const SideMapper mapper(scene, fixpoint, options);
+  const auto& pieces = map.complex.pieces;
+  std::vector<SideKey> sides;
+  for (std::uint32_t t = 0; t < pieces.size(); ++t) {
+    for (const bool front : {true, false}) {
+      const bool counts = map.mode == Mode::sheet || std::any_of(pieces[t].origins.begin(), pieces[t].origins.end(),
+                                                                 [&](const exact::Origin& o) { return o.same_side == front; });
+      if (counts) sides.emplace_back(t, front);
+    }
+  }
+  std::vector<SideMapper::Output> outputs(sides.size());
+  std::atomic<std::size_t> done{0};
+  std::mutex report;
+  tbb::parallel_for(std::size_t{0}, sides.size(), [&](std::size_t i) {
+    outputs[i] = mapper.map_side(sides[i].first, sides[i].second);
+    const std::size_t n = ++done;
+    if (options.progress && (n % 64 == 0 || n == sides.size())) {
+      const std::scoped_lock lock(report);
+      options.progress("regions", n, sides.size());
+    }
+  });
+  for (SideMapper::Output& out : outputs) {
+    map.statistics.walks += out.walks;
+    map.statistics.walk_disagreements += out.disagreements;
+    for (Region& r : out.regions) {
+      ++(r.visible ? map.statistics.regions_visible : map.statistics.regions_hidden);
+      map.regions.push_back(std::move(r));
+    }
+    std::move(out.segments.begin(), out.segments.end(), std::back_inserter(map.segments));
+  }
+}
+
+}  // namespace clues::reference

@@ -1,0 +1,68 @@
+// D14: the label of a point by walking from the cell towards it (FIG. 25 with the missing rule 3, hazards A-3 and B-9).
+//
+// A walk does not need the wedges: from p it looks for a sight line to a random point v of int V. If nothing is crossed, p is visible
+// outright. Otherwise the last crossing m and p bound a leg, and the walk goes on from m, on the side that faces p, with a v strictly on that side.
+// It ends at the cell (visible) or at a surface that the cell does not face (hidden). The label is: visible if the walk ends
+// at the cell, or if any leg crosses a valid wedge piece from H+ to H-, or if one lies upon the surface where a leg starts.
+// So walks are made once, and only their legs are looked at again when new wedge pieces appear (D17a).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "exact/scene_query.h"
+#include "reference/visibility/contour.h"
+#include "reference/visibility/wedge_set.h"
+
+namespace clues::reference {
+
+struct Leg {
+  exact::Point3 m, p;
+  std::uint32_t piece = 0;  // the surface at m
+  bool front = true;        // its side that faces p
+};
+
+struct Walk {
+  bool ends_at_cell = false;
+  std::vector<Leg> legs;  // from p towards the cell
+};
+
+// The side of a piece on which a point is asked for.
+struct SurfaceSide {
+  std::uint32_t piece = 0;
+  bool front = true;
+};
+
+// What a walk starts from: a point of free space, of a surface side, or just off a contour edge.
+struct Start {
+  exact::Point3 p;
+  std::optional<SurfaceSide> surface;
+  const ContourEdge* contour = nullptr;  // D13a: p is inside this edge, meant just off it in H-, beside the supporting polygon
+};
+
+class Walker {
+ public:
+  Walker(const exact::SceneQuery& scene, bool rule_3) : scene_(&scene), rule_3_(rule_3) {}
+
+  // Different seeds use different sight lines; the label must not depend on the seed (D14). Deterministic.
+  Walk walk(const Start& start, std::uint64_t seed) const;
+
+  // The label of the walk's start by the wedge pieces from index `first` on; degenerate: walk again with another seed.
+  Meets visible(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const;
+
+  // Walks with seeds seed, seed+1, ... until one is in general position with all the wedges.
+  bool label(const Start& start, const WedgeSet& wedges, std::uint64_t seed) const;
+
+ private:
+  // A point v of int V near cell vertex `anchor` (or anywhere, if negative) that satisfies the predicate; it must hold near the anchor.
+  exact::Point3 choose(std::uint64_t seed, int anchor, const std::function<bool(const exact::Point3&)>& good) const;
+  // The cell vertex farthest out on that side of the piece's plane; -1 when V has no point strictly there.
+  int anchor_beyond(const SurfaceSide& side) const;
+
+  const exact::SceneQuery* scene_;
+  bool rule_3_;
+};
+
+}  // namespace clues::reference
