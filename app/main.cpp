@@ -1,7 +1,62 @@
-// The program `clues`: parses the command line, hands over to one subcommand, and turns what it throws into exit codes.
+// The program `clues`: parses the command line, hands over to one subcommand, and turns what is thrown into exit codes.
 #include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
 
-int main() {
-  std::puts("clues " CLUES_VERSION);
-  return 0;
+#include "app/commands.h"
+#include "scene/error.h"
+
+namespace {
+
+constexpr const char* footer = R"(EXAMPLES
+  clues map town.obj --cell box:0,0,1,2,2,2 -o town.clues.json
+  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt
+  clues demo --out demo-out
+
+EXIT CODES
+  0  fine
+  1  findings: the PVS that was checked is unsound
+  2  bad usage or bad input; nothing was written
+  3  not everything could be decided or run
+  4  an oracle contradicted itself: a defect of clues, please report it
+
+`clues COMMAND --help` explains each command.)";
+
+int fail(const std::string& message, int code) {
+  std::fprintf(stderr, "clues: error: %s\n", message.c_str());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace clues;
+  CLI::App program{
+      "clues - what can be seen from a region of space, exactly.\n"
+      "Takes a triangle scene and a convex view cell; computes the first-order visibility map in exact arithmetic, and "
+      "judges\n"
+      "the potentially visible sets (PVS) of other programs against it.",
+      "clues"};
+  program.footer(footer);
+  program.set_version_flag("--version", "clues " CLUES_VERSION);
+  program.require_subcommand(1);
+  int status = app::fine;
+  app::add_map_command(program, status);
+  app::add_check_command(program, status);
+  app::add_demo_command(program, status);
+  try {
+    program.parse(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("cannot write to standard output", app::bad_usage);
+    return status;
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return program.exit(e);  // --help, --version
+    return fail(std::string(e.what()) + " (see `clues --help`)", app::bad_usage);
+  } catch (const scene::Error& e) {
+    return fail(e.what(), e.code() == scene::ErrorCode::internal ? app::oracle_contradiction : app::bad_usage);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", app::not_everything_ran);
+  } catch (const std::exception& e) {
+    return fail(std::string("internal: ") + e.what(), app::oracle_contradiction);
+  }
 }

@@ -118,6 +118,7 @@ Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::Visibility
   Judgement result;
   result.triangles.resize(total, TriangleVerdict::hidden);
   for (std::uint32_t t = 0; t < total; ++t) {
+    if (!options.only.empty() && !std::binary_search(options.only.begin(), options.only.end(), t)) continue;
     const bool listed = std::binary_search(pvs.begin(), pvs.end(), t);
     const bool in_omega = std::binary_search(map.visible.begin(), map.visible.end(), t);
     const bool surface = !std::binary_search(degenerate.begin(), degenerate.end(), t);

@@ -1,0 +1,86 @@
+// clues check: judges one PVS for one scene and cell (D19, basic form).
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/progress.h"
+#include "scene/cell_spec.h"
+#include "scene/mesh_io.h"
+#include "scene/result.h"
+#include "validate/judge.h"
+#include "validate/judge_report.h"
+
+namespace clues::app {
+namespace {
+
+struct CheckRequest {
+  std::string scene, cell, pvs;
+  bool json = false;
+  MethodOptions method;
+};
+
+int run_check(const CheckRequest& request) {
+  auto options = request.method.to_reference();
+  const auto mesh = scene::read_mesh(request.scene);
+  const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
+  const auto pvs = scene::read_pvs(request.pvs, mesh.triangles.size());
+
+  validate::Judgement judgement;
+  {
+    ProgressBar bar("clues check");
+    options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
+      bar.show(stage, done, total);
+    };
+    const auto map = reference::first_order_visibility(mesh, cell, options);
+    validate::JudgeOptions judge_options;
+    judge_options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("witnesses", done, total); };
+    judgement = validate::judge_pvs(mesh, map, pvs, judge_options);
+  }
+  std::fputs((request.json ? validate::to_json_text(judgement) : validate::to_text(judgement)).c_str(), stdout);
+  if (!judgement.contradictions.empty()) return oracle_contradiction;
+  switch (judgement.verdict) {
+    case validate::Verdict::sound:
+      return fine;
+    case validate::Verdict::unsound:
+      return findings;
+    case validate::Verdict::undecided:
+      return not_everything_ran;
+  }
+  return oracle_contradiction;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program, int& status) {
+  auto* command = program.add_subcommand("check", "Judge a potentially visible set: is a visible triangle missing?");
+  auto request = std::make_shared<CheckRequest>();
+  command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL")->required();
+  command->add_option("--cell", request->cell, "The view cell")->type_name("SPEC")->required();
+  command
+      ->add_option("--pvs", request->pvs,
+                   "The PVS: one triangle id a line with # comments, or a *.json result of clues")
+      ->type_name("FILE")
+      ->required();
+  request->method.add_to(*command);
+  command->add_flag("--json", request->json, "Print the judgement as JSON (docs/formats.md)");
+  command->footer(
+      std::string(
+          "DESCRIPTION\n"
+          "  unsound    a visible triangle is missing. The proof is printed: a point of the cell and a point of the\n"
+          "             triangle, as fractions, between which nothing lies.\n"
+          "  sound      every missing triangle is proved to be hidden.\n"
+          "  undecided  a missing triangle is visible to the first-order method, but no free sight line was found.\n"
+          "  Listed triangles are exact (visible, with proof), first-order (no sight line was found) or loose "
+          "(hidden).\n\n") +
+      cell_help +
+      "\n\nEXAMPLES\n"
+      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt\n"
+      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs town.clues.json --json\n\n"
+      "EXIT CODES\n"
+      "  0 sound   1 unsound   2 bad usage or input   3 undecided   4 an oracle contradicted itself");
+  command->callback([request, &status] { status = run_check(*request); });
+}
+
+}  // namespace clues::app

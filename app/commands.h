@@ -1,0 +1,15 @@
+// The subcommands. Each adds itself to the program and, when chosen, leaves its exit code in `status`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace clues::app {
+
+// docs/interpreting-results.md and every --help say the same.
+enum ExitCode : int { fine = 0, findings = 1, bad_usage = 2, not_everything_ran = 3, oracle_contradiction = 4 };
+
+void add_map_command(CLI::App& program, int& status);
+void add_check_command(CLI::App& program, int& status);
+void add_demo_command(CLI::App& program, int& status);
+
+}  // namespace clues::app

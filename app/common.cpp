@@ -1,0 +1,124 @@
+// Options common to the subcommands, and the census of visible, hidden and partly visible triangles.
+#include "app/common.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/error.h"
+
+namespace clues::app {
+
+using scene::Error;
+using scene::ErrorCode;
+
+const char* const cell_help = R"(SCENE
+  An OBJ, OFF, PLY or STL file. Triangle i is the i-th triangle of the file, from 0; a face with more corners is a fan.
+
+CELL
+  box:x0,y0,z0,x1,y1,z1   the closed box between two corners (x0 <= x1, ...); equal bounds make it flat, or a point
+  FILE                    an OBJ, OFF, PLY or STL file: the cell is the convex hull of its vertices)";
+
+void MethodOptions::add_to(CLI::App& command) {
+  command
+      .add_option(
+          "--mode", mode,
+          "sheet: both sides of a triangle can be seen (default). solid: only fronts can; the mesh must be closed\n"
+          "and consistently oriented")
+      ->type_name("sheet|solid");
+  command.add_option("--method", method, "first-order (default, and the only one in this version)")->type_name("NAME");
+  command.add_option("--kernel", kernel, "exact (default, and the only one in this version)")->type_name("NAME");
+  command.add_option("--threads", threads, "How many threads may work; 0: all cores (default). The answer is the same")
+      ->type_name("N");
+}
+
+reference::Options MethodOptions::to_reference() const {
+  reference::Options options;
+  if (mode != "sheet" && mode != "solid") {
+    throw Error(ErrorCode::bad_argument, "--mode " + mode + ": no such mode; use sheet or solid");
+  }
+  if (method == "backprojected") {
+    throw Error(ErrorCode::unsupported, "--method backprojected is not in this version; use --method first-order");
+  }
+  if (method != "first-order") {
+    throw Error(ErrorCode::bad_argument, "--method " + method + ": no such method; use first-order");
+  }
+  if (kernel == "fast") {
+    throw Error(ErrorCode::unsupported, "--kernel fast is not in this version; use --kernel exact");
+  }
+  if (kernel != "exact") throw Error(ErrorCode::bad_argument, "--kernel " + kernel + ": no such kernel; use exact");
+  if (threads < 0 || threads > 4096) {
+    throw Error(ErrorCode::bad_argument, fmt::format("--threads {}: use 0 (all cores) to 4096", threads));
+  }
+  options.mode = mode == "solid" ? reference::Mode::solid : reference::Mode::sheet;
+  options.threads = threads;
+  return options;
+}
+
+void require_writable_parent(const std::filesystem::path& path) {
+  const auto parent = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(parent, ignored)) {
+    throw Error(ErrorCode::file_unwritable, parent.string() + ": no such folder; make it before writing there");
+  }
+  if (access(parent.c_str(), W_OK | X_OK) != 0) {
+    throw Error(ErrorCode::file_unwritable, parent.string() + ": the folder is not writable; choose another output");
+  }
+  if (std::filesystem::is_directory(path, ignored)) {
+    throw Error(ErrorCode::file_unwritable, path.string() + ": is a folder; name a file in it");
+  }
+}
+
+bool make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  const bool made = std::filesystem::create_directory(folder, error);
+  if (error || !std::filesystem::is_directory(folder) || access(folder.c_str(), W_OK | X_OK) != 0) {
+    throw Error(ErrorCode::file_unwritable,
+                folder.string() + ": cannot write into this folder" + (error ? " (" + error.message() + ")" : ""));
+  }
+  return made;
+}
+
+bool faces_cell(const reference::VisibilityMap& map, std::uint32_t piece, bool front) {
+  const auto wanted = front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
+  const auto& corners = map.cell.vertices();
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](const auto& v) { return map.complex.planes[piece].oriented_side(v) == wanted; });
+}
+
+Census take_census(const reference::VisibilityMap& map) {
+  struct Flags {
+    bool visible = false, hidden = false;
+  };
+  std::vector<Flags> flags(map.complex.input_triangles);
+  Census census;
+  for (const auto& region : map.regions) {
+    const auto& piece = map.complex.pieces[region.piece];
+    const bool facing = faces_cell(map, region.piece, region.front);
+    for (const auto& origin : piece.origins) {
+      const bool counts = map.mode == reference::Mode::sheet || region.front == origin.same_side;
+      if (!counts || (!facing && !region.visible)) continue;
+      (region.visible ? flags[origin.triangle].visible : flags[origin.triangle].hidden) = true;
+    }
+    if (!facing) continue;
+    const auto& points = map.complex.points;
+    const double area = std::sqrt(CGAL::to_double(CGAL::squared_area(points[piece.corners[0]], points[piece.corners[1]],
+                                                                     points[piece.corners[2]]))) *
+                        CGAL::to_double(region.area_fraction);
+    census.area_facing_estimate += area;
+    if (region.visible) census.area_visible_estimate += area;
+  }
+  census.triangles.resize(flags.size(), Seen::hidden);
+  for (std::uint32_t t = 0; t < flags.size(); ++t) {
+    // Listed without a visible region: it meets the cell.
+    const bool listed = std::binary_search(map.visible.begin(), map.visible.end(), t);
+    auto& seen = census.triangles[t];
+    if (listed) seen = flags[t].visible && flags[t].hidden ? Seen::partly : Seen::wholly;
+    ++(seen == Seen::wholly ? census.wholly : seen == Seen::partly ? census.partly : census.hidden);
+  }
+  return census;
+}
+
+}  // namespace clues::app

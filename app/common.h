@@ -1,0 +1,46 @@
+// What the subcommands share: common options, output checks, and the count of what is seen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reference/visibility/first_order.h"
+
+namespace clues::app {
+
+// Options that steer the reference; the same on every subcommand.
+struct MethodOptions {
+  std::string mode = "sheet";
+  std::string method = "first-order";
+  std::string kernel = "exact";
+  int threads = 0;
+
+  void add_to(CLI::App& command);
+  reference::Options to_reference() const;  // throws Error bad_argument, unsupported
+};
+
+// The two paragraphs about SPEC and exit codes that every footer needs.
+extern const char* const cell_help;
+
+// Throws Error file_unwritable now, and not after an hour, when a file could not be made at `path`.
+void require_writable_parent(const std::filesystem::path& path);
+
+// Makes the folder where it does not exist (its parent must); throws Error file_unwritable. Returns whether it was made.
+bool make_folder(const std::filesystem::path& folder);
+
+// Input triangles by what the cell sees of their sides that face it. Triangles meeting the cell are visible (D3).
+enum class Seen : std::uint8_t { hidden, partly, wholly };
+struct Census {
+  std::vector<Seen> triangles;
+  std::uint64_t wholly = 0, partly = 0, hidden = 0;
+  double area_facing_estimate = 0, area_visible_estimate = 0;  // of sides that face the cell
+};
+Census take_census(const reference::VisibilityMap& map);
+
+// Whether some point of the cell lies strictly on that side of a piece of the complex.
+bool faces_cell(const reference::VisibilityMap& map, std::uint32_t piece, bool front);
+
+}  // namespace clues::app

@@ -1,0 +1,25 @@
+// A progress bar on standard error: only when that is a terminal, so that a pipe or a log never sees it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace clues::app {
+
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::string title);
+  ~ProgressBar();
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void clear();  // wipes the line, before something else is printed
+  void show(const std::string& stage, std::uint64_t done, std::uint64_t total);
+
+ private:
+  std::string title_;
+  std::string last_;  // what stands there now
+  bool terminal_;
+};
+
+}  // namespace clues::app
