@@ -1,0 +1,145 @@
+// clues map, check and demo on good input.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/app/program.h"
+
+namespace clues::tests {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+
+TEST(Help, EveryCommandHasDescriptionExamplesAndExitCodes) {
+  const TestFolder folder;
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--help"}, {"map", "--help"}, {"check", "--help"}, {"demo", "--help"}}) {
+    const auto ran = run_clues(arguments, folder.path());
+    EXPECT_EQ(ran.exit_code, 0);
+    EXPECT_EQ(ran.err, "");
+    EXPECT_THAT(ran.out, AllOf(HasSubstr("EXAMPLES"), HasSubstr("EXIT CODES")));
+  }
+}
+
+TEST(Map, WritesTheVisibleTriangles) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "-o", "out.clues.json"}, folder.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(ran.err, "");
+  const auto result = json::parse(read_all(folder.file("out.clues.json")));
+  EXPECT_EQ(result["format"], "clues-result/1");
+  EXPECT_EQ(result["visible"], json({0, 1, 2, 4}));
+  EXPECT_EQ(result["scene"]["file"], "scene.off");
+  EXPECT_FALSE(result.contains("regions"));
+}
+
+TEST(Map, PrintsATableOrTheResult) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const auto table = run_clues({"map", "scene.off", "--cell", screen_cell}, folder.path());
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_THAT(table.out, AllOf(HasSubstr("wholly"), HasSubstr(screen_cell)));
+  const auto result = run_clues({"map", "scene.off", "--cell", screen_cell, "--json", "--map"}, folder.path());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(json::parse(result.out).contains("regions"));
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.off"});
+}
+
+TEST(Map, PlainListByExtension) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  ASSERT_EQ(run_clues({"map", "scene.off", "--cell", screen_cell, "-o", "out.pvs"}, folder.path()).exit_code, 0);
+  EXPECT_THAT(read_all(folder.file("out.pvs")), HasSubstr("0\n1\n2\n4\n"));
+}
+
+TEST(Map, SameBytesInEveryRunAndForEveryThreadCount) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  std::string first;
+  for (const std::string threads : {"1", "2", "5", "1"}) {
+    const auto ran =
+        run_clues({"map", "scene.off", "--cell", screen_cell, "--json", "--map", "--threads", threads}, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    if (first.empty()) first = ran.out;
+    EXPECT_EQ(ran.out, first) << threads;
+  }
+}
+
+TEST(Map, ManyCellsMakeOneFileEachAndTheSameBytes) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const std::string cells = "grid:2x1x2:box:-1,-1,-1,1,1,0";
+  for (const std::string threads : {"1", "3"}) {
+    const auto ran =
+        run_clues({"map", "scene.off", "--cells", cells, "-o", "cells" + threads, "--threads", threads}, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  }
+  for (const std::string name : {"cell-0-0-0", "cell-1-0-0", "cell-0-0-1", "cell-1-0-1"}) {
+    const auto bytes = read_all(folder.file("cells1/" + name + ".clues.json"));
+    EXPECT_THAT(bytes, HasSubstr("clues-result/1"));
+    EXPECT_EQ(bytes, read_all(folder.file("cells3/" + name + ".clues.json")));
+  }
+}
+
+TEST(Check, OwnPvsIsSound) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const std::string out : {"out.clues.json", "out.pvs"}) {
+    ASSERT_EQ(run_clues({"map", "scene.off", "--cell", screen_cell, "-o", out}, folder.path()).exit_code, 0);
+    const auto ran = run_clues({"check", "scene.off", "--cell", screen_cell, "--pvs", out}, folder.path());
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("verdict: sound"));
+  }
+}
+
+TEST(Check, MissingVisibleTriangleIsUnsoundWithAWitness) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  folder.write("pvs.txt", "# triangle 4 forgotten\n0\n1\n2\n");
+  const auto text = run_clues({"check", "scene.off", "--cell", screen_cell, "--pvs", "pvs.txt"}, folder.path());
+  EXPECT_EQ(text.exit_code, 1);
+  EXPECT_THAT(text.out, AllOf(HasSubstr("verdict: unsound"), HasSubstr("missing although visible: 4\n"),
+                              HasSubstr("sight line")));
+  const auto ran =
+      run_clues({"check", "scene.off", "--cell", screen_cell, "--pvs", "pvs.txt", "--json"}, folder.path());
+  EXPECT_EQ(ran.exit_code, 1);
+  const auto judgement = json::parse(ran.out);
+  EXPECT_EQ(judgement["verdict"], "unsound");
+  EXPECT_EQ(judgement["triangles"], json({"exact", "exact", "exact", "hidden", "missing-visible"}));
+  bool found = false;
+  for (const auto& witness : judgement["witnesses"]) found = found || witness["triangle"] == 4;
+  EXPECT_TRUE(found);
+}
+
+TEST(Check, HiddenTriangleInTheListIsLoose) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  folder.write("pvs.txt", "0\n1\n2\n3\n4\n");
+  const auto ran = run_clues({"check", "scene.off", "--cell", screen_cell, "--pvs", "pvs.txt"}, folder.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.out;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("verdict: sound"), HasSubstr("1 loose")));
+}
+
+TEST(Check, TriangleThatMeetsTheCellIsVisible) {
+  const TestFolder folder;
+  folder.write("scene.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  folder.write("pvs.txt", "# nothing\n");
+  const auto ran = run_clues({"check", "scene.off", "--cell", "box:0,0,0,1,1,1", "--pvs", "pvs.txt"}, folder.path());
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_THAT(ran.out, HasSubstr("triangle 0 meets the cell"));
+}
+
+TEST(Demo, NoMeshesSaysWhatToDoAndLeavesNothing) {
+  const TestFolder folder;
+  const auto ran = run_clues({"demo", "--quick", "--mesh-dir", "nowhere", "--out", "demo"}, folder.path());
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_THAT(ran.err, AllOf(HasSubstr("clues: error: "), HasSubstr("./run demo")));
+  EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace clues::tests

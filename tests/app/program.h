@@ -1,0 +1,44 @@
+// Runs the built program as a user would: a command line in, exit code and both outputs back. Every test has a folder of its own.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scene/mesh.h"
+
+namespace clues::tests {
+
+struct Ran {
+  int exit_code = -1;  // -1: killed by a signal
+  std::string out, err;
+};
+
+// `arguments` are given to the program as they are, without a shell.
+Ran run_clues(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+
+// A fresh folder, removed again with everything in it.
+class TestFolder {
+ public:
+  TestFolder();
+  ~TestFolder();
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+  std::string write(const std::string& name, const std::string& bytes) const;  // returns the path
+  std::vector<std::string> names() const;                                      // what lies in it, sorted
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_all(const std::filesystem::path& path);
+
+// OFF text: a wall of two triangles (0, 1) at z = 4, and before it at z = 2 a screen (2); seen from a cell near the
+// origin the far-off triangle 4 is visible, and triangle 3 just behind the screen is hidden.
+extern const char* const screen_scene;
+inline constexpr const char* screen_cell = "box:-0.25,-0.25,-0.25,0.25,0.25,0";
+
+}  // namespace clues::tests
