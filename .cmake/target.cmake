@@ -8,6 +8,8 @@ function(clues_target name)
     # GCC 12 suspects CGAL handles that are moved about; clang and valgrind do not.
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
     $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror>)
+  # CGAL would print, once per process, that crossing constraints cost time in exact arithmetic. We know.
+  target_compile_definitions(${name} PRIVATE CGAL_NO_CDT_2_WARNING)
   get_target_property(sources ${name} SOURCES)
   if(NOT sources)  # a folder that is still empty is a library all the same
     file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/empty.cpp CONTENT "// nothing yet\n")

@@ -34,6 +34,8 @@ std::string truncated_binary_ply() {
   return bytes + std::string(40, '\0');
 }
 
+void PrintTo(const BadScene& scene, std::ostream* out) { *out << scene.name; }
+
 class BadSceneTest : public testing::TestWithParam<BadScene> {};
 
 TEST_P(BadSceneTest, ExitsWithTwoAndWritesNothing) {
@@ -48,13 +50,13 @@ TEST_P(BadSceneTest, ExitsWithTwoAndWritesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(
     Scenes, BadSceneTest,
-    testing::Values(BadScene{"EmptyFile", "empty.off", "", ""}, BadScene{"EmptyObj", "empty.obj", "", "no triangles"},
+    testing::Values(BadScene{"EmptyFile", "empty.off", "", ""}, BadScene{"EmptyObj", "empty.obj", "", "empty"},
                     BadScene{"TruncatedBinaryPly", "cut.ply", truncated_binary_ply(), "truncated"},
                     BadScene{"NotANumber", "nan.off", "OFF\n3 1 0\n0 0 5\nnan 0 5\n0 1 5\n3 0 1 2\n", "finite"},
                     BadScene{"Infinite", "inf.obj", "v 0 0 5\nv inf 0 5\nv 0 1 5\nf 1 2 3\n", "finite"},
                     BadScene{"IndexOutOfRange", "index.off", "OFF\n3 1 0\n0 0 5\n1 0 5\n0 1 5\n3 0 1 3\n", "3"},
                     BadScene{"FaceWithTwoCorners", "two.obj", "v 0 0 5\nv 1 0 5\nv 0 1 5\nf 1 2\n", "corners"},
-                    BadScene{"UnknownExtension", "scene.xyz", "0 0 0\n", "OBJ"}),
+                    BadScene{"UnknownExtension", "scene.xyz", "0 0 0\n", ".obj"}),
     [](const auto& test) { return test.param.name; });
 
 struct BadCommand {
@@ -62,6 +64,8 @@ struct BadCommand {
   std::vector<std::string> arguments;  // after "map scene.off -o out.clues.json"
   const char* mentions;
 };
+
+void PrintTo(const BadCommand& command, std::ostream* out) { *out << command.name; }
 
 class BadCommandTest : public testing::TestWithParam<BadCommand> {};
 
