@@ -1,0 +1,45 @@
+// D1: a scene from a file; the format is chosen by the file's extension.
+#include "scene/mesh_io.h"
+
+#include <algorithm>
+
+#include "scene/error.h"
+#include "scene/formats/file_bytes.h"
+#include "scene/formats/readers.h"
+
+namespace clues::scene {
+namespace {
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
+}  // namespace
+
+TriangleMesh read_mesh_or_points(const std::filesystem::path& path) {
+  const auto file = path.string();
+  const auto bytes = read_file_bytes(path);
+  const auto extension = lower_case(path.extension().string());
+  const bool known = extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl";
+  if (!known) {
+    throw Error(ErrorCode::unsupported,
+                file + ": the extension '" + extension + "' is not a known format; use .obj, .off, .ply or .stl");
+  }
+  if (bytes.empty()) throw Error(ErrorCode::malformed, file + ": the file is empty; export it again");
+  if (extension == ".obj") return read_obj(bytes, file);
+  if (extension == ".off") return read_off(bytes, file);
+  if (extension == ".ply") return read_ply(bytes, file);
+  return read_stl(bytes, file);
+}
+
+TriangleMesh read_mesh(const std::filesystem::path& path) {
+  auto mesh = read_mesh_or_points(path);
+  if (mesh.triangles.empty()) {
+    throw Error(ErrorCode::malformed, path.string() + ": no triangles; a scene needs at least one face");
+  }
+  return mesh;
+}
+
+}  // namespace clues::scene

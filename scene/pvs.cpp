@@ -1,0 +1,116 @@
+// D7: a potentially visible set from a result file or a plain list of triangle ids.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "scene/error.h"
+#include "scene/formats/file_bytes.h"
+#include "scene/formats/line_reader.h"
+#include "scene/formats/number.h"
+#include "scene/result.h"
+
+namespace clues::scene {
+namespace {
+
+using Json = nlohmann::json;
+
+std::uint32_t checked_id(std::uint64_t id, std::uint64_t triangles, const Place& place) {
+  if (id >= triangles || id > std::numeric_limits<std::uint32_t>::max()) {
+    fail_at(place, ErrorCode::index_out_of_range,
+            fmt::format("the id {} is not below the {} triangles of the scene; is it the PVS of another scene?", id,
+                        triangles));
+  }
+  return static_cast<std::uint32_t>(id);
+}
+
+bool is_whole_number(std::string_view token) {
+  return !token.empty() && token.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+std::vector<std::uint32_t> read_list(std::string_view bytes, const std::string& file, std::uint64_t triangles) {
+  LineReader lines(file, bytes, {});
+  std::vector<std::uint32_t> ids;
+  while (lines.next()) {
+    const auto& tokens = lines.tokens();
+    if (tokens.size() != 1 || !is_whole_number(tokens[0])) {
+      fail_at(lines.place(), ErrorCode::malformed,
+              excerpt(tokens.size() > 1 ? tokens[1] : tokens[0]) +
+                  " is not what a PVS holds; write one triangle id a line");
+    }
+    const auto id = parse_integer(tokens[0]);
+    ids.push_back(checked_id(id ? static_cast<std::uint64_t>(*id) : std::numeric_limits<std::uint64_t>::max(),
+                             triangles, lines.place()));
+  }
+  return ids;
+}
+
+Json parse_json(std::string_view bytes, const std::string& file) {
+  try {
+    return Json::parse(bytes);
+  } catch (const Json::parse_error& error) {
+    const auto read = std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, bytes.size());
+    const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(read), '\n');
+    fail_at({file, {}, static_cast<std::uint64_t>(line)}, ErrorCode::malformed,
+            "this is not JSON; the file is truncated or was edited, write it again");
+  } catch (const Json::exception&) {  // such as a number like 1e999
+    fail_in(file, ErrorCode::malformed, "the JSON holds a number that cannot be read; write it again");
+  }
+}
+
+void check_head(const Json& json, const std::string& file, std::uint64_t triangles) {
+  const auto format = json.is_object() ? json.find("format") : json.end();
+  if (!json.is_object() || format == json.end() || !format->is_string()) {
+    fail_in(file, ErrorCode::malformed, "no \"format\"; a result file has \"format\": \"clues-result/1\"");
+  }
+  const auto& name = format->get_ref<const std::string&>();
+  if (name != "clues-result/1") {
+    fail_in(file, ErrorCode::unsupported, "the format " + excerpt(name) + " is not clues-result/1; convert it");
+  }
+  const auto scene = json.find("scene");
+  if (scene == json.end() || !scene->is_object()) return;
+  const auto count = scene->find("triangles");
+  if (count != scene->end() && count->is_number() && *count != triangles) {
+    fail_in(file, ErrorCode::malformed,
+            fmt::format("the result is of a scene of {} triangles, but this one has {}; give the matching scene",
+                        count->dump(), triangles));
+  }
+}
+
+std::vector<std::uint32_t> read_result(std::string_view bytes, const std::string& file, std::uint64_t triangles) {
+  const auto json = parse_json(bytes, file);
+  check_head(json, file, triangles);
+  const auto visible = json.find("visible");
+  if (visible == json.end() || !visible->is_array()) {
+    fail_in(file, ErrorCode::malformed, "no list \"visible\"; add the ids of the visible triangles");
+  }
+  std::vector<std::uint32_t> ids;
+  for (const auto& entry : *visible) {
+    const Place place{file, "visible, entry", ids.size()};
+    if (!entry.is_number_unsigned()) {
+      fail_at(place, ErrorCode::malformed, excerpt(entry.dump()) + " is not a triangle id; give whole numbers");
+    }
+    ids.push_back(checked_id(entry.get<std::uint64_t>(), triangles, place));
+  }
+  return ids;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, std::uint64_t triangles) {
+  const auto bytes = read_file_bytes(path);
+  const auto file = path.string();
+  auto ids = path.extension() == ".json" ? read_result(bytes, file, triangles) : read_list(bytes, file, triangles);
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+std::string to_pvs_text(const std::vector<std::uint32_t>& visible) {
+  std::string text;
+  for (const auto id : visible) text += fmt::format("{}\n", id);
+  return text;
+}
+
+}  // namespace clues::scene

@@ -1,0 +1,65 @@
+// The result file "clues-result/1": the visible set (D7) and, on request, the map (D15).
+#include "scene/result.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace clues::scene {
+namespace {
+
+using Json = nlohmann::json;  // an object's keys are sorted
+
+const char* side_name(bool front) { return front ? "front" : "back"; }
+
+// Doubles round-trip; one past the range of doubles (its exact text stands beside it) becomes null.
+Json to_json(const MapRegion& region) {
+  return {{"triangle", region.triangle},           {"side", side_name(region.front)},   {"visible", region.visible},
+          {"area_fraction", region.area_fraction}, {"rings_exact", region.rings_exact}, {"rings", region.rings}};
+}
+
+Json to_json(const MapSegment& segment) {
+  return {{"triangle", segment.triangle},
+          {"side", side_name(segment.front)},
+          {"boundary", segment.boundary},
+          {"exact", segment.exact},
+          {"points", segment.points}};
+}
+
+Json to_json(const MapWedge& wedge) {
+  return {{"kind", wedge.kind},
+          {"generation", wedge.generation},
+          {"exact", wedge.exact},
+          {"points", wedge.points},
+          {"unbounded", wedge.unbounded}};
+}
+
+template <class Item>
+Json to_array(const std::vector<Item>& items) {
+  Json array = Json::array();
+  for (const auto& item : items) array.push_back(to_json(item));
+  return array;
+}
+
+}  // namespace
+
+std::string to_json_text(const Result& result) {
+  Json json = {
+      {"format", "clues-result/1"},
+      {"scene", {{"file", result.scene_file}, {"sha256", result.scene_sha256}, {"triangles", result.scene_triangles}}},
+      {"cell", {{"vertices", result.cell}}},
+      {"method", result.method},
+      {"kernel", result.kernel},
+      {"mode", result.mode},
+      {"visible", result.visible},
+      {"stats", result.stats}};
+  json["stats"].emplace("conservative_fallbacks", 0);  // unless it is there
+  if (result.has_map) {
+    json["regions"] = to_array(result.regions);
+    json["segments"] = to_array(result.segments);
+    json["wedges"] = to_array(result.wedges);
+  }
+  // File names need not be UTF-8; JSON must.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace clues::scene

@@ -1,0 +1,25 @@
+// The identity of a scene file (D1): SHA-256 of its bytes.
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <array>
+
+#include "scene/error.h"
+#include "scene/formats/file_bytes.h"
+#include "scene/result.h"
+
+namespace clues::scene {
+
+std::string sha256_of_file(const std::filesystem::path& path) {
+  const auto bytes = read_file_bytes(path);
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int size = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr) != 1) {
+    throw Error(ErrorCode::internal, path.string() + ": OpenSSL cannot compute SHA-256; check its installation");
+  }
+  std::string text;
+  for (unsigned int i = 0; i < size; ++i) text += fmt::format("{:02x}", digest[i]);
+  return text;
+}
+
+}  // namespace clues::scene
