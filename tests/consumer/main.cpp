@@ -6,7 +6,8 @@
 
 int main() {
   clues::scene::TriangleMesh mesh;
-  mesh.points = {{-4, -4, 1}, {4, -4, 1}, {0, 4, 1}, {-1, -1, 2}, {1, -1, 2}, {0, 1, 2}, {-9, -9, 2}, {-8, -9, 2}, {-9, -8, 2}};
+  mesh.points = {{-4, -4, 1}, {4, -4, 1},  {0, 4, 1},   {-1, -1, 2}, {1, -1, 2},
+                 {0, 1, 2},   {-9, -9, 2}, {-8, -9, 2}, {-9, -8, 2}};
   mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
   mesh.face_of = {0, 1, 2};
   const auto cell = clues::exact::ConvexCell::from_doubles({{0, 0, 0}});
