@@ -1,6 +1,6 @@
 // The exact steps behind D16: triangle-triangle contact, and the constrained triangulation of one plane.
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
 #include <CGAL/intersections.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>,
                                                  CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Cdt = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::Exact_intersections_tag>;
+using Cdt = CGAL::Constrained_triangulation_plus_2<CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::Exact_intersections_tag>>;
 
 bool inside(const std::array<Point2, 3>& t, const Point2& p) {
   const CGAL::Orientation o = CGAL::orientation(t[0], t[1], t[2]);

@@ -25,8 +25,9 @@ using TriangleCorners = std::array<Point3, 3>;
 // `side`: when p lies on a surface and is asked for on one side of it, the plane whose positive side v must lie
 // strictly on (D14 rule 3); std::nullopt for a point of free space. Triangles that contain p are ignored when `side` is given
 // and lie in that plane; otherwise a triangle containing p occludes by D5 only where it lies between p and v.
-// A point of V is not occluded (D3). O(n) triangles, each cut against the cells still uncovered; with many triangles
-// pass only those that can matter.
+// A point of V is not occluded (D3); it comes without a witness where V has no point strictly on the positive side. O(n) segment
+// tests for each piece that a shadow has to be cut from; with many triangles pass only those that can matter.
+// Throws Error bad_argument when p is not in the plane `side`.
 OcclusionAnswer point_occlusion(const Point3& p, const std::optional<Plane3>& side, const ConvexCell& cell,
                                 const std::vector<TriangleCorners>& triangles);
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "exact/simple_point.h"
 #include "reference/visibility/apex.h"
 #include "reference/visibility/contour.h"
 #include "reference/visibility/walk.h"
@@ -132,7 +133,7 @@ class Search {
         s.contour = c;
         s.lo = stops[i];
         s.hi = stops[i + 1];
-        s.y = exact::collapsed(CGAL::midpoint(s.lo, s.hi));
+        s.y = exact::simple_between(complex_.points[e.a], complex_.points[e.b], s.lo, s.hi);
         sources_.push_back(std::move(s));
       }
     }

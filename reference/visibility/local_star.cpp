@@ -157,15 +157,22 @@ bool LocalStar::free_between(const Vector3& d0, const Vector3& d1) const {
     const CGAL::Sign s0 = CGAL::sign(at0), s1 = CGAL::sign(at1);
     if (s0 == CGAL::ZERO && s1 != CGAL::ZERO) continue;  // leaves the arc's plane at once
     if (s0 != CGAL::ZERO && s0 == s1) continue;
-    if (s0 == CGAL::ZERO) return false;  // runs within the arc's plane: not surely free
-    const Vector3 y = CGAL::abs(at1) * d0 + CGAL::abs(at0) * d1;
-    if (in_arc(nodes_[static_cast<std::size_t>(arc.a)], nodes_[static_cast<std::size_t>(arc.b)], arc.normal, y)) return false;
+    const Vector3 &a = nodes_[static_cast<std::size_t>(arc.a)], &b = nodes_[static_cast<std::size_t>(arc.b)];
+    if (s0 == CGAL::ZERO) {  // runs within the arc's great circle: it must not end on the arc, nor pass one of its ends
+      const Vector3 turn = CGAL::cross_product(d0, d1);
+      const auto passes = [&](const Vector3& x) {
+        return CGAL::is_positive(turn * CGAL::cross_product(d0, x)) && CGAL::is_positive(turn * CGAL::cross_product(x, d1));
+      };
+      if (in_arc(a, b, arc.normal, d1) || passes(a) || passes(b)) return false;
+      continue;
+    }
+    if (in_arc(a, b, arc.normal, CGAL::abs(at1) * d0 + CGAL::abs(at0) * d1)) return false;
   }
   return true;
 }
 
 Vector3 LocalStar::nudged(const Vector3& d, const Vector3& by) const {
-  constexpr int kHalvings = 4096;  // reached only if `by` runs inside an arc through d
+  constexpr int kHalvings = 4096;  // reached only if `by` runs along an arc through d
   FT step(1);
   for (int i = 0; i < kHalvings; ++i, step = step / FT(4)) {
     const Vector3 moved = d + step * by;

@@ -3,7 +3,6 @@
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arrangement_2.h>
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Polygon_2.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <map>
 #include <mutex>
 
+#include "exact/simple_point.h"
 #include "reference/visibility/anticone.h"
 #include "reference/visibility/walk.h"
 #include "scene/error.h"
@@ -40,24 +40,52 @@ std::vector<std::pair<Point2, Point2>> clipped(const Kernel::Triangle_2& t, cons
   return {};
 }
 
+// Twice the signed area of a ring.
+FT twice_area(const std::vector<Point2>& ring) {
+  FT sum(0);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+    sum += a.x() * b.y() - a.y() * b.x();
+  }
+  return sum;
+}
+
+// Whether p, on no edge, is inside by the even-odd rule. Rings may touch themselves and each other; an edge walked twice counts for nothing.
+bool inside(const std::vector<std::vector<Point2>>& rings, const Point2& p) {
+  bool odd = false;
+  for (const auto& ring : rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      const bool a_above = a.y() > p.y(), b_above = b.y() > p.y();
+      if (a_above == b_above) continue;
+      odd ^= CGAL::orientation(a, b, p) == (b_above ? CGAL::LEFT_TURN : CGAL::RIGHT_TURN);
+    }
+  }
+  return odd;
+}
+
+// A short rational point inside triangle abc; `which` chooses among several.
+Point2 inner_point(const Point2& a, const Point2& b, const Point2& c, std::size_t which) {
+  const Point2 p = CGAL::barycenter(a, FT(3 + static_cast<int>(which) % 5), b, FT(4 + static_cast<int>(which) % 7), c, FT(5));
+  const CGAL::Orientation o = CGAL::orientation(a, b, c);
+  for (int level = 0; level < exact::kSimpleLevels; ++level) {
+    const Point2 q(exact::simple_near(p.x(), level), exact::simple_near(p.y(), level));
+    if (CGAL::orientation(a, b, q) == o && CGAL::orientation(b, c, q) == o && CGAL::orientation(c, a, q) == o) return q;
+  }
+  return p;
+}
+
 // A point inside the face: of a triangle of its constrained triangulation, which one depends on `which`.
 Point2 inner_point(const std::vector<std::vector<Point2>>& rings, std::size_t which) {
-  if (rings.size() == 1 && rings[0].size() == 3) {
-    return CGAL::barycenter(rings[0][0], FT(3 + static_cast<int>(which) % 5), rings[0][1], FT(4 + static_cast<int>(which) % 7), rings[0][2], FT(5));
-  }
+  if (rings.size() == 1 && rings[0].size() == 3) return inner_point(rings[0][0], rings[0][1], rings[0][2], which);
   using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-  CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::Exact_intersections_tag> cdt;
+  CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::No_constraint_intersection_tag> cdt;
   for (const auto& ring : rings) cdt.insert_constraint(ring.begin(), ring.end(), true);
-  std::vector<Point2> found;
-  std::vector<CGAL::Polygon_2<Kernel>> polygons;
-  for (const auto& ring : rings) polygons.emplace_back(ring.begin(), ring.end());
   std::vector<std::pair<FT, Point2>> by_size;
   for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
     const Point2 a = f->vertex(0)->point(), b = f->vertex(1)->point(), c = f->vertex(2)->point();
-    const Point2 p = CGAL::barycenter(a, FT(3 + static_cast<int>(which) % 5), b, FT(4 + static_cast<int>(which) % 7), c, FT(5));
-    bool inside = polygons[0].bounded_side(p) == CGAL::ON_BOUNDED_SIDE;
-    for (std::size_t h = 1; h < polygons.size(); ++h) inside = inside && polygons[h].bounded_side(p) == CGAL::ON_UNBOUNDED_SIDE;
-    if (inside) by_size.emplace_back(CGAL::abs(CGAL::area(a, b, c)), p);
+    const Point2 p = inner_point(a, b, c, which);
+    if (inside(rings, p)) by_size.emplace_back(CGAL::abs(CGAL::area(a, b, c)), p);
   }
   if (by_size.empty()) throw scene::Error(scene::ErrorCode::internal, "regions: a face without an inner point");
   std::sort(by_size.begin(), by_size.end());
@@ -134,12 +162,12 @@ class SideMapper {
       Region r{t, front, false, {}, {}, {}};
       FT area(0);
       for (const auto& points : rings) {
-        area += CGAL::Polygon_2<Kernel>(points.begin(), points.end()).area();  // holes run clockwise
+        area += twice_area(points);  // holes run clockwise
         std::vector<Point3> lifted;
         for (const Point2& q : points) lifted.push_back(lift(q));
         r.rings.push_back(std::move(lifted));
       }
-      r.area_fraction = exact::collapsed(area / CGAL::area(triangle[0], triangle[1], triangle[2]));
+      r.area_fraction = exact::collapsed(area / twice_area({triangle[0], triangle[1], triangle[2]}));
       finish(r, rings, lift, out);
       label[&*f] = r.visible;
       out.regions.push_back(std::move(r));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "exact/simple_point.h"
 #include "scene/error.h"
 
 namespace clues::reference {
@@ -11,6 +12,7 @@ using exact::Point3;
 
 namespace {
 
+constexpr int kLongestWalk = 64;  // legs; what is longer has lost its way in a corner of several walls
 constexpr int kAttempts = 200;  // sight lines in special position come from coincidences; this many in a row mean a bug
 
 std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
@@ -24,7 +26,7 @@ CGAL::Oriented_side strict_side(bool front) { return front ? CGAL::ON_POSITIVE_S
 
 }  // namespace
 
-Point3 Walker::choose(std::uint64_t seed, int anchor, const std::function<bool(const Point3&)>& good) const {
+Point3 Walker::choose(std::uint64_t seed, const std::optional<Point3>& anchor, const Good& good) const {
   const exact::ConvexCell& cell = scene_->cell();
   std::vector<int> weights;
   for (std::size_t i = 0; i < cell.vertices().size(); ++i) {
@@ -32,29 +34,89 @@ Point3 Walker::choose(std::uint64_t seed, int anchor, const std::function<bool(c
     weights.push_back(1 + static_cast<int>(seed % 61));
   }
   const Point3 u = cell.interior_point(weights);
-  if (anchor < 0 || good(u)) return u;
-  const Point3& s = cell.vertices()[static_cast<std::size_t>(anchor)];
+  if (!anchor || good(u)) return u;
   for (FT pull(1);;) {
     pull = pull / FT(8);
-    const Point3 v = s + pull * (u - s);
+    const Point3 v = *anchor + pull * (u - *anchor);
     if (good(v)) return exact::collapsed(v);
   }
 }
 
-int Walker::anchor_beyond(const SurfaceSide& side) const {
-  const exact::Plane3& h = scene_->complex().planes[side.piece];
-  int best = -1;
-  FT farthest(0);
-  const auto& s = scene_->cell().vertices();
+std::optional<Point3> Walker::anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const {
+  const auto height = [&](const SurfaceSide& on, const Point3& x) {
+    const exact::Plane3& h = scene_->complex().planes[on.piece];
+    const FT d = h.a() * x.x() + h.b() * x.y() + h.c() * x.z() + h.d();
+    return on.front ? d : FT(-d);
+  };
+  const std::vector<Point3>& s = scene_->cell().vertices();
+  std::vector<FT> a, b;
+  std::optional<std::size_t> best;
   for (std::size_t i = 0; i < s.size(); ++i) {
-    FT d = h.a() * s[i].x() + h.b() * s[i].y() + h.c() * s[i].z() + h.d();
-    if (!side.front) d = -d;
-    if (d > farthest) {
-      farthest = d;
-      best = static_cast<int>(i);
+    a.push_back(height(side, s[i]));
+    b.push_back(also ? height(*also, s[i]) : FT(1));
+    if (CGAL::is_positive(a[i]) && CGAL::is_positive(b[i]) && (!best || a[i] > a[*best])) best = i;
+  }
+  if (best) return s[*best];
+  if (!also) return std::nullopt;
+  // No vertex is on both sides, but an edge of V, or a diagonal, may cross the space between the planes.
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    for (std::size_t j = 0; j < s.size(); ++j) {
+      if (!CGAL::is_positive(a[i]) || CGAL::is_positive(a[j])) continue;
+      const Point3 x = s[i] + (a[i] / (a[i] - a[j])) * (s[j] - s[i]);  // on the first plane
+      if (!CGAL::is_positive(height(*also, x))) continue;
+      for (FT pull = FT(1) / FT(2);; pull = pull / FT(2)) {
+        const Point3 y = x + pull * (s[i] - x);
+        if (CGAL::is_positive(height(*also, y))) return exact::collapsed(y);
+      }
     }
   }
-  return best;
+  return std::nullopt;
+}
+
+std::optional<Leg> Walker::groove_leg(const Walk& walk) const {
+  const std::size_t n = walk.legs.size();
+  if (n < 4) return std::nullopt;
+  const Leg &last = walk.legs[n - 1], &one = walk.legs[n - 2], &two = walk.legs[n - 3], &three = walk.legs[n - 4];
+  if (last.piece != two.piece || one.piece != three.piece) return std::nullopt;
+  const exact::Complex& complex = scene_->complex();
+  for (const std::uint32_t id : complex.piece_edges[last.piece]) {
+    const exact::Edge& e = complex.edges[id];
+    if (std::find(e.pieces.begin(), e.pieces.end(), one.piece) == e.pieces.end()) continue;
+    const Point3 &a = complex.points[e.a], &b = complex.points[e.b];
+    if (CGAL::collinear(last.m, one.m, two.m)) return std::nullopt;
+    const exact::Plane3 h(last.m, one.m, two.m);
+    const auto value = [&](const Point3& x) { return h.a() * x.x() + h.b() * x.y() + h.c() * x.z() + h.d(); };
+    const FT at_a = value(a), at_b = value(b);
+    if (CGAL::sign(at_a) * CGAL::sign(at_b) >= 0) return std::nullopt;
+    const Point3 y = exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a));
+    const Point3 q = exact::collapsed(CGAL::midpoint(last.m, one.m));
+    const exact::SegmentAnswer between = scene_->crossings(y, q);
+    if (between.degenerate || !between.hits.empty()) return std::nullopt;
+    return Leg{y, q, last.piece, last.front, true};
+  }
+  return std::nullopt;
+}
+
+// The crossing m of the segment from v to p, or a shorter rational point beside it that is the last crossing of another admissible sight
+// line v'p. Without this the numbers would grow several times as long with every leg.
+Point3 Walker::last_crossing(const Point3& v, const Point3& p, const exact::Hit& hit, const Good& good) const {
+  const exact::Complex& complex = scene_->complex();
+  const auto& c = complex.pieces[hit.piece].corners;
+  const Point3 m = v + hit.t * (p - v);
+  const std::array<Point3, 3> corners{complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]};
+  if (scene_->cell().dimension() == 3) {
+    for (int level = 1; level < exact::kSimpleLevels; ++level) {
+      const auto near = exact::simple_in_triangle(m, corners, level);
+      if (!near) continue;
+      const FT t = exact::simple_near(hit.t, level);
+      if (t >= FT(1)) continue;
+      const Point3 from = p + (*near - p) / (FT(1) - t);
+      if (!scene_->cell().interior_contains(from) || !good(from)) continue;
+      const exact::SegmentAnswer between = scene_->crossings(*near, p);
+      if (!between.degenerate && between.hits.empty()) return *near;
+    }
+  }
+  return exact::collapsed(m);
 }
 
 Walk Walker::walk(const Start& start, std::uint64_t seed) const {
@@ -70,18 +132,40 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   const ContourEdge* contour = start.contour;
   if (contour && contour->cover) return walk;  // only a wedge piece upon the covering surface can light this edge (D14, rule 2)
   for (int depth = 0;; ++depth) {
-    int anchor = -1;
-    std::function<bool(const Point3&)> good = [](const Point3&) { return true; };
+    if (depth == kLongestWalk) {
+      walk.unresolved = true;
+      return walk;
+    }
+    std::optional<Point3> anchor;
+    Good good = [](const Point3&) { return true; };
+    std::optional<SurfaceSide> before;  // the wall that the walk stood on before this one, if they share an edge
     if (surface) {
-      anchor = anchor_beyond(*surface);
-      if (anchor < 0) return walk;
-      good = [&](const Point3& v) { return complex.planes[surface->piece].oriented_side(v) == strict_side(surface->front); };
+      anchor = anchor_beyond(*surface, nullptr);
+      if (!anchor) return walk;
+      const auto beyond = [&complex](const SurfaceSide& side, const Point3& v) {
+        return complex.planes[side.piece].oriented_side(v) == strict_side(side.front);
+      };
+      if (walk.legs.size() >= 2) {
+        const Leg& previous = walk.legs[walk.legs.size() - 2];
+        before = SurfaceSide{previous.piece, previous.front};
+        const std::optional<Point3> both = anchor_beyond(*surface, &*before);
+        if (both) {
+          anchor = both;
+        } else {
+          before.reset();
+          if (const std::optional<Leg> leg = groove_leg(walk)) {
+            walk.legs.push_back(*leg);
+            return walk;
+          }
+        }
+      }
+      good = [beyond, on = *surface, before](const Point3& v) { return beyond(on, v) && (!before || beyond(*before, v)); };
     } else if (contour) {
       // v so near the supporting plane that no incident piece lies between it and the supporting polygon.
-      anchor = contour->touching.front();
+      anchor = cell.vertices()[static_cast<std::size_t>(contour->touching.front())];
       const exact::Edge& e = complex.edges[contour->edge];
-      const Point3 &a = complex.points[e.a], &b = complex.points[e.b], &s = cell.vertices()[static_cast<std::size_t>(anchor)];
-      good = [&](const Point3& v) {
+      const Point3 &a = complex.points[e.a], &b = complex.points[e.b], &s = *anchor;
+      good = [&complex, &e, &a, &b, s](const Point3& v) {
         return std::all_of(e.pieces.begin(), e.pieces.end(), [&](auto t) {
           const auto& c = complex.pieces[t].corners;
           const auto third = *std::find_if(c.begin(), c.end(), [&](auto i) { return i != e.a && i != e.b; });
@@ -104,9 +188,9 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
       return walk;
     }
     const exact::Hit& last = answer.hits.back();
-    const Point3 m = exact::collapsed(v + last.t * (p - v));
+    const Point3 m = last_crossing(v, p, last, good);
     const bool front = complex.planes[last.piece].oriented_side(p) == CGAL::ON_POSITIVE_SIDE;
-    walk.legs.push_back({m, p, last.piece, front});
+    walk.legs.push_back({m, p, last.piece, front, false});
     if (!rule_3_) return walk;
     p = m;
     surface = SurfaceSide{last.piece, front};
@@ -115,7 +199,7 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
 }
 
 Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const {
-  if (walk.ends_at_cell) return Meets::yes;
+  if (walk.ends_at_cell || walk.unresolved) return Meets::yes;
   Meets result = Meets::no;
   const auto note = [&](Meets m) {
     if (m == Meets::yes || (m == Meets::degenerate && result == Meets::no)) result = m;
@@ -152,13 +236,19 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
         const auto& c = complex.pieces[t].corners;
         return on_plane(c[0]) && on_plane(c[1]) && on_plane(c[2]);
       };
-      if (h.oriented_side(leg.m) == CGAL::ON_ORIENTED_BOUNDARY && holds_piece(leg.piece)) return true;
+      if (h.oriented_side(leg.m) == CGAL::ON_ORIENTED_BOUNDARY) {
+        if (holds_piece(leg.piece)) return true;
+        if (leg.from_edge) {  // a wedge through the edge itself runs outside the groove
+          const auto& edges = complex.piece_edges[leg.piece];
+          return std::any_of(edges.begin(), edges.end(), [&](auto e) { return on_plane(complex.edges[e].a) && on_plane(complex.edges[e].b); });
+        }
+      }
       if (h.oriented_side(leg.p) != CGAL::ON_ORIENTED_BOUNDARY) return false;
       if (!at_start) return true;  // p is the m of the leg before, and was looked at there
       if (start.contour) return on_plane(complex.edges[start.contour->edge].a) && on_plane(complex.edges[start.contour->edge].b);
       return start.surface && holds_piece(start.surface->piece);
     }));
-    if (result != Meets::yes) upon(leg.piece, leg.front, leg.m);
+    if (result != Meets::yes && !leg.from_edge) upon(leg.piece, leg.front, leg.m);
   }
   return result;
 }

@@ -4,6 +4,11 @@
 // outright. Otherwise the last crossing m and p bound a leg, and the walk goes on from m, on the side that faces p, with a v strictly on that side.
 // It ends at the cell (visible) or at a surface that the cell does not face (hidden). The label is: visible if the walk ends
 // at the cell, or if any leg crosses a valid wedge piece from H+ to H-, or if one lies upon the surface where a leg starts.
+// A walk into a groove that no point of V looks into along its edge would go on for ever, from one wall to the other, towards the
+// edge: T3 orders points, but an order of points may descend without end (definition, D14 says the recursion ends). Beside the edge all is hidden:
+// a chain of D9 that comes to such a place came from a place still nearer to the edge, and so never began at V. So the walk
+// ends there, hidden, with a leg from the edge.
+//
 // So walks are made once, and only their legs are looked at again when new wedge pieces appear (D17a).
 #pragma once
 
@@ -22,10 +27,12 @@ struct Leg {
   exact::Point3 m, p;
   std::uint32_t piece = 0;  // the surface at m
   bool front = true;        // its side that faces p
+  bool from_edge = false;   // m is on an edge of the piece, and stands for the space beside it (see Walker::walk)
 };
 
 struct Walk {
   bool ends_at_cell = false;
+  bool unresolved = false;  // never ends: the label is visible, as a counted fallback
   std::vector<Leg> legs;  // from p towards the cell
 };
 
@@ -56,8 +63,15 @@ class Walker {
   bool label(const Start& start, const WedgeSet& wedges, std::uint64_t seed) const;
 
  private:
-  // A point v of int V near cell vertex `anchor` (or anywhere, if negative) that satisfies the predicate; it must hold near the anchor.
-  exact::Point3 choose(std::uint64_t seed, int anchor, const std::function<bool(const exact::Point3&)>& good) const;
+  using Good = std::function<bool(const exact::Point3&)>;
+  // A point v of int V near `anchor` (or anywhere) that satisfies the predicate; it must hold near the anchor.
+  exact::Point3 choose(std::uint64_t seed, const std::optional<exact::Point3>& anchor, const Good& good) const;
+  // A point of V strictly on the given side of the piece's plane, and, if `also` is given, on that side of that plane too; none when V has no such point.
+  std::optional<exact::Point3> anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const;
+  // The last leg of a walk that runs into the groove between two pieces for ever.
+  std::optional<Leg> groove_leg(const Walk& walk) const;
+  exact::Point3 last_crossing(const exact::Point3& v, const exact::Point3& p, const exact::Hit& hit,
+                              const Good& good) const;
   // The cell vertex farthest out on that side of the piece's plane; -1 when V has no point strictly there.
   int anchor_beyond(const SurfaceSide& side) const;
 

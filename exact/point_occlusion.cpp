@@ -1,0 +1,202 @@
+// The point-occlusion oracle (D18). Directions that reach V through one of its front facets are a convex cone; a piece of it is
+// searched by an interior sight line: free, or blocked by a triangle whose shadow is then cut out of the piece.
+#include "exact/point_occlusion.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "exact/direction_cone.h"
+#include "exact/planar_occlusion.h"
+#include "exact/sight_segment.h"
+#include "scene/error.h"
+
+namespace clues::exact {
+namespace {
+
+bool allowed(const std::optional<Plane3>& side, const Point3& v) {
+  return !side || side->oriented_side(v) == CGAL::ON_POSITIVE_SIDE;
+}
+
+// A point of int V strictly on the positive side: next to a vertex that is there.
+std::optional<Point3> interior_point_on_side(const ConvexCell& cell, const std::optional<Plane3>& side) {
+  const auto& vertices = cell.vertices();
+  const auto at = std::find_if(vertices.begin(), vertices.end(), [&](const Point3& v) { return allowed(side, v); });
+  if (at == vertices.end()) return std::nullopt;
+  Point3 v = cell.center();
+  while (!allowed(side, v)) v = CGAL::midpoint(v, *at);
+  return v;
+}
+
+std::vector<Point3> corners_of(const ConvexCell& cell, const CellFacet& facet) {
+  std::vector<Point3> corners;
+  for (const int i : facet.corners) corners.push_back(cell.vertices()[static_cast<std::size_t>(i)]);
+  return corners;
+}
+
+class ConeSearch {
+ public:
+  ConeSearch(const Point3& p, const ConvexCell& cell, const std::vector<TriangleCorners>& triangles)
+      : p_(p), cell_(cell), triangles_(triangles), solid_(cell.dimension() == 3) {}
+
+  // v in int V seen from p through the facet, on the positive side; complete up to single points of creases on a flat cell.
+  std::optional<Point3> search(const Plane3& plane, const std::vector<Point3>& corners,
+                               const std::optional<Plane3>& side) {
+    std::optional<DirectionCone> start = cone_of(corners, p_);
+    if (start && side) start = clipped(*start, side->orthogonal_vector());
+    if (!start) return std::nullopt;
+    plane_ = plane;
+    shadows_.assign(triangles_.size(), std::nullopt);
+    std::vector<DirectionCone> pieces{std::move(*start)};
+    while (!pieces.empty()) {
+      const DirectionCone piece = std::move(pieces.back());
+      pieces.pop_back();
+      Vector3 direction;
+      const DirectionCone* shadow = nullptr;
+      // A triangle whose shadow is flat can block this line, but not the piece: take another line.
+      for (int t = 1; !shadow; ++t) {
+        direction = interior_direction(piece, t);
+        bool blocked = false;
+        shadow = best_shadow(piece, entry(direction), blocked);
+        if (!blocked) return beyond(direction);
+      }
+      for (DirectionCone& part : difference(piece, *shadow)) pieces.push_back(std::move(part));
+    }
+    return std::nullopt;
+  }
+
+ private:
+  // Of the triangles that block the line from p to `end`, the shadow that covers most of the piece; null if all are flat.
+  const DirectionCone* best_shadow(const DirectionCone& piece, const Point3& end, bool& blocked) {
+    const DirectionCone* best = nullptr;
+    std::size_t best_count = 0;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      if (!blocks(triangles_[i], end, solid_, p_)) continue;
+      blocked = true;
+      if (!shadows_[i]) {
+        shadows_[i] = cone_of(clipped({triangles_[i].begin(), triangles_[i].end()}, plane_), p_);
+      }
+      if (!*shadows_[i]) continue;
+      const std::size_t count = rays_inside(piece, **shadows_[i]);
+      if (!best || count > best_count) {
+        best = &**shadows_[i];
+        best_count = count;
+      }
+      if (best_count == piece.rays.size()) break;
+    }
+    return best;
+  }
+
+  Point3 entry(const Vector3& direction) const { return reach(direction, plane_); }
+
+  Point3 reach(const Vector3& direction, const Plane3& plane) const {
+    const Vector3 normal = plane.orthogonal_vector();
+    const FT at_p = CGAL::scalar_product(normal, p_ - CGAL::ORIGIN) + plane.d();
+    return p_ - direction * (at_p / CGAL::scalar_product(normal, direction));
+  }
+
+  // The middle of the ray's part in V; for a flat cell the point where the ray meets it.
+  Point3 beyond(const Vector3& direction) const {
+    const Point3 in = entry(direction);
+    if (!solid_) return in;
+    std::optional<Point3> out;
+    for (const CellFacet& facet : cell_.facets()) {
+      if (CGAL::sign(CGAL::scalar_product(facet.plane.orthogonal_vector(), direction)) != CGAL::POSITIVE) continue;
+      const Point3 x = reach(direction, facet.plane);
+      if (!out || CGAL::scalar_product(x - *out, direction) < 0) out = x;
+    }
+    return CGAL::midpoint(in, *out);
+  }
+
+  const Point3& p_;
+  const ConvexCell& cell_;
+  const std::vector<TriangleCorners>& triangles_;
+  bool solid_;  // of dimension 3: V's surface is outside int V, so triangles on it block
+  Plane3 plane_;
+  std::vector<std::optional<std::optional<DirectionCone>>> shadows_;  // per triangle, when asked for
+};
+
+bool free_of(const std::vector<TriangleCorners>& triangles, const Point3& end, bool closed, const Point3& p) {
+  return std::none_of(triangles.begin(), triangles.end(),
+                      [&](const TriangleCorners& t) { return blocks(t, end, closed, p); });
+}
+
+// On a flat cell the points of int V that lie on a triangle can be seen although nothing around them is: along the crease where
+// triangles stand on the cell. Complete for the points on triangles that are not in the cell's plane.
+std::optional<Point3> free_point_on_creases(const Point3& p, const std::optional<Plane3>& side, const ConvexCell& cell,
+                                            const std::vector<TriangleCorners>& triangles) {
+  const Plane3& plane = cell.facets()[0].plane;
+  const std::vector<Point3> polygon = corners_of(cell, cell.facets()[0]);
+  for (const TriangleCorners& t : triangles) {
+    std::vector<Point3> foot = clipped(clipped(std::vector<Point3>(t.begin(), t.end()), plane), plane.opposite());
+    if (foot.size() > 2) continue;  // in the plane: blocks nothing
+    for (std::size_t i = 0; i < polygon.size() && foot.size() == 2; ++i) {
+      const Point3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      const Plane3 wall(a, CGAL::cross_product(plane.orthogonal_vector(), b - a));
+      const bool keep0 = !wall.has_on_negative_side(foot[0]), keep1 = !wall.has_on_negative_side(foot[1]);
+      if (keep0 && keep1) continue;
+      if (!keep0 && !keep1) {
+        foot.clear();
+        break;
+      }
+      // A polygon of two corners is walked both ways: the crossing comes twice.
+      const Point3 inner = keep0 ? foot[0] : foot[1];
+      const std::vector<Point3> part = clipped(foot, wall);
+      const auto other = std::find_if(part.begin(), part.end(), [&](const Point3& x) { return x != inner; });
+      foot = other == part.end() ? std::vector<Point3>{inner} : std::vector<Point3>{inner, *other};
+    }
+    for (const Point3& v : foot) {
+      if (cell.interior_contains(v) && allowed(side, v) && free_of(triangles, v, false, p)) return v;
+    }
+    if (foot.size() == 2 && cell.interior_contains(CGAL::midpoint(foot[0], foot[1]))) {
+      if (auto v = free_point_of_segment(p, side, foot[0], foot[1], triangles)) return v;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Point3> free_point(const Point3& p, const std::optional<Plane3>& side, const ConvexCell& cell,
+                                 const std::vector<TriangleCorners>& triangles) {
+  const auto& vertices = cell.vertices();
+  if (cell.dimension() == 0 || (cell.dimension() == 1 && CGAL::collinear(vertices[0], vertices[1], p))) {
+    // One line of sight. A segment seen end on is entered at its nearer end, which is outside its relative interior.
+    if (!allowed(side, cell.center())) return std::nullopt;
+    const bool segment = cell.dimension() == 1;
+    const bool first = CGAL::has_smaller_distance_to_point(p, vertices.front(), vertices.back());
+    const Point3& end = first ? vertices.front() : vertices.back();
+    return free_of(triangles, end, segment, p) ? std::optional<Point3>(cell.center()) : std::nullopt;
+  }
+  if (cell.dimension() == 1) return free_point_of_segment(p, side, vertices[0], vertices[1], triangles);
+
+  ConeSearch cones(p, cell, triangles);
+  if (cell.dimension() == 2) {
+    const CellFacet& facet = cell.facets()[0];
+    if (facet.plane.has_on(p)) return free_point_of_polygon(p, side, corners_of(cell, facet), triangles);
+    const bool front = facet.plane.has_on_positive_side(p);
+    if (auto v = cones.search(front ? facet.plane : facet.plane.opposite(), corners_of(cell, facet), side)) return v;
+    return free_point_on_creases(p, side, cell, triangles);
+  }
+  for (const CellFacet& facet : cell.facets()) {
+    if (!facet.plane.has_on_positive_side(p)) continue;
+    if (auto v = cones.search(facet.plane, corners_of(cell, facet), side)) return v;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+OcclusionAnswer point_occlusion(const Point3& p, const std::optional<Plane3>& side, const ConvexCell& cell,
+                                const std::vector<TriangleCorners>& triangles) {
+  if (side && !side->has_on(p)) {
+    throw scene::Error(scene::ErrorCode::bad_argument, "point_occlusion: p must lie in the plane of its side");
+  }
+  if (cell.contains(p)) return {false, interior_point_on_side(cell, side)};
+  std::optional<Point3> v = free_point(p, side, cell, triangles);
+  if (!v) return {true, std::nullopt};
+  *v = collapsed(*v);
+  if (!cell.interior_contains(*v) || !allowed(side, *v)) {
+    throw scene::Error(scene::ErrorCode::internal, "point_occlusion: the sight line found does not start in the cell");
+  }
+  return {false, v};
+}
+
+}  // namespace clues::exact
