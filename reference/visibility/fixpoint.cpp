@@ -48,8 +48,9 @@ struct Source {
 
 // A sector waiting to become valid pieces: either a contour edge seen from a touching cell vertex, or a sector of an apex.
 struct Job {
-  std::size_t source = 0;
+  std::size_t contour = 0;
   int touching = -1;  // index into ContourEdge::touching; -1: an apex sector
+  Point3 lo, hi;      // the part of the contour edge
   Apex* apex = nullptr;
   std::size_t sector = 0;
   std::shared_ptr<const OnWedge>* slot = nullptr;
@@ -100,6 +101,13 @@ class Search {
       wedges_.add(std::move(batch));
       for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
       jobs = light(newly_lit(first));
+    }
+
+    // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
+    wedges_ = WedgeSet(scene_);
+    wedges_.add(build(merged_jobs()));
+    for (const ValidPiece& piece : wedges_.pieces()) {
+      for (const std::uint32_t e : piece.on_wedge->coplanar_edges) cut_coplanar(piece, e);
     }
 
     bool changed = false;
@@ -181,7 +189,7 @@ class Search {
       s.lit = true;
       const ContourEdge& c = contours_[s.contour];
       for (int k = 0; k < static_cast<int>(c.touching.size()); ++k) {
-        jobs.push_back({i, k, nullptr, 0, &edge_wedges_[s.contour][static_cast<std::size_t>(k)]});
+        jobs.push_back({s.contour, k, s.lo, s.hi, nullptr, 0, &edge_wedges_[s.contour][static_cast<std::size_t>(k)]});
       }
       const exact::Edge& e = complex_.edges[c.edge];
       for (const auto& [end, other] : {std::pair(e.a, e.b), std::pair(e.b, e.a)}) {
@@ -205,8 +213,32 @@ class Search {
         beyond_limit_.push_back(apex->x());
         continue;
       }
-      for (const std::size_t k : apex->new_sectors()) jobs.push_back({0, -1, apex, k, &apex->sectors()[k].on_wedge});
+      for (const std::size_t k : apex->new_sectors()) jobs.push_back({0, -1, {}, {}, apex, k, &apex->sectors()[k].on_wedge});
     }
+    return jobs;
+  }
+
+  // All wedges of the round, with one job for each maximal visible part of a contour edge.
+  std::vector<Job> merged_jobs() {
+    std::vector<Job> jobs;
+    for (std::size_t i = 0; i < sources_.size();) {
+      std::size_t j = i;
+      while (j < sources_.size() && sources_[j].contour == sources_[i].contour && sources_[j].lit) ++j;
+      if (j > i) {
+        const std::size_t c = sources_[i].contour;
+        for (int k = 0; k < static_cast<int>(contours_[c].touching.size()); ++k) {
+          jobs.push_back({c, k, sources_[i].lo, sources_[j - 1].hi, nullptr, 0, &edge_wedges_[c][static_cast<std::size_t>(k)]});
+        }
+      }
+      i = std::max(j, i + 1);
+    }
+    const auto add = [&jobs](Apex& apex) {
+      for (std::size_t k = 0; k < apex.sectors().size(); ++k) {
+        if (apex.sectors()[k].built) jobs.push_back({0, -1, {}, {}, &apex, k, &apex.sectors()[k].on_wedge});
+      }
+    };
+    for (auto& [key, apex] : corners_) add(*apex);
+    for (auto& [key, apex] : csvs_) add(*apex);
     return jobs;
   }
 
@@ -223,7 +255,7 @@ class Search {
       if (!job.apex->on_edge()) out.on_plane = {job.apex->id()};
       return out;
     }
-    const ContourEdge& c = contours_[sources_[job.source].contour];
+    const ContourEdge& c = contours_[job.contour];
     const exact::Edge& e = complex_.edges[c.edge];
     out.plane = c.plane;
     out.center = scene_.cell().vertices()[static_cast<std::size_t>(c.touching[static_cast<std::size_t>(job.touching)])];
@@ -259,8 +291,7 @@ class Search {
     const std::shared_ptr<const OnWedge>& on = *job.slot;
     std::vector<Strip> strips = on->strips;
     if (job.touching >= 0) {
-      const Source& s = sources_[job.source];
-      Spot lo{s.lo, on->frame(s.lo)}, hi{s.hi, on->frame(s.hi)};
+      Spot lo{job.lo, on->frame(job.lo)}, hi{job.hi, on->frame(job.hi)};
       if (CGAL::orientation(on->center, lo.q, hi.q) == CGAL::RIGHT_TURN) std::swap(lo, hi);
       strips = strips_between(*on, lo, hi);
     }
@@ -269,7 +300,7 @@ class Search {
       if (options_.planted_bug == PlantedBug::rounded_comparison && is_narrow(strip, sector.center)) continue;
       ValidPiece piece{{}, on, strip};
       Wedge& w = piece.wedge;
-      w.kind = job.touching < 0 ? WedgeKind::se_mv : contours_[sources_[job.source].contour].touching.size() > 1 ? WedgeKind::se_me : WedgeKind::sv_me;
+      w.kind = job.touching < 0 ? WedgeKind::se_mv : contours_[job.contour].touching.size() > 1 ? WedgeKind::se_me : WedgeKind::sv_me;
       w.generation = job.touching < 0 ? job.apex->generation : 0;
       w.plane = sector.plane;
       w.center = sector.center;
@@ -302,7 +333,6 @@ class Search {
       if (!c.at_vertex) new_cuts_[c.id].push_back(c.at.p);
       add_csv(piece, c);
     }
-    for (const std::uint32_t e : on.coplanar_edges) cut_coplanar(piece, e);
   }
 
   void add_csv(const ValidPiece& piece, const Crossing& c) {

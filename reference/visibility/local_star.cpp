@@ -112,43 +112,41 @@ std::vector<int> LocalStar::face_of(const Vector3& d) const {
     const int component = component_[first];
     if (std::find(done.begin(), done.end(), component) != done.end()) continue;
     done.push_back(component);
-    // Go from d towards a point of the component; the first arc met tells the face. A path through a node tells nothing:
-    // aim at another point.
-    const Vector3 &p = nodes_[static_cast<std::size_t>(arcs_[first].a)], &q = nodes_[static_cast<std::size_t>(arcs_[first].b)];
-    bool found = false;
-    for (int aim = 1; aim < 64 && !found; ++aim) {
-      const Vector3 target = FT(aim) * p + FT(1 + (aim * 7) % 11) * q;
-      bool clean = true;
-      int side = -1;
-      FT nearest(2);
-      for (std::size_t i = 0; i < arcs_.size() && clean; ++i) {
-        if (component_[i] != component) continue;
-        const Arc& arc = arcs_[i];
-        const FT at_d = arc.normal * d, at_target = i == first ? FT(0) : arc.normal * target;
-        const CGAL::Sign sd = CGAL::sign(at_d), st = CGAL::sign(at_target);
-        if (sd == CGAL::ZERO) {
-          clean = st != CGAL::ZERO;
-          continue;
-        }
-        if (sd == st) continue;
-        const FT t = at_d / (at_d - at_target);
-        const Vector3 y = (FT(1) - t) * d + t * target;
-        const Vector3 &a = nodes_[static_cast<std::size_t>(arc.a)], &b = nodes_[static_cast<std::size_t>(arc.b)];
-        if (!in_arc(a, b, arc.normal, y)) continue;
-        if (CGAL::is_zero(arc.normal * CGAL::cross_product(a, y)) || CGAL::is_zero(arc.normal * CGAL::cross_product(y, b))) {
-          clean = false;
-        } else if (t < nearest) {
-          nearest = t;
-          side = static_cast<int>(2 * i) + (sd == CGAL::POSITIVE ? 0 : 1);
-        }
-      }
-      if (!clean || side < 0) continue;
-      name.push_back(root(side));
-      found = true;
+    // Go from d, or from a direction beside it, towards a point of the component; the first arc met tells the face. A path
+    // through a node or along an arc tells nothing: take another.
+    std::optional<int> side = side_met(d, first);
+    for (int attempt = 1; !side && attempt < 64; ++attempt) {
+      side = side_met(nudged(d, Vector3(attempt % 7 - 3, (attempt * 3) % 11 - 5, (attempt * 5) % 13 - 6)), first, attempt);
     }
-    if (!found) throw scene::Error(scene::ErrorCode::internal, "local star: no clean path to an incident piece");
+    if (!side) throw scene::Error(scene::ErrorCode::internal, "local star: no clean path to an incident piece");
+    name.push_back(root(*side));
   }
   return name;
+}
+
+std::optional<int> LocalStar::side_met(const Vector3& d, std::size_t aim_arc, int aim) const {
+  const Vector3 target = FT(1 + aim) * nodes_[static_cast<std::size_t>(arcs_[aim_arc].a)] +
+                         FT(1 + (aim * 7) % 11) * nodes_[static_cast<std::size_t>(arcs_[aim_arc].b)];
+  std::optional<int> side;
+  FT nearest(2);
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    if (component_[i] != component_[aim_arc]) continue;
+    const Arc& arc = arcs_[i];
+    const FT at_d = arc.normal * d, at_target = i == aim_arc ? FT(0) : arc.normal * target;
+    const CGAL::Sign sd = CGAL::sign(at_d), st = CGAL::sign(at_target);
+    if (sd == CGAL::ZERO && st == CGAL::ZERO) return std::nullopt;
+    if (sd == CGAL::ZERO || sd == st) continue;
+    const FT t = at_d / (at_d - at_target);
+    const Vector3 y = (FT(1) - t) * d + t * target;
+    const Vector3 &a = nodes_[static_cast<std::size_t>(arc.a)], &b = nodes_[static_cast<std::size_t>(arc.b)];
+    if (!in_arc(a, b, arc.normal, y)) continue;
+    if (CGAL::is_zero(arc.normal * CGAL::cross_product(a, y)) || CGAL::is_zero(arc.normal * CGAL::cross_product(y, b))) return std::nullopt;
+    if (t < nearest) {
+      nearest = t;
+      side = static_cast<int>(2 * i) + (sd == CGAL::POSITIVE ? 0 : 1);
+    }
+  }
+  return side;
 }
 
 bool LocalStar::free_between(const Vector3& d0, const Vector3& d1) const {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "exact/complex.h"
@@ -37,6 +38,8 @@ class LocalStar {
   };
   void finish();  // joins the two sides of arcs into faces
   int root(int side) const;
+  // The arc side first met from d on the way to a point of an arc, within that arc's component; none if the way is not clean.
+  std::optional<int> side_met(const exact::Vector3& d, std::size_t aim_arc, int aim = 0) const;
 
   std::vector<exact::Vector3> nodes_;
   std::vector<Arc> arcs_;
