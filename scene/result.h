@@ -16,7 +16,7 @@ struct MapRegion {
   std::uint32_t triangle = 0;
   bool front = true;
   bool visible = true;
-  std::string area_fraction;  // exact part of the triangle's area, "p/q"
+  std::string area_fraction;                                         // exact part of the triangle's area, "p/q"
   std::vector<std::vector<std::array<std::string, 3>>> rings_exact;  // outer ring first, then holes
   std::vector<std::vector<Point>> rings;
 };
@@ -41,10 +41,10 @@ struct Result {
   std::string scene_file, scene_sha256;
   std::uint64_t scene_triangles = 0;
   std::vector<Point> cell;
-  std::string method = "first-order";  // or "backprojected"
-  std::string kernel = "exact";        // or "fast"
-  std::string mode = "sheet";          // or "solid"
-  std::vector<std::uint32_t> visible;  // sorted, unique
+  std::string method = "first-order";         // or "backprojected"
+  std::string kernel = "exact";               // or "fast"
+  std::string mode = "sheet";                 // or "solid"
+  std::vector<std::uint32_t> visible;         // sorted, unique
   std::map<std::string, std::int64_t> stats;  // always holds "conservative_fallbacks"
   bool has_map = false;
   std::vector<MapRegion> regions;

@@ -1,0 +1,102 @@
+// What the tests of scene/ share: a folder of their own, bits of doubles, and a look at the error that is thrown.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/error.h"
+#include "scene/mesh.h"
+#include "scene/mesh_io.h"
+
+namespace clues::tests {
+
+// testing::TempDir()/clues-SUITE-TEST, empty at the start and removed at the end.
+class TestFolder {
+ public:
+  TestFolder() {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    auto name = std::string("clues-") + test->test_suite_name() + "-" + test->name();
+    for (char& c : name) {
+      if (c == '/') c = '-';
+    }
+    path_ = std::filesystem::path(testing::TempDir()) / name;
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
+  ~TestFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  const std::filesystem::path& path() const { return path_; }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+  std::string write(const std::string& name, std::string_view bytes) const {
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return file(name);
+  }
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(path_)) names.push_back(entry.path().filename());
+    return names;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string read_all(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline scene::TriangleMesh mesh_of(const std::string& name, std::string_view bytes) {
+  const TestFolder folder;
+  return scene::read_mesh(folder.write(name, bytes));
+}
+
+inline std::vector<std::uint64_t> bits_of(const std::vector<scene::Point>& points) {
+  std::vector<std::uint64_t> bits;
+  for (const auto& point : points) {
+    for (const double coordinate : point) bits.push_back(std::bit_cast<std::uint64_t>(coordinate));
+  }
+  return bits;
+}
+
+// Appends the value's bytes in the given order.
+template <class Value>
+void append(std::string& bytes, Value value, std::endian order) {
+  auto text = std::string(reinterpret_cast<const char*>(&value), sizeof(Value));
+  if (order != std::endian::native) text = std::string(text.rbegin(), text.rend());
+  bytes += text;
+}
+
+// Code and text of the Error that the call throws; fails the test if it throws none.
+struct Thrown {
+  scene::ErrorCode code = scene::ErrorCode::internal;
+  std::string text;
+};
+
+template <class Call>
+Thrown thrown_by(Call call) {
+  try {
+    call();
+  } catch (const scene::Error& error) {
+    return {error.code(), error.what()};
+  }
+  ADD_FAILURE() << "no Error was thrown";
+  return {};
+}
+
+}  // namespace clues::tests
