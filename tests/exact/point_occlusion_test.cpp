@@ -1,0 +1,214 @@
+// D18: the point-occlusion oracle against closed forms, touching and flat cases (D3, D5).
+#include "exact/point_occlusion.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/error.h"
+
+namespace clues::exact {
+namespace {
+
+using Soup = std::vector<TriangleCorners>;
+
+ConvexCell box(int x0, int y0, int z0, int x1, int y1, int z1) {
+  std::vector<Point3> points;
+  for (int i = 0; i < 8; ++i) points.emplace_back(i & 1 ? x1 : x0, i & 2 ? y1 : y0, i & 4 ? z1 : z0);
+  return ConvexCell(points);
+}
+
+// The rectangle [y0,y1] x [z0,z1] at x as two triangles.
+void add_screen(Soup& soup, const FT& x, const FT& y0, const FT& z0, const FT& y1, const FT& z1) {
+  soup.push_back({Point3(x, y0, z0), Point3(x, y1, z0), Point3(x, y1, z1)});
+  soup.push_back({Point3(x, y0, z0), Point3(x, y1, z1), Point3(x, y0, z1)});
+}
+
+Soup screen(const FT& x, const FT& y0, const FT& z0, const FT& y1, const FT& z1) {
+  Soup soup;
+  add_screen(soup, x, y0, z0, y1, z1);
+  return soup;
+}
+
+bool occluded(const Point3& p, const ConvexCell& cell, const Soup& soup, std::optional<Plane3> side = std::nullopt) {
+  const auto answer = point_occlusion(p, side, cell, soup);
+  if (!answer.occluded && answer.witness) {
+    EXPECT_TRUE(cell.interior_contains(*answer.witness));
+  }
+  EXPECT_FALSE(answer.occluded && answer.witness);
+  return answer.occluded;
+}
+
+const ConvexCell cell = box(-2, -1, -1, -1, 1, 1);
+const Point3 eye(1, 0, 0);  // the cell's front facet x = -1 is 2 away: it shades half its size at x = 0
+
+TEST(PointOcclusion, NothingInTheWay) { EXPECT_FALSE(occluded(eye, cell, {})); }
+
+TEST(PointOcclusion, AScreenOfExactlyTheShadowsSizeHides) {
+  const FT half = FT(1) / FT(2), little = FT(1) / FT(1000000);
+  EXPECT_TRUE(occluded(eye, cell, screen(0, -half, -half, half, half)));
+  EXPECT_FALSE(occluded(eye, cell, screen(0, -half, -half, half, half - little)));
+  EXPECT_FALSE(occluded(eye, cell, screen(0, -half + little, -half, half, half)));
+}
+
+TEST(PointOcclusion, TrianglesThatOnlyShareAnEdgeLeaveNoSlit) {
+  Soup soup;
+  for (int i = -2; i < 2; ++i) {
+    for (int j = -2; j < 2; ++j) add_screen(soup, 0, i, j, i + 1, j + 1);
+  }
+  EXPECT_TRUE(occluded(eye, cell, soup));
+}
+
+TEST(PointOcclusion, APinholeIsFound) {
+  // Four screens around a hole of side 2e, at an odd place.
+  const FT e = FT(1) / FT(1 << 20), y = FT(1) / FT(7), z = FT(-3) / FT(11);
+  Soup soup;
+  add_screen(soup, 0, -2, -2, y - e, 2);
+  add_screen(soup, 0, y + e, -2, 2, 2);
+  add_screen(soup, 0, y - e, -2, y + e, z - e);
+  add_screen(soup, 0, y - e, z + e, y + e, 2);
+  EXPECT_FALSE(occluded(eye, cell, soup));
+  add_screen(soup, FT(1) / FT(2), (y - e) / 2, (z - e) / 2, (y + e) / 2, (z + e) / 2);  // its exact plug, nearer
+  EXPECT_TRUE(occluded(eye, cell, soup));
+  soup.pop_back();
+  EXPECT_FALSE(occluded(eye, cell, soup));
+}
+
+TEST(PointOcclusion, GeometryBehindOrInsideTheCellDoesNotHide) {
+  EXPECT_FALSE(occluded(eye, cell, screen(-3, -9, -9, 9, 9)));
+  EXPECT_FALSE(occluded(eye, cell, screen(FT(-3) / FT(2), -9, -9, 9, 9)));  // through int V (D3)
+  EXPECT_FALSE(occluded(eye, cell, screen(2, -9, -9, 9, 9)));               // behind p
+}
+
+TEST(PointOcclusion, GeometryOnTheCellsSurfaceHides) {
+  EXPECT_TRUE(occluded(eye, cell, screen(-1, -1, -1, 1, 1)));
+  EXPECT_FALSE(occluded(eye, cell, screen(-1, -1, -1, 1, FT(1) / FT(2))));
+  // From a place that sees two facets both have to be covered.
+  const Point3 corner(1, 5, 0);
+  Soup soup = screen(-1, -1, -1, 1, 1);
+  EXPECT_FALSE(occluded(corner, cell, soup));
+  soup.push_back({Point3(-2, 1, -1), Point3(-1, 1, -1), Point3(-1, 1, 1)});
+  soup.push_back({Point3(-2, 1, -1), Point3(-1, 1, 1), Point3(-2, 1, 1)});
+  EXPECT_TRUE(occluded(corner, cell, soup));
+}
+
+TEST(PointOcclusion, TrianglesThatTouchP) {
+  // A face of the target: p inside, on its edge, at its corner, in a plane apart from the cell.
+  EXPECT_FALSE(occluded(eye, cell, screen(1, -1, -1, 1, 1)));
+  EXPECT_FALSE(occluded(eye, cell, screen(1, 0, 0, 1, 1)));
+  // Flat cones towards the cell: they block single lines, never all; the witness has to go around them.
+  Soup fins;
+  for (int i = -3; i <= 3; ++i) {
+    fins.push_back({eye, Point3(0, -4, i), Point3(0, 4, i)});
+    fins.push_back({eye, Point3(0, i, -4), Point3(0, i, 4)});
+    fins.push_back({eye, Point3(0, -4, -4 + i), Point3(0, 4, 4 + i)});
+  }
+  EXPECT_FALSE(occluded(eye, cell, fins));
+  // p on the edge of a triangle that reaches in front of it (a wall at right angles).
+  EXPECT_FALSE(occluded(eye, cell, {{Point3(1, 0, -1), Point3(1, 0, 1), Point3(0, 0, 0)}}));
+}
+
+TEST(PointOcclusion, APointOfTheCellIsSeen) {
+  const Soup soup = screen(-1, -9, -9, 9, 9);
+  EXPECT_FALSE(occluded(Point3(-1, 0, 0), cell, soup));
+  EXPECT_FALSE(occluded(Point3(FT(-3) / FT(2), 0, 0), cell, soup));
+  const auto away = point_occlusion(Point3(-1, 0, 0), Plane3(1, 0, 0, 1), cell, soup);
+  EXPECT_FALSE(away.occluded);
+  EXPECT_FALSE(away.witness.has_value());
+}
+
+TEST(PointOcclusion, TheSideRestrictsTheCell) {
+  // p in the plane z = 0 which halves the cell; the upper half is hidden.
+  const Soup upper = screen(0, -2, 0, 2, 2);
+  EXPECT_FALSE(occluded(eye, cell, upper));
+  EXPECT_TRUE(occluded(eye, cell, upper, Plane3(0, 0, 1, 0)));
+  EXPECT_FALSE(occluded(eye, cell, upper, Plane3(0, 0, -1, 0)));
+  // Nothing of the cell on that side.
+  EXPECT_TRUE(occluded(Point3(1, 0, 1), cell, {}, Plane3(0, 0, 1, -1)));
+  EXPECT_FALSE(occluded(Point3(1, 0, 1), cell, {}, Plane3(0, 0, -1, 1)));
+  EXPECT_THROW(occluded(eye, cell, {}, Plane3(0, 0, 1, -1)), scene::Error);
+}
+
+TEST(PointOcclusion, FlatCellSeenFromOutsideItsPlane) {
+  const ConvexCell flat({Point3(-1, -1, -1), Point3(-1, 1, -1), Point3(-1, 1, 1), Point3(-1, -1, 1)});
+  const FT half = FT(1) / FT(2);
+  EXPECT_FALSE(occluded(eye, flat, {}));
+  EXPECT_TRUE(occluded(eye, flat, screen(0, -half, -half, half, half)));
+  EXPECT_FALSE(occluded(eye, flat, screen(0, -half, -half, half, half - FT(1) / FT(1024))));
+  // In the cell's own plane: inside int V, so no occluder (D3), unlike on a solid cell.
+  EXPECT_FALSE(occluded(eye, flat, screen(-1, -9, -9, 9, 9)));
+}
+
+TEST(PointOcclusion, TheCreaseOfATentOnAFlatCellIsSeen) {
+  const ConvexCell flat({Point3(-1, -1, -1), Point3(-1, 1, -1), Point3(-1, 1, 1), Point3(-1, -1, 1)});
+  // Two half screens that lean on the cell along z = 0: all but the crease is hidden.
+  const auto leaning = [](int z) {
+    return Soup{{Point3(-1, -1, 0), Point3(-1, 1, 0), Point3(0, 3, z)},
+                {Point3(-1, -1, 0), Point3(0, 3, z), Point3(0, -3, z)}};
+  };
+  Soup tent = leaning(2);
+  EXPECT_FALSE(occluded(eye, flat, tent));
+  for (const auto& t : leaning(-2)) tent.push_back(t);
+  const auto answer = point_occlusion(eye, std::nullopt, flat, tent);
+  ASSERT_FALSE(answer.occluded);
+  EXPECT_EQ(answer.witness->z(), FT(0));
+  tent.push_back({Point3(0, -1, 0), Point3(0, 1, 0), Point3(0, 0, 1)});  // a knife edge over the crease: grazing blocks
+  EXPECT_TRUE(occluded(eye, flat, tent));
+}
+
+TEST(PointOcclusion, FlatCellSeenInItsPlane) {
+  const ConvexCell flat({Point3(-2, -1, 0), Point3(-1, -1, 0), Point3(-1, 1, 0), Point3(-2, 1, 0)});
+  const FT half = FT(1) / FT(2);
+  EXPECT_FALSE(occluded(eye, flat, {}));
+  EXPECT_TRUE(occluded(eye, flat,
+                       {{Point3(0, -half, -1), Point3(0, half, 1), Point3(0, -half, 1)},
+                        {Point3(0, -half, -1), Point3(0, half, -1), Point3(0, half, 1)}}));
+  // Only an edge reaches the plane, exactly as long as the shadow: closed, so it hides; shorter does not.
+  EXPECT_TRUE(occluded(eye, flat, {{Point3(0, -half, 0), Point3(0, half, 0), Point3(0, 0, 1)}}));
+  EXPECT_FALSE(occluded(eye, flat, {{Point3(0, -half, 0), Point3(0, half - FT(1) / FT(99), 0), Point3(0, 0, 1)}}));
+  // A triangle in the plane with its corner at p blocks the directions of its cone.
+  EXPECT_TRUE(occluded(eye, flat, {{eye, Point3(0, -1, 0), Point3(0, 1, 0)}}));
+  EXPECT_FALSE(occluded(eye, flat, {{eye, Point3(0, -1, 0), Point3(0, 0, 0)}}));
+  EXPECT_TRUE(occluded(eye, flat, {{Point3(2, -9, 0), Point3(2, 9, 0), Point3(0, 0, 0)}}));  // p inside it
+  EXPECT_FALSE(occluded(eye, flat, {{eye, Point3(2, -9, 0), Point3(2, 9, 0)}}));             // all behind p
+  // On the cell's edge: hides; in its interior: does not.
+  EXPECT_TRUE(occluded(eye, flat, {{Point3(-1, -1, 0), Point3(-1, 1, 0), Point3(-1, 0, 1)}}));
+  EXPECT_FALSE(occluded(eye, flat,
+                        {{Point3(FT(-3) / FT(2), -9, 0), Point3(FT(-3) / FT(2), 9, 0), Point3(FT(-3) / FT(2), 0, 1)}}));
+}
+
+TEST(PointOcclusion, SegmentCell) {
+  const ConvexCell segment({Point3(-1, -1, 0), Point3(-1, 1, 0)});
+  const FT half = FT(1) / FT(2);
+  EXPECT_FALSE(occluded(eye, segment, {}));
+  EXPECT_TRUE(occluded(eye, segment, {{Point3(0, -half, 0), Point3(0, half, 0), Point3(0, 0, 1)}}));
+  // The ends need not be hidden; anything inside must be.
+  EXPECT_FALSE(occluded(eye, segment, {{Point3(0, -half, 0), Point3(0, half - FT(1) / FT(99), 0), Point3(0, 0, 1)}}));
+}
+
+TEST(PointOcclusion, OneFreePointOfASegmentCellIsFound) {
+  const ConvexCell segment({Point3(-1, -1, 0), Point3(-1, 1, 0)});
+  // Each triangle stands on the segment and hides one half; the point where they meet is in int V and stays free.
+  Soup halves{{Point3(-1, 0, 0), Point3(0, -2, 0), Point3(-1, -2, 0)},
+              {Point3(-1, 0, 0), Point3(0, 2, 0), Point3(-1, 2, 0)}};
+  const auto answer = point_occlusion(eye, std::nullopt, segment, halves);
+  ASSERT_FALSE(answer.occluded);
+  EXPECT_EQ(*answer.witness, Point3(-1, 0, 0));
+  halves.push_back({Point3(0, 0, 0), Point3(0, 0, 1), Point3(0, 1, 1)});  // a corner grazes the last line
+  EXPECT_TRUE(occluded(eye, segment, halves));
+}
+
+TEST(PointOcclusion, SegmentSeenEndOnAndPointCell) {
+  const ConvexCell segment({Point3(-1, 0, 0), Point3(-2, 0, 0)});
+  const Soup at_end{{Point3(-1, 0, 0), Point3(-1, 1, 0), Point3(-1, 0, 1)}};
+  const Soup inside{{Point3(FT(-3) / FT(2), 0, 0), Point3(FT(-3) / FT(2), 1, 0), Point3(FT(-3) / FT(2), 0, 1)}};
+  EXPECT_FALSE(occluded(eye, segment, {}));
+  EXPECT_TRUE(occluded(eye, segment, at_end));
+  EXPECT_FALSE(occluded(eye, segment, inside));
+  const ConvexCell point({Point3(-1, 0, 0)});
+  EXPECT_FALSE(occluded(eye, point, at_end));  // the point itself is int V
+  EXPECT_TRUE(occluded(eye, point, {{Point3(0, 0, 0), Point3(0, 1, 0), Point3(0, 0, 1)}}));  // a corner grazes
+  EXPECT_FALSE(occluded(eye, point, {{eye, Point3(1, 1, 0), Point3(1, 0, 1)}}));
+  EXPECT_TRUE(occluded(eye, point, {{eye, Point3(0, 0, 0), Point3(0, 0, 1)}}));  // an edge along the line
+}
+
+}  // namespace
+}  // namespace clues::exact
