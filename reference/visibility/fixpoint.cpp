@@ -91,7 +91,7 @@ class Search {
 
     std::vector<std::size_t> lit;
     for (std::size_t i = 0; i < sources_.size(); ++i) {
-      if (sources_[i].walk.ends_at_cell) lit.push_back(i);
+      if (sources_[i].walk.ends_at_cell || sources_[i].walk.unresolved) lit.push_back(i);
     }
     std::vector<Job> jobs = light(lit);
     while (!jobs.empty()) {
@@ -336,7 +336,7 @@ class Search {
   }
 
   void add_csv(const ValidPiece& piece, const Crossing& c) {
-    if (options_.planted_bug == PlantedBug::retested_csv && !walker_.label({c.at.p, std::nullopt, nullptr}, wedges_, kSourceSeed)) return;
+    if (options_.planted_bug == PlantedBug::retested_csv && !walker_.label({c.at.p, std::nullopt, nullptr}, wedges_, kSourceSeed).visible) return;
     Apex* apex = c.at_vertex ? corner(c.id) : csv(c.id, c.at.p);
     const int generation = piece.wedge.generation + 1;
     if (apex->on_edge() && (apex->generation < 0 || generation < apex->generation)) apex->generation = generation;
@@ -402,6 +402,7 @@ class Search {
     for (const auto& [key, apex] : csvs_) statistics_.csv += std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
     for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
     statistics_.conservative_fallbacks += beyond_limit_.size();
+    for (const Source& s : sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
   }
 
   struct CsvLess {

@@ -79,7 +79,7 @@ Point2 inner_point(const Point2& a, const Point2& b, const Point2& c, std::size_
 Point2 inner_point(const std::vector<std::vector<Point2>>& rings, std::size_t which) {
   if (rings.size() == 1 && rings[0].size() == 3) return inner_point(rings[0][0], rings[0][1], rings[0][2], which);
   using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-  CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::No_constraint_intersection_tag> cdt;
+  CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::No_constraint_intersection_requiring_constructions_tag> cdt;
   for (const auto& ring : rings) cdt.insert_constraint(ring.begin(), ring.end(), true);
   std::vector<std::pair<FT, Point2>> by_size;
   for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
@@ -112,7 +112,7 @@ class SideMapper {
   struct Output {
     std::vector<Region> regions;
     std::vector<DmSegment> segments;
-    std::uint64_t walks = 0, disagreements = 0;
+    std::uint64_t walks = 0, disagreements = 0, fallbacks = 0;
   };
 
   Output map_side(std::uint32_t t, bool front) const {
@@ -245,10 +245,12 @@ class SideMapper {
       const Start start{r.sample, SurfaceSide{r.piece, r.front}, nullptr};
       ++out.walks;
       try {
-        r.visible = walker_.label(start, fixpoint_.wedges, kRegionSeed + which);
+        const Walker::Label label = walker_.label(start, fixpoint_.wedges, kRegionSeed + which);
+        r.visible = label.visible;
+        out.fallbacks += label.fallback;
         if (options_.check_two_walks) {
           ++out.walks;
-          out.disagreements += walker_.label(start, fixpoint_.wedges, kSecondSeed + which) != r.visible;
+          out.disagreements += walker_.label(start, fixpoint_.wedges, kSecondSeed + which).visible != r.visible;
         }
       } catch (const scene::Error&) {
         if (which < 8) continue;  // the sample itself lies in special position: take another
@@ -306,6 +308,7 @@ void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, cons
   for (SideMapper::Output& out : outputs) {
     map.statistics.walks += out.walks;
     map.statistics.walk_disagreements += out.disagreements;
+    map.statistics.conservative_fallbacks += out.fallbacks;
     for (Region& r : out.regions) {
       ++(r.visible ? map.statistics.regions_visible : map.statistics.regions_hidden);
       map.regions.push_back(std::move(r));

@@ -253,10 +253,11 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
   return result;
 }
 
-bool Walker::label(const Start& start, const WedgeSet& wedges, std::uint64_t seed) const {
+Walker::Label Walker::label(const Start& start, const WedgeSet& wedges, std::uint64_t seed) const {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    const Meets m = visible(start, walk(start, seed + static_cast<std::uint64_t>(attempt) * 7919), wedges, 0);
-    if (m != Meets::degenerate) return m == Meets::yes;
+    const Walk made = walk(start, seed + static_cast<std::uint64_t>(attempt) * 7919);
+    const Meets m = visible(start, made, wedges, 0);
+    if (m != Meets::degenerate) return {m == Meets::yes, made.unresolved};
   }
   throw scene::Error(scene::ErrorCode::internal, "walk: no walk in general position with the wedges");
 }

@@ -59,8 +59,12 @@ class Walker {
   // The label of the walk's start by the wedge pieces from index `first` on; degenerate: walk again with another seed.
   Meets visible(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const;
 
-  // Walks with seeds seed, seed+1, ... until one is in general position with all the wedges.
-  bool label(const Start& start, const WedgeSet& wedges, std::uint64_t seed) const;
+  struct Label {
+    bool visible = false;
+    bool fallback = false;  // visible only because the walk was unresolved
+  };
+  // Walks with one seed after another until a walk is in general position with all the wedges.
+  Label label(const Start& start, const WedgeSet& wedges, std::uint64_t seed) const;
 
  private:
   using Good = std::function<bool(const exact::Point3&)>;
