@@ -181,6 +181,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"NoTriangles", "a.stl", "solid\nendsolid\n", malformed, "", "no triangles"},
         BadScene{"NotStl", "a.stl", "hello", malformed, "", "neither"},
         BadScene{"BinaryCut", "a.stl", without_end(binary_stl_with(1), 1), malformed, "", "134"},
+        BadScene{"BinaryBytesLeft", "a.stl", binary_stl_with(1) + "x", malformed, "", "135"},
         BadScene{"BinaryNan", "a.stl", binary_stl_with(static_cast<float>(nan_value)), non_finite, ": face 0", " x "},
         BadScene{"AsciiCut", "a.stl", stl_start, malformed, ":6", "truncated"},
         BadScene{"NoEndsolid", "a.stl", stl_start + "vertex 0 1 0\nendloop\nendfacet\n", malformed, ":9", "endsolid"},

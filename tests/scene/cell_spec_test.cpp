@@ -142,10 +142,14 @@ TEST(Grid, BoundsAreTheNearestDoubles) {
   const auto tiny = parse_cells("grid:3x1x1:box:-0x1p-1074,0,0,0x2p-1074,1,1");
   EXPECT_EQ(tiny[1].points.front()[0], 0.0);
   EXPECT_EQ(tiny[2].points.front()[0], 0x1p-1074);
-  // 1/3 and 2/3 as division rounds them; half way between two doubles goes to the even one.
+  // As division rounds them.
   const auto thirds = parse_cells("grid:3x1x1:box:-1,0,0,0,1,1");
   EXPECT_EQ(thirds[1].points.front()[0], -2.0 / 3.0);
   EXPECT_EQ(thirds[2].points.front()[0], -1.0 / 3.0);
+  // These lie above the middle of two doubles, and below.
+  const auto fifths = parse_cells("grid:5x1x1:box:0,0,0,1,1,1");
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(fifths[i].points.front()[0], static_cast<double>(i) / 5.0);
+  // Half way between two doubles: the even one.
   const auto tie = parse_cells("grid:2x1x1:box:1,0,0,0x1.0000000000003p+0,1,1");
   EXPECT_EQ(tie[1].points.front()[0], 0x1.0000000000002p+0);
 }
