@@ -39,14 +39,14 @@ struct MappedCell {
   std::string summary;  // one line of the table
 };
 
-constexpr const char* table_head = "cell              triangles  wholly  partly  hidden  visible area  fallbacks\n";
+constexpr const char* table_head = "triangles  wholly  partly  hidden  visible area  fallbacks  cell\n";
 
 std::string table_line(const std::string& name, const reference::VisibilityMap& map) {
   const auto census = take_census(map);
   const double share =
       census.area_facing_estimate > 0 ? 100 * census.area_visible_estimate / census.area_facing_estimate : 0;
-  return fmt::format("{:<16}  {:>9}  {:>6}  {:>6}  {:>6}  {:>10.2f} %  {:>9}\n", name, map.complex.input_triangles,
-                     census.wholly, census.partly, census.hidden, share, map.statistics.conservative_fallbacks);
+  return fmt::format("{:>9}  {:>6}  {:>6}  {:>6}  {:>10.2f} %  {:>9}  {}\n", map.complex.input_triangles, census.wholly,
+                     census.partly, census.hidden, share, map.statistics.conservative_fallbacks, name);
 }
 
 bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" || out.extension() == ".txt"; }
@@ -116,7 +116,8 @@ void write_cells(const fs::path& folder, const std::vector<MappedCell>& mapped) 
   }
 }
 
-int run_map(const MapRequest& request) {
+int run_map(MapRequest request) {
+  while (request.out.size() > 1 && request.out.back() == '/') request.out.pop_back();  // "cells/" is the folder "cells"
   auto options = request.method.to_reference();
   if (request.cell.empty() == request.cells.empty()) {
     throw Error(ErrorCode::bad_argument, "give one of --cell and --cells (see `clues map --help`)");

@@ -74,8 +74,8 @@ TEST(Map, ManyCellsMakeOneFileEachAndTheSameBytes) {
   folder.write("scene.off", screen_scene);
   const std::string cells = "grid:2x1x2:box:-1,-1,-1,1,1,0";
   for (const std::string threads : {"1", "3"}) {
-    const auto ran =
-        run_clues({"map", "scene.off", "--cells", cells, "-o", "cells" + threads, "--threads", threads}, folder.path());
+    const auto ran = run_clues(
+        {"map", "scene.off", "--cells", cells, "-o", "cells" + threads + "/", "--threads", threads}, folder.path());
     ASSERT_EQ(ran.exit_code, 0) << ran.err;
   }
   for (const std::string name : {"cell-0-0-0", "cell-1-0-0", "cell-0-0-1", "cell-1-0-1"}) {
