@@ -45,7 +45,7 @@ class SectorBoxTest {
 class Envelope {
  public:
   Envelope(const Sector& sector, const exact::SceneQuery& scene)
-      : sector_(sector), complex_(scene.complex()), out_{PlaneFrame(sector.plane), {}, {}, {}, {}, {}, {}} {
+      : sector_(sector), complex_(scene.complex()), out_{PlaneFrame(sector.plane), {}, {}, {}, {}, {}, {}, {}} {
     for (const std::uint32_t p : sector.on_plane) side_of_[p] = CGAL::ON_ORIENTED_BOUNDARY;
     out_.center = out_.frame(sector.center);
     ray0_ = spot(sector.on_ray0);
@@ -113,9 +113,21 @@ class Envelope {
     }
     if (ends.size() != 2) return;  // touches the plane in one corner
     const CGAL::Orientation turn = CGAL::orientation(out_.center, ends[0].q, ends[1].q);
-    if (turn == CGAL::COLLINEAR) return;  // seen edge-on
+    if (turn == CGAL::COLLINEAR) {
+      add_radial(t, ends[0], ends[1]);
+      return;
+    }
     if (turn == CGAL::RIGHT_TURN) std::swap(ends[0], ends[1]);
     add_blocker({t, ends[0], ends[1]});
+  }
+
+  void add_radial(std::uint32_t t, Spot u, Spot w) {
+    if (!in_closed_sector(w.q)) std::swap(u, w);
+    if (!in_closed_sector(w.q)) return;
+    if (!in_closed_sector(u.q)) u = {sector_.center, out_.center};  // on the other side of the centre, or the centre
+    if (beyond(u.q) < 0 || beyond(w.q) < 0) return;
+    if (CGAL::has_larger_distance_to_point(out_.center, u.q, w.q)) std::swap(u, w);
+    out_.radials.push_back({t, u, w});
   }
 
   // Angular tests for points that may lie anywhere in the plane.

@@ -50,11 +50,19 @@ struct Crossing {
   Spot at;
 };
 
+// The trace of a piece that is seen edge-on from the centre. It blocks one ray, which is nothing, but the wedge cuts both sides of the
+// piece along it. u is nearer to the centre (or the centre itself).
+struct Radial {
+  std::uint32_t piece = 0;
+  Spot u, w;
+};
+
 struct OnWedge {
   PlaneFrame frame;
   exact::Point2 center;
   std::vector<Strip> strips;        // counter-clockwise, covering the sector
   std::vector<Blocker> blockers;
+  std::vector<Radial> radials;
   std::vector<Crossing> crossings;  // by edge, then vertices
   std::vector<std::uint32_t> coplanar_pieces;  // pieces in the plane that may meet the sector
   std::vector<std::uint32_t> coplanar_edges;   // edges in the plane that may meet it

@@ -102,6 +102,7 @@ class SideMapper {
         const bool front = scene.complex().planes[w.blocker].oriented_side(w.center) == CGAL::ON_POSITIVE_SIDE;
         traces_[{w.blocker, front}].push_back({w.far0, w.far1});
       }
+      add_radials(piece);
       for (const std::uint32_t t : piece.on_wedge->coplanar_pieces) {
         const bool front = CGAL::is_positive(scene.complex().planes[t].orthogonal_vector() * w.plane.orthogonal_vector());
         upon_[{t, front}].push_back(&piece);
@@ -187,6 +188,21 @@ class SideMapper {
   }
 
  private:
+  // A piece seen edge-on is cut on the side, or sides, on which the valid strip runs along it.
+  void add_radials(const ValidPiece& piece) {
+    const OnWedge& on = *piece.on_wedge;
+    for (const Radial& r : on.radials) {
+      const CGAL::Orientation after0 = CGAL::orientation(on.center, piece.strip.on_ray0.q, r.w.q);
+      const CGAL::Orientation before1 = CGAL::orientation(on.center, r.w.q, piece.strip.on_ray1.q);
+      if (after0 == CGAL::RIGHT_TURN || before1 == CGAL::RIGHT_TURN) continue;
+      if (!reaches(on, piece.strip, r.u.q) || !reaches(on, piece.strip, r.w.q)) continue;
+      const exact::Vector3 ccw = CGAL::cross_product(piece.wedge.plane.orthogonal_vector(), r.w.p - piece.wedge.center);
+      const bool front_is_ccw = CGAL::is_positive(scene_.complex().planes[r.piece].orthogonal_vector() * ccw);
+      if (before1 == CGAL::LEFT_TURN) traces_[{r.piece, front_is_ccw}].push_back({r.u.p, r.w.p});
+      if (after0 == CGAL::LEFT_TURN) traces_[{r.piece, !front_is_ccw}].push_back({r.u.p, r.w.p});
+    }
+  }
+
   // Antennas into a face are walked twice; they bound nothing.
   static std::vector<Point2> without_spurs(std::vector<Point2> ring) {
     for (bool changed = true; changed && ring.size() >= 3;) {
