@@ -53,7 +53,8 @@ bool is_even_permutation(const Corners& a, const Corners& b) {
 }
 
 int common_corners(const Corners& a, const Corners& b) {
-  return static_cast<int>(std::count_if(a.begin(), a.end(), [&](auto c) { return std::find(b.begin(), b.end(), c) != b.end(); }));
+  return static_cast<int>(
+      std::count_if(a.begin(), a.end(), [&](auto c) { return std::find(b.begin(), b.end(), c) != b.end(); }));
 }
 
 // Whether every corner of b that a lacks lies strictly on one side of a's plane: then they meet in common corners only.
@@ -148,8 +149,9 @@ Complex build_complex(const scene::TriangleMesh& mesh) {
   };
   for (std::size_t i = 0; i < sheets.size(); ++i) boxes.emplace_back(triangle3(sheets[i]).bbox(), i);
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
-                                [&](const SheetBox& a, const SheetBox& b) { pairs.push_back(std::minmax(a.sheet, b.sheet)); });
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const SheetBox& a, const SheetBox& b) {
+    pairs.push_back(std::minmax(a.sheet, b.sheet));
+  });
   std::sort(pairs.begin(), pairs.end());
   for (const auto& [i, j] : pairs) {
     const Sheet &a = sheets[i], &b = sheets[j];
@@ -190,16 +192,19 @@ Complex build_complex(const scene::TriangleMesh& mesh) {
       Piece piece;
       for (std::size_t k = 0; k < 3; ++k) piece.corners[k] = pool.id_of(face.corners[k]);
       for (const auto& [member, same_side] : face.owners) {
-        for (const Origin& o : sheets[sheet_ids[member]].origins) piece.origins.push_back({o.triangle, o.same_side == same_side});
+        for (const Origin& o : sheets[sheet_ids[member]].origins)
+          piece.origins.push_back({o.triangle, o.same_side == same_side});
       }
-      std::sort(piece.origins.begin(), piece.origins.end(), [](const Origin& x, const Origin& y) { return x.triangle < y.triangle; });
+      std::sort(piece.origins.begin(), piece.origins.end(),
+                [](const Origin& x, const Origin& y) { return x.triangle < y.triangle; });
       complex.pieces.push_back(std::move(piece));
     }
   }
 
   complex.points = pool.take();
   for (const Piece& p : complex.pieces) {
-    complex.planes.emplace_back(complex.points[p.corners[0]], complex.points[p.corners[1]], complex.points[p.corners[2]]);
+    complex.planes.emplace_back(complex.points[p.corners[0]], complex.points[p.corners[1]],
+                                complex.points[p.corners[2]]);
   }
   find_edges(complex);
   return complex;

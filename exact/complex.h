@@ -23,21 +23,21 @@ struct Piece {
 };
 
 struct Edge {
-  std::uint32_t a = 0, b = 0;            // a < b
-  std::vector<std::uint32_t> pieces;     // incident pieces, ascending
+  std::uint32_t a = 0, b = 0;         // a < b
+  std::vector<std::uint32_t> pieces;  // incident pieces, ascending
 };
 
 struct Complex {
   std::vector<Point3> points;
   std::vector<Piece> pieces;
-  std::vector<Plane3> planes;                              // per piece; positive side = front
-  std::vector<Edge> edges;                                 // ascending by (a, b)
-  std::vector<std::array<std::uint32_t, 3>> piece_edges;   // per piece: edges (c0c1, c1c2, c2c0)
-  std::vector<std::vector<std::uint32_t>> point_pieces;    // per point: incident pieces
-  std::vector<std::vector<std::uint32_t>> point_edges;     // per point: incident edges
-  std::vector<std::uint32_t> degenerate;                   // input ids without area: no surface
+  std::vector<Plane3> planes;                             // per piece; positive side = front
+  std::vector<Edge> edges;                                // ascending by (a, b)
+  std::vector<std::array<std::uint32_t, 3>> piece_edges;  // per piece: edges (c0c1, c1c2, c2c0)
+  std::vector<std::vector<std::uint32_t>> point_pieces;   // per point: incident pieces
+  std::vector<std::vector<std::uint32_t>> point_edges;    // per point: incident edges
+  std::vector<std::uint32_t> degenerate;                  // input ids without area: no surface
   std::uint64_t input_triangles = 0;
-  std::uint64_t refined_triangles = 0;                     // input triangles that had to be cut
+  std::uint64_t refined_triangles = 0;  // input triangles that had to be cut
 };
 
 // O(n log n + k) box tests for k box contacts, then the exact cuts: quadratic where every triangle meets every other.

@@ -13,20 +13,25 @@ namespace {
 
 using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>,
                                                  CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-using Cdt = CGAL::Constrained_triangulation_plus_2<CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::Exact_intersections_tag>>;
+using Cdt = CGAL::Constrained_triangulation_plus_2<
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::Exact_intersections_tag>>;
 
 bool inside(const std::array<Point2, 3>& t, const Point2& p) {
   const CGAL::Orientation o = CGAL::orientation(t[0], t[1], t[2]);
-  return CGAL::orientation(t[0], t[1], p) == o && CGAL::orientation(t[1], t[2], p) == o && CGAL::orientation(t[2], t[0], p) == o;
+  return CGAL::orientation(t[0], t[1], p) == o && CGAL::orientation(t[1], t[2], p) == o &&
+         CGAL::orientation(t[2], t[0], p) == o;
 }
 
 }  // namespace
 
 Point2 drop_axis(const Point3& p, int axis) {
   switch (axis) {
-    case 0: return {p.y(), p.z()};
-    case 1: return {p.z(), p.x()};
-    default: return {p.x(), p.y()};
+    case 0:
+      return {p.y(), p.z()};
+    case 1:
+      return {p.z(), p.x()};
+    default:
+      return {p.x(), p.y()};
   }
 }
 
@@ -64,7 +69,8 @@ Contact meet(const Kernel::Triangle_3& a, const Kernel::Triangle_3& b) {
   return contact;
 }
 
-std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& triangles, const std::vector<Contact>& contacts) {
+std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& triangles,
+                                  const std::vector<Contact>& contacts) {
   const Plane3 plane(triangles[0][0], triangles[0][1], triangles[0][2]);
   const int axis = dominant_axis(plane.orthogonal_vector());
   const auto lift = [&](const Point2& q) {  // the plane's point above q
@@ -97,7 +103,8 @@ std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& tria
     const Point2 middle = CGAL::centroid(p[0], p[1], p[2]);
     CutFace face;
     for (std::size_t m = 0; m < flat.size(); ++m) {
-      if (inside(flat[m], middle)) face.owners.emplace_back(m, CGAL::orientation(flat[m][0], flat[m][1], flat[m][2]) == CGAL::LEFT_TURN);
+      if (inside(flat[m], middle))
+        face.owners.emplace_back(m, CGAL::orientation(flat[m][0], flat[m][1], flat[m][2]) == CGAL::LEFT_TURN);
     }
     if (face.owners.empty()) continue;
     face.corners = {lift(p[0]), lift(p[1]), lift(p[2])};
@@ -109,12 +116,15 @@ std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& tria
   }
   // The triangulation's own order depends on its construction; give the faces one that depends on their corners only.
   for (CutFace& f : faces) {
-    const auto least = std::min_element(f.corners.begin(), f.corners.end(), [](const Point3& a, const Point3& b) { return CGAL::lexicographically_xyz_smaller(a, b); });
+    const auto least = std::min_element(f.corners.begin(), f.corners.end(), [](const Point3& a, const Point3& b) {
+      return CGAL::lexicographically_xyz_smaller(a, b);
+    });
     std::rotate(f.corners.begin(), least, f.corners.end());
   }
   std::sort(faces.begin(), faces.end(), [](const CutFace& a, const CutFace& b) {
-    return std::lexicographical_compare(a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end(),
-                                        [](const Point3& x, const Point3& y) { return CGAL::lexicographically_xyz_smaller(x, y); });
+    return std::lexicographical_compare(
+        a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end(),
+        [](const Point3& x, const Point3& y) { return CGAL::lexicographically_xyz_smaller(x, y); });
   });
   return faces;
 }

@@ -26,7 +26,8 @@ struct CutFace {
 };
 
 // All triangles lie in one plane. O(n log n) plus the crossings of the constraints; every new corner is an exact crossing.
-std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& triangles, const std::vector<Contact>& contacts);
+std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& triangles,
+                                  const std::vector<Contact>& contacts);
 
 // Drops the coordinate `axis` (0, 1, 2) of points of a plane that is not parallel to that axis; a bijection on the plane.
 Point2 drop_axis(const Point3& p, int axis);

@@ -20,10 +20,10 @@ class ConvexCell {
   explicit ConvexCell(const std::vector<Point3>& points);
   static ConvexCell from_doubles(const std::vector<scene::Point>& points);
 
-  int dimension() const { return dimension_; }  // 0..3
-  const std::vector<Point3>& vertices() const { return vertices_; }          // extreme points only
-  const std::vector<std::array<int, 2>>& edges() const { return edges_; }    // true edges (coplanar triangles are merged)
-  const std::vector<CellFacet>& facets() const { return facets_; }           // dimension 3: all; 2: one; else none
+  int dimension() const { return dimension_; }                             // 0..3
+  const std::vector<Point3>& vertices() const { return vertices_; }        // extreme points only
+  const std::vector<std::array<int, 2>>& edges() const { return edges_; }  // true edges (coplanar triangles are merged)
+  const std::vector<CellFacet>& facets() const { return facets_; }         // dimension 3: all; 2: one; else none
 
   // Whether x lies in V / in int V (relative interior). O(facets).
   bool contains(const Point3& x) const;

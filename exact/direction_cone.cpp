@@ -68,11 +68,14 @@ std::vector<DirectionCone> difference(const DirectionCone& cone, const Direction
   return pieces;
 }
 
+bool contains(const DirectionCone& cone, const Vector3& d) {
+  return std::all_of(cone.normals.begin(), cone.normals.end(),
+                     [&](const Vector3& normal) { return side_of(normal, d) != CGAL::NEGATIVE; });
+}
+
 std::size_t rays_inside(const DirectionCone& inner, const DirectionCone& outer) {
-  return static_cast<std::size_t>(std::count_if(inner.rays.begin(), inner.rays.end(), [&](const Vector3& ray) {
-    return std::all_of(outer.normals.begin(), outer.normals.end(),
-                       [&](const Vector3& normal) { return side_of(normal, ray) != CGAL::NEGATIVE; });
-  }));
+  return static_cast<std::size_t>(
+      std::count_if(inner.rays.begin(), inner.rays.end(), [&](const Vector3& ray) { return contains(outer, ray); }));
 }
 
 Vector3 interior_direction(const DirectionCone& cone, int t) {

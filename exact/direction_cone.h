@@ -27,6 +27,9 @@ std::optional<DirectionCone> clipped(const DirectionCone& cone, const Vector3& n
 // Convex cones with disjoint interiors whose union is the closure of `cone` minus `taken`.
 std::vector<DirectionCone> difference(const DirectionCone& cone, const DirectionCone& taken);
 
+// Whether the closed cone holds d.
+bool contains(const DirectionCone& cone, const Vector3& d);
+
 // How many extreme rays of `inner` lie in the closed `outer`.
 std::size_t rays_inside(const DirectionCone& inner, const DirectionCone& outer);
 

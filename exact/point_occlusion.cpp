@@ -59,6 +59,10 @@ class ConeSearch {
         shadow = best_shadow(piece, entry(direction), blocked);
         if (!blocked) return beyond(direction);
       }
+      // The line blocked is in the shadow and inside the piece, so something is taken away and the search ends.
+      if (!contains(*shadow, direction)) {
+        throw scene::Error(scene::ErrorCode::internal, "point_occlusion: a shadow misses the line that it blocks");
+      }
       for (DirectionCone& part : difference(piece, *shadow)) pieces.push_back(std::move(part));
     }
     return std::nullopt;

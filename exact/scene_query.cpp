@@ -9,7 +9,9 @@ namespace {
 // The part of the closed polygon on the closed positive (keep = +1) or negative side of a plane.
 std::vector<Point3> clip(const std::vector<Point3>& polygon, const Plane3& h, int keep) {
   std::vector<Point3> out;
-  const auto value = [&](const Point3& p) { return FT(keep) * (h.a() * p.x() + h.b() * p.y() + h.c() * p.z() + h.d()); };
+  const auto value = [&](const Point3& p) {
+    return FT(keep) * (h.a() * p.x() + h.b() * p.y() + h.c() * p.z() + h.d());
+  };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
     const FT vp = value(p), vq = value(q);
@@ -37,7 +39,8 @@ bool triangle_meets_cell(const std::array<Point3, 3>& t, const ConvexCell& cell)
   if (cell.dimension() == 1) return CGAL::do_intersect(triangle, Kernel::Segment_3(s[0], s[1]));
   const CellFacet& f = cell.facets().front();
   for (std::size_t i = 2; i < f.corners.size(); ++i) {
-    const Kernel::Triangle_3 part(s[static_cast<std::size_t>(f.corners[0])], s[static_cast<std::size_t>(f.corners[i - 1])],
+    const Kernel::Triangle_3 part(s[static_cast<std::size_t>(f.corners[0])],
+                                  s[static_cast<std::size_t>(f.corners[i - 1])],
                                   s[static_cast<std::size_t>(f.corners[i])]);
     if (CGAL::do_intersect(triangle, part)) return true;
   }
@@ -58,13 +61,14 @@ SceneQuery::SceneQuery(const Complex& complex, const ConvexCell& cell) : complex
     const auto& c = piece.corners;
     boxes.push_back(complex.points[c[0]].bbox() + complex.points[c[1]].bbox() + complex.points[c[2]].bbox());
     bounds_ += boxes.back();
-    meets_cell_.push_back(CGAL::do_overlap(boxes.back(), cell_box) &&
-                          triangle_meets_cell({complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]}, cell));
+    meets_cell_.push_back(
+        CGAL::do_overlap(boxes.back(), cell_box) &&
+        triangle_meets_cell({complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]}, cell));
   }
   tree_ = BoxTree(std::move(boxes));
 }
 
-SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p) const {
+SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_planes) const {
   SegmentAnswer answer;
   for (const std::uint32_t t : tree_.candidates(SegmentBoxTest(v, p))) {
     const auto& c = complex_->pieces[t].corners;
@@ -72,11 +76,14 @@ SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p) const {
     const CGAL::Orientation at_p = CGAL::orientation(a, b, d, p);
     const CGAL::Orientation at_v = CGAL::orientation(a, b, d, v);
     if (at_p == CGAL::COPLANAR) {
-      if (at_v == CGAL::COPLANAR) answer.degenerate = true;
+      if (at_v == CGAL::COPLANAR && !off_planes) {
+        answer.degenerate |= CGAL::do_intersect(Kernel::Segment_3(v, p), Kernel::Triangle_3(a, b, d));
+      }
       continue;
     }
     if (at_v == at_p) continue;
-    const CGAL::Orientation o1 = CGAL::orientation(v, p, a, b), o2 = CGAL::orientation(v, p, b, d), o3 = CGAL::orientation(v, p, d, a);
+    const CGAL::Orientation o1 = CGAL::orientation(v, p, a, b), o2 = CGAL::orientation(v, p, b, d),
+                            o3 = CGAL::orientation(v, p, d, a);
     const bool negative = o1 == CGAL::NEGATIVE || o2 == CGAL::NEGATIVE || o3 == CGAL::NEGATIVE;
     const bool positive = o1 == CGAL::POSITIVE || o2 == CGAL::POSITIVE || o3 == CGAL::POSITIVE;
     if (negative && positive) continue;

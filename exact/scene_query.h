@@ -29,8 +29,9 @@ class SceneQuery {
   SceneQuery(const Complex& complex, const ConvexCell& cell);
 
   // The clean crossings of the open segment (v,p), v in int V. A piece whose plane contains p is not crossed (it can only be met
-  // at p). Crossings inside int V do not count (D3). O(log n + boxes met).
-  SegmentAnswer crossings(const Point3& v, const Point3& p) const;
+  // at p). Crossings inside int V do not count (D3). A piece in whose plane the segment runs, and meets it, is degenerate - or
+  // not met at all, if p stands for points just off that plane (`off_planes`). O(log n + boxes met).
+  SegmentAnswer crossings(const Point3& v, const Point3& p, bool off_planes = false) const;
 
   // Whether the open segment (v,p) meets no closed piece outside int V (D5): exact for every position, never degenerate.
   bool is_free(const Point3& v, const Point3& p) const;

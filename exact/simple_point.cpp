@@ -23,10 +23,13 @@ std::optional<Point3> simple_in_triangle(const Point3& x, const std::array<Point
   const int axis = dominant_axis(CGAL::cross_product(b - a, c - a));
   const auto flat = [&](const Point3& p) {
     const scene::Point d = to_double_estimate(p);
-    return std::array<double, 2>{d[static_cast<std::size_t>((axis + 1) % 3)], d[static_cast<std::size_t>((axis + 2) % 3)]};
+    return std::array<double, 2>{d[static_cast<std::size_t>((axis + 1) % 3)],
+                                 d[static_cast<std::size_t>((axis + 2) % 3)]};
   };
   const auto fa = flat(a), fb = flat(b), fc = flat(c), fx = flat(x);
-  const auto cross = [](const auto& o, const auto& p, const auto& q) { return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]); };
+  const auto cross = [](const auto& o, const auto& p, const auto& q) {
+    return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
+  };
   const double area = cross(fa, fb, fc);
   if (area == 0) return std::nullopt;
   const FT u = rounded(cross(fa, fx, fc) / area, level), w = rounded(cross(fa, fb, fx) / area, level);

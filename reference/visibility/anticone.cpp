@@ -34,7 +34,9 @@ std::vector<AnticoneFacet> anticone_facets(const Point3& x, const exact::ConvexC
     for (const exact::Plane3& plane : planes) {
       // The extreme rays among the touching vertices; they span less than a half turn, because x is not in V.
       const Vector3 n = plane.orthogonal_vector();
-      const auto turns_left = [&](const Vector3& u, const Vector3& w) { return CGAL::is_positive(n * CGAL::cross_product(u, w)); };
+      const auto turns_left = [&](const Vector3& u, const Vector3& w) {
+        return CGAL::is_positive(n * CGAL::cross_product(u, w));
+      };
       Vector3 first = x - s[static_cast<std::size_t>(touching.front())], last = first;
       for (const int k : touching) {
         const Vector3 w = x - s[static_cast<std::size_t>(k)];

@@ -13,8 +13,8 @@
 namespace clues::reference {
 
 struct AnticoneFacet {
-  exact::Plane3 plane;       // V in the closed negative side H+
-  exact::Vector3 ray0, ray1; // x - s0, x - s1; counter-clockwise about the plane's normal
+  exact::Plane3 plane;        // V in the closed negative side H+
+  exact::Vector3 ray0, ray1;  // x - s0, x - s1; counter-clockwise about the plane's normal
 };
 
 // Empty when x lies in V or V is a point. O(cell edges * cell vertices).

@@ -27,7 +27,9 @@ Apex Apex::at_edge(const exact::Complex& complex, const exact::ConvexCell& cell,
 Apex::Apex(const exact::ConvexCell& cell, const Point3& x, LocalStar star) : x_(x), star_(std::move(star)) {
   for (const AnticoneFacet& f : anticone_facets(x, cell)) {
     const Vector3 n = f.plane.orthogonal_vector();
-    const auto turns_left = [&](const Vector3& u, const Vector3& w) { return CGAL::is_positive(n * CGAL::cross_product(u, w)); };
+    const auto turns_left = [&](const Vector3& u, const Vector3& w) {
+      return CGAL::is_positive(n * CGAL::cross_product(u, w));
+    };
     std::vector<Vector3> rays{f.ray0};
     for (const Vector3& t : star_.traces(n)) {
       if (turns_left(f.ray0, t) && turns_left(t, f.ray1)) rays.push_back(t);
@@ -38,15 +40,15 @@ Apex::Apex(const exact::ConvexCell& cell, const Point3& x, LocalStar star) : x_(
       if (!turns_left(rays[i], rays[i + 1])) continue;
       const auto size = [](const Vector3& v) { return CGAL::abs(v.x()) + CGAL::abs(v.y()) + CGAL::abs(v.z()); };
       const Vector3 middle = rays[i] / size(rays[i]) + rays[i + 1] / size(rays[i + 1]);
-      sectors_.push_back({f.plane, rays[i], rays[i + 1], middle, star_.face_of(star_.nudged(middle, n)), nullptr, false});
+      sectors_.push_back(
+          {f.plane, rays[i], rays[i + 1], middle, star_.face_of(star_.nudged(middle, n)), nullptr, false});
     }
   }
 }
 
 Probe Apex::probe(const Vector3& limit, const Vector3& aside, const Vector3& off) const {
-  Vector3 d = limit;
-  if (aside != CGAL::NULL_VECTOR) d = star_.nudged(d, aside);
-  return {limit, star_.nudged(d, off), CGAL::NULL_VECTOR};
+  const Vector3 actual = aside == CGAL::NULL_VECTOR ? star_.nudged(limit, off) : star_.nudged(limit, aside, off);
+  return {limit, actual, CGAL::NULL_VECTOR};
 }
 
 void Apex::start_round() {
@@ -71,8 +73,9 @@ std::vector<std::size_t> Apex::new_sectors() {
     bool bounds_nothing = false;
     for (std::size_t k = 0; k < probes_.size() && !bounds_nothing; ++k) {
       const Probe& p = probes_[k];
-      bounds_nothing = (p.lit_edge != CGAL::NULL_VECTOR && faces[k] == s.face && CGAL::is_negative(n * p.lit_edge)) ||
-                       (CGAL::is_negative(n * p.limit) && CGAL::is_negative(n * p.actual) && star_.free_between(p.actual, s.middle));
+      bounds_nothing =
+          (p.lit_edge != CGAL::NULL_VECTOR && faces[k] == s.face && CGAL::is_negative(n * p.lit_edge)) ||
+          (CGAL::is_negative(n * p.limit) && CGAL::is_negative(n * p.actual) && star_.free_between(p.actual, s.middle));
     }
     if (bounds_nothing) continue;
     s.built = true;

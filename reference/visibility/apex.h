@@ -35,7 +35,8 @@ struct ApexSector {
 class Apex {
  public:
   static Apex at_vertex(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t point);
-  static Apex at_edge(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t edge, const exact::Point3& x);
+  static Apex at_edge(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t edge,
+                      const exact::Point3& x);
 
   // A probe just off `limit` towards `aside` (may be zero: exactly along limit) and then towards `off`.
   Probe probe(const exact::Vector3& limit, const exact::Vector3& aside, const exact::Vector3& off) const;

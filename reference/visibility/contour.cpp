@@ -43,7 +43,8 @@ std::vector<SupportingPlane> supporting_planes(const Point3& a, const Point3& b,
     const Vector3 n = found.plane.orthogonal_vector();
     const CGAL::Sign side = beside(a, b, n, s[m]);
     for (const int i : found.touching) {
-      if (beside(a, b, n, s[static_cast<std::size_t>(i)]) != side) return {};  // V reaches both sides of the line: it meets V
+      if (beside(a, b, n, s[static_cast<std::size_t>(i)]) != side)
+        return {};  // V reaches both sides of the line: it meets V
     }
     planes.push_back(std::move(found));
   }

@@ -20,9 +20,10 @@ namespace clues::reference {
 // An edge with one of its supporting planes.
 struct ContourEdge {
   std::uint32_t edge = 0;
-  exact::Plane3 plane;            // V in the closed negative side H+
-  std::vector<int> touching;      // cell vertices on the plane: one (SV-ME), or an edge or facet of V (SE-ME)
-  std::optional<std::uint32_t> cover;  // a piece lying in the plane between the edge and V: it covers the near side of the edge
+  exact::Plane3 plane;        // V in the closed negative side H+
+  std::vector<int> touching;  // cell vertices on the plane: one (SV-ME), or an edge or facet of V (SE-ME)
+  std::optional<std::uint32_t>
+      cover;  // a piece lying in the plane between the edge and V: it covers the near side of the edge
 };
 
 // The up to two supporting planes of V through the line ab, each oriented with V in the closed negative side. None when the line
@@ -31,7 +32,8 @@ struct SupportingPlane {
   exact::Plane3 plane;
   std::vector<int> touching;
 };
-std::vector<SupportingPlane> supporting_planes(const exact::Point3& a, const exact::Point3& b, const exact::ConvexCell& cell);
+std::vector<SupportingPlane> supporting_planes(const exact::Point3& a, const exact::Point3& b,
+                                               const exact::ConvexCell& cell);
 
 // All contour edges of the complex, by edge. O(edges * cell vertices).
 std::vector<ContourEdge> contour_edges(const exact::Complex& complex, const exact::ConvexCell& cell);

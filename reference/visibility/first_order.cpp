@@ -21,8 +21,9 @@ void require_solid(const exact::Complex& complex) {
   std::string list;
   for (std::size_t i = 0; i < bad.size() && i < 5; ++i) list += (i ? ", " : "") + std::to_string(bad[i]);
   throw scene::Error(scene::ErrorCode::not_solid,
-                     "solid mode needs a closed, consistently oriented mesh, but triangle" + std::string(bad.size() > 1 ? "s " : " ") + list +
-                         (bad.size() > 5 ? ", ..." : "") + " (" + std::to_string(bad.size()) +
+                     "solid mode needs a closed, consistently oriented mesh, but triangle" +
+                         std::string(bad.size() > 1 ? "s " : " ") + list + (bad.size() > 5 ? ", ..." : "") + " (" +
+                         std::to_string(bad.size()) +
                          " in all) have an edge that is open or turned over; close the mesh, or use sheet mode");
 }
 
@@ -30,9 +31,11 @@ bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode
 
 }  // namespace
 
-VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options) {
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(options.threads > 0 ? options.threads : tbb::info::default_concurrency()));
+VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
+                                     const Options& options) {
+  const tbb::global_control threads(
+      tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(options.threads > 0 ? options.threads : tbb::info::default_concurrency()));
   VisibilityMap map{exact::build_complex(mesh), cell, options.mode, {}, {}, {}, {}, {}};
   if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
   if (options.mode == Mode::solid) require_solid(map.complex);
@@ -65,7 +68,8 @@ std::vector<std::uint8_t> VisibilityMap::triangle_state() const {
   std::vector<std::uint8_t> state(complex.input_triangles, 0);
   for (const Region& r : regions) {
     for (const exact::Origin& o : complex.pieces[r.piece].origins) {
-      if (counts(mode, o, r.front)) state[o.triangle] = static_cast<std::uint8_t>(state[o.triangle] | (r.visible ? 1U : 2U));
+      if (counts(mode, o, r.front))
+        state[o.triangle] = static_cast<std::uint8_t>(state[o.triangle] | (r.visible ? 1U : 2U));
     }
   }
   for (const std::uint32_t t : visible) state[t] = static_cast<std::uint8_t>(state[t] | 1U);
@@ -79,7 +83,9 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   result.mode = map.mode == Mode::solid ? "solid" : "sheet";
   result.visible = map.visible;
   const Statistics& s = map.statistics;
-  const auto put = [&](const char* name, std::uint64_t value) { result.stats[name] = static_cast<std::int64_t>(value); };
+  const auto put = [&](const char* name, std::uint64_t value) {
+    result.stats[name] = static_cast<std::int64_t>(value);
+  };
   put("conservative_fallbacks", s.conservative_fallbacks);
   put("csv", s.csv);
   put("degenerate_triangles", map.complex.degenerate.size());
@@ -99,7 +105,8 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
 
   result.has_map = true;
   const auto text = [](const exact::Point3& p) {
-    return std::array<std::string, 3>{exact::to_string_exact(p.x()), exact::to_string_exact(p.y()), exact::to_string_exact(p.z())};
+    return std::array<std::string, 3>{exact::to_string_exact(p.x()), exact::to_string_exact(p.y()),
+                                      exact::to_string_exact(p.z())};
   };
   for (const Region& r : map.regions) {
     scene::MapRegion out;
@@ -122,7 +129,10 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   for (const DmSegment& d : map.segments) {
     for (const exact::Origin& o : map.complex.pieces[d.piece].origins) {
       if (!counts(map.mode, o, d.front)) continue;
-      result.segments.push_back({o.triangle, o.same_side == d.front, d.boundary, {text(d.a), text(d.b)},
+      result.segments.push_back({o.triangle,
+                                 o.same_side == d.front,
+                                 d.boundary,
+                                 {text(d.a), text(d.b)},
                                  {exact::to_double_estimate(d.a), exact::to_double_estimate(d.b)}});
     }
   }

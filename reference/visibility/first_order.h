@@ -28,8 +28,9 @@ enum class PlantedBug { none, wrong_wedge_side, retested_csv, no_rule_3, rounded
 
 struct Options {
   Mode mode = Mode::sheet;
-  int generation_limit = 16;  // D17: wedges of a later generation are not built; what they could show is labelled visible
-  int threads = 0;            // 0: all cores; the answer does not depend on it
+  int generation_limit =
+      16;           // D17: wedges of a later generation are not built; what they could show is labelled visible
+  int threads = 0;  // 0: all cores; the answer does not depend on it
   bool check_two_walks = false;  // D14: walk twice, from two independent v, and count disagreements
   Progress progress;
   PlantedBug planted_bug = PlantedBug::none;
@@ -57,22 +58,22 @@ struct Statistics {
   std::uint64_t csv = 0;                          // compound silhouette vertices made
   std::uint64_t inside_corners = 0;               // SE-MV wedges at mesh vertices
   int generations = 0;                            // highest generation of a wedge
-  std::uint64_t parallel_edges = 0;               // contour edges whose supporting plane touches V along an edge or facet
+  std::uint64_t parallel_edges = 0;  // contour edges whose supporting plane touches V along an edge or facet
   std::uint64_t refined_triangles = 0;
   std::uint64_t regions_visible = 0, regions_hidden = 0;
   std::uint64_t walks = 0, walk_segments = 0;
-  std::uint64_t walk_disagreements = 0;           // D14; must stay 0
+  std::uint64_t walk_disagreements = 0;  // D14; must stay 0
   std::uint64_t rounds = 0;
-  std::uint64_t conservative_fallbacks = 0;       // D17
+  std::uint64_t conservative_fallbacks = 0;  // D17
 };
 
 struct VisibilityMap {
   exact::Complex complex;
   exact::ConvexCell cell;
   Mode mode = Mode::sheet;
-  std::vector<Wedge> wedges;        // the valid pieces
+  std::vector<Wedge> wedges;  // the valid pieces
   std::vector<DmSegment> segments;
-  std::vector<Region> regions;      // by piece, front before back
+  std::vector<Region> regions;         // by piece, front before back
   std::vector<std::uint32_t> visible;  // the PVS: input triangle ids, ascending
   Statistics statistics;
 
@@ -82,7 +83,8 @@ struct VisibilityMap {
 };
 
 // Throws scene::Error not_solid when mode is solid and the mesh is not closed and consistently oriented.
-VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options);
+VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
+                                     const Options& options);
 
 // The result file's contents; scene_file and scene_sha256 are left to the caller. with_map adds regions, segments and wedges.
 scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map);

@@ -27,7 +27,8 @@ bool before(const Point3& a, const Point3& b) { return CGAL::lexicographically_x
 
 // The planted bug of a tolerance: strips that look narrow in doubles are taken for nothing.
 bool is_narrow(const Strip& s, const Point3& center) {
-  const auto c = exact::to_double_estimate(center), a = exact::to_double_estimate(s.on_ray0.p), b = exact::to_double_estimate(s.on_ray1.p);
+  const auto c = exact::to_double_estimate(center), a = exact::to_double_estimate(s.on_ray0.p),
+             b = exact::to_double_estimate(s.on_ray1.p);
   double dot = 0, aa = 0, bb = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     dot += (a[i] - c[i]) * (b[i] - c[i]);
@@ -59,9 +60,14 @@ struct Job {
 class Search {
  public:
   Search(const exact::SceneQuery& scene, const Options& options, Statistics& statistics)
-      : scene_(scene), complex_(scene.complex()), options_(options), statistics_(statistics),
+      : scene_(scene),
+        complex_(scene.complex()),
+        options_(options),
+        statistics_(statistics),
         walker_(scene, options.planted_bug != PlantedBug::no_rule_3),
-        contours_(contour_edges(complex_, scene.cell())), cuts_(complex_.edges.size()), wedges_(scene) {
+        contours_(contour_edges(complex_, scene.cell())),
+        cuts_(complex_.edges.size()),
+        wedges_(scene) {
     edge_wedges_.resize(contours_.size());
     for (std::size_t i = 0; i < contours_.size(); ++i) edge_wedges_[i].resize(contours_[i].touching.size());
     if (options.planted_bug == PlantedBug::wrong_wedge_side) {
@@ -155,7 +161,8 @@ class Search {
         s.seed = it->second.seed;
       }
     }
-    tbb::parallel_for(std::size_t{0}, unknown.size(), [&](std::size_t i) { unknown[i]->walk = walker_.walk(start_of(*unknown[i]), unknown[i]->seed); });
+    tbb::parallel_for(std::size_t{0}, unknown.size(),
+                      [&](std::size_t i) { unknown[i]->walk = walker_.walk(start_of(*unknown[i]), unknown[i]->seed); });
     statistics_.walks += unknown.size();
   }
 
@@ -168,7 +175,8 @@ class Search {
       Source& s = sources_[i];
       if (s.lit) return;
       label[i] = walker_.visible(start_of(s), s.walk, wedges_, first);
-      for (int attempt = 0; label[i] == Meets::degenerate && attempt < 100; ++attempt) {  // walk elsewhere, and ask all pieces
+      for (int attempt = 0; label[i] == Meets::degenerate && attempt < 100;
+           ++attempt) {  // walk elsewhere, and ask all pieces
         s.walk = walker_.walk(start_of(s), ++s.seed);
         label[i] = walker_.visible(start_of(s), s.walk, wedges_, 0);
       }
@@ -176,7 +184,8 @@ class Search {
     std::vector<std::size_t> lit;
     for (std::size_t i = 0; i < label.size(); ++i) {
       if (label[i] == Meets::yes) lit.push_back(i);
-      if (label[i] == Meets::degenerate) throw scene::Error(scene::ErrorCode::internal, "fixpoint: an edge piece without a walk in general position");
+      if (label[i] == Meets::degenerate)
+        throw scene::Error(scene::ErrorCode::internal, "fixpoint: an edge piece without a walk in general position");
     }
     return lit;
   }
@@ -213,7 +222,8 @@ class Search {
         beyond_limit_.push_back(apex->x());
         continue;
       }
-      for (const std::size_t k : apex->new_sectors()) jobs.push_back({0, -1, {}, {}, apex, k, &apex->sectors()[k].on_wedge});
+      for (const std::size_t k : apex->new_sectors())
+        jobs.push_back({0, -1, {}, {}, apex, k, &apex->sectors()[k].on_wedge});
     }
     return jobs;
   }
@@ -227,7 +237,8 @@ class Search {
       if (j > i) {
         const std::size_t c = sources_[i].contour;
         for (int k = 0; k < static_cast<int>(contours_[c].touching.size()); ++k) {
-          jobs.push_back({c, k, sources_[i].lo, sources_[j - 1].hi, nullptr, 0, &edge_wedges_[c][static_cast<std::size_t>(k)]});
+          jobs.push_back(
+              {c, k, sources_[i].lo, sources_[j - 1].hi, nullptr, 0, &edge_wedges_[c][static_cast<std::size_t>(k)]});
         }
       }
       i = std::max(j, i + 1);
@@ -261,7 +272,8 @@ class Search {
     out.center = scene_.cell().vertices()[static_cast<std::size_t>(c.touching[static_cast<std::size_t>(job.touching)])];
     out.near0 = complex_.points[e.a];
     out.near1 = complex_.points[e.b];
-    if (CGAL::is_negative(c.plane.orthogonal_vector() * CGAL::cross_product(out.near0 - out.center, out.near1 - out.center))) {
+    if (CGAL::is_negative(c.plane.orthogonal_vector() *
+                          CGAL::cross_product(out.near0 - out.center, out.near1 - out.center))) {
       std::swap(out.near0, out.near1);
     }
     out.on_ray0 = out.near0;
@@ -300,7 +312,9 @@ class Search {
       if (options_.planted_bug == PlantedBug::rounded_comparison && is_narrow(strip, sector.center)) continue;
       ValidPiece piece{{}, on, strip};
       Wedge& w = piece.wedge;
-      w.kind = job.touching < 0 ? WedgeKind::se_mv : contours_[job.contour].touching.size() > 1 ? WedgeKind::se_me : WedgeKind::sv_me;
+      w.kind = job.touching < 0                             ? WedgeKind::se_mv
+               : contours_[job.contour].touching.size() > 1 ? WedgeKind::se_me
+                                                            : WedgeKind::sv_me;
       w.generation = job.touching < 0 ? job.apex->generation : 0;
       w.plane = sector.plane;
       w.center = sector.center;
@@ -336,7 +350,9 @@ class Search {
   }
 
   void add_csv(const ValidPiece& piece, const Crossing& c) {
-    if (options_.planted_bug == PlantedBug::retested_csv && !walker_.label({c.at.p, std::nullopt, nullptr}, wedges_, kSourceSeed).visible) return;
+    if (options_.planted_bug == PlantedBug::retested_csv &&
+        !walker_.label({c.at.p, std::nullopt, nullptr}, wedges_, kSourceSeed).visible)
+      return;
     Apex* apex = c.at_vertex ? corner(c.id) : csv(c.id, c.at.p);
     const int generation = piece.wedge.generation + 1;
     if (apex->on_edge() && (apex->generation < 0 || generation < apex->generation)) apex->generation = generation;
@@ -399,7 +415,9 @@ class Search {
       statistics_.generations = std::max(statistics_.generations, p.wedge.generation);
       statistics_.inside_corners += p.wedge.kind == WedgeKind::se_mv && p.wedge.generation == 0;
     }
-    for (const auto& [key, apex] : csvs_) statistics_.csv += std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
+    for (const auto& [key, apex] : csvs_)
+      statistics_.csv +=
+          std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
     for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
     statistics_.conservative_fallbacks += beyond_limit_.size();
     for (const Source& s : sources_) statistics_.conservative_fallbacks += s.walk.unresolved;

@@ -14,12 +14,16 @@ using exact::Vector3;
 
 namespace {
 
-CGAL::Sign det_sign(const Vector3& a, const Vector3& b, const Vector3& c) { return CGAL::sign(CGAL::determinant(a, b, c)); }
+CGAL::Sign det_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
+  return CGAL::sign(CGAL::determinant(a, b, c));
+}
 
 // Whether y, in the plane of the arc ab with normal a x b, lies in the closed arc. The arc is shorter than a half turn.
 bool in_arc(const Vector3& a, const Vector3& b, const Vector3& normal, const Vector3& y) {
-  return !CGAL::is_negative(normal * CGAL::cross_product(a, y)) && !CGAL::is_negative(normal * CGAL::cross_product(y, b)) &&
-         (CGAL::is_positive(normal * CGAL::cross_product(a, y)) || CGAL::is_positive(normal * CGAL::cross_product(y, b)));
+  return !CGAL::is_negative(normal * CGAL::cross_product(a, y)) &&
+         !CGAL::is_negative(normal * CGAL::cross_product(y, b)) &&
+         (CGAL::is_positive(normal * CGAL::cross_product(a, y)) ||
+          CGAL::is_positive(normal * CGAL::cross_product(y, b)));
 }
 
 }  // namespace
@@ -82,11 +86,12 @@ void LocalStar::finish() {
     }
     if (spokes.empty()) continue;
     const Vector3 reference = spokes.front().to;
-    const auto half = [&](const Vector3& to) {  // 0: the reference, 1: first half turn, 2: opposite, 3: second half turn
-      const CGAL::Sign s = det_sign(axis, reference, to);
-      if (s != CGAL::ZERO) return s == CGAL::POSITIVE ? 1 : 3;
-      return CGAL::is_positive(CGAL::cross_product(axis, reference) * CGAL::cross_product(axis, to)) ? 0 : 2;
-    };
+    const auto half =
+        [&](const Vector3& to) {  // 0: the reference, 1: first half turn, 2: opposite, 3: second half turn
+          const CGAL::Sign s = det_sign(axis, reference, to);
+          if (s != CGAL::ZERO) return s == CGAL::POSITIVE ? 1 : 3;
+          return CGAL::is_positive(CGAL::cross_product(axis, reference) * CGAL::cross_product(axis, to)) ? 0 : 2;
+        };
     std::sort(spokes.begin() + 1, spokes.end(), [&](const Spoke& x, const Spoke& y) {
       const int hx = half(x.to), hy = half(y.to);
       return hx != hy ? hx < hy : det_sign(axis, x.to, y.to) == CGAL::POSITIVE;
@@ -116,7 +121,8 @@ std::vector<int> LocalStar::face_of(const Vector3& d) const {
     // through a node or along an arc tells nothing: take another.
     std::optional<int> side = side_met(d, first);
     for (int attempt = 1; !side && attempt < 64; ++attempt) {
-      side = side_met(nudged(d, Vector3(attempt % 7 - 3, (attempt * 3) % 11 - 5, (attempt * 5) % 13 - 6)), first, attempt);
+      side =
+          side_met(nudged(d, Vector3(attempt % 7 - 3, (attempt * 3) % 11 - 5, (attempt * 5) % 13 - 6)), first, attempt);
     }
     if (!side) throw scene::Error(scene::ErrorCode::internal, "local star: no clean path to an incident piece");
     name.push_back(root(*side));
@@ -140,7 +146,8 @@ std::optional<int> LocalStar::side_met(const Vector3& d, std::size_t aim_arc, in
     const Vector3 y = (FT(1) - t) * d + t * target;
     const Vector3 &a = nodes_[static_cast<std::size_t>(arc.a)], &b = nodes_[static_cast<std::size_t>(arc.b)];
     if (!in_arc(a, b, arc.normal, y)) continue;
-    if (CGAL::is_zero(arc.normal * CGAL::cross_product(a, y)) || CGAL::is_zero(arc.normal * CGAL::cross_product(y, b))) return std::nullopt;
+    if (CGAL::is_zero(arc.normal * CGAL::cross_product(a, y)) || CGAL::is_zero(arc.normal * CGAL::cross_product(y, b)))
+      return std::nullopt;
     if (t < nearest) {
       nearest = t;
       side = static_cast<int>(2 * i) + (sd == CGAL::POSITIVE ? 0 : 1);
@@ -159,7 +166,8 @@ bool LocalStar::free_between(const Vector3& d0, const Vector3& d1) const {
     if (s0 == CGAL::ZERO) {  // runs within the arc's great circle: it must not end on the arc, nor pass one of its ends
       const Vector3 turn = CGAL::cross_product(d0, d1);
       const auto passes = [&](const Vector3& x) {
-        return CGAL::is_positive(turn * CGAL::cross_product(d0, x)) && CGAL::is_positive(turn * CGAL::cross_product(x, d1));
+        return CGAL::is_positive(turn * CGAL::cross_product(d0, x)) &&
+               CGAL::is_positive(turn * CGAL::cross_product(x, d1));
       };
       if (in_arc(a, b, arc.normal, d1) || passes(a) || passes(b)) return false;
       continue;
@@ -169,16 +177,21 @@ bool LocalStar::free_between(const Vector3& d0, const Vector3& d1) const {
   return true;
 }
 
-Vector3 LocalStar::nudged(const Vector3& d, const Vector3& by) const {
-  constexpr int kHalvings = 4096;  // reached only if `by` runs along an arc through d
+Vector3 LocalStar::nudged(const Vector3& d, const Vector3& by, const Vector3& then) const {
+  constexpr int kSteps = 2048;  // reached only if the way runs along an arc through d
   FT step(1);
-  for (int i = 0; i < kHalvings; ++i, step = step / FT(4)) {
-    const Vector3 moved = d + step * by;
-    const auto on = [&](const Arc& arc) {
-      return CGAL::is_zero(arc.normal * moved) &&
-             in_arc(nodes_[static_cast<std::size_t>(arc.a)], nodes_[static_cast<std::size_t>(arc.b)], arc.normal, moved);
+  for (int i = 0; i < kSteps; ++i, step = step / FT(4)) {
+    const Vector3 moved = d + step * by + step * step * then;
+    const auto wrong = [&](const Arc& arc) {
+      const CGAL::Sign side = CGAL::sign(arc.normal * moved);
+      if (CGAL::is_zero(arc.normal * d)) {  // leave the arc's great circle on the side that `by` points to
+        const CGAL::Sign wanted = CGAL::sign(arc.normal * by);
+        if (side != (wanted != CGAL::ZERO ? wanted : CGAL::sign(arc.normal * then))) return true;
+      }
+      return side == CGAL::ZERO && in_arc(nodes_[static_cast<std::size_t>(arc.a)],
+                                          nodes_[static_cast<std::size_t>(arc.b)], arc.normal, moved);
     };
-    if (free_between(d, moved) && std::none_of(arcs_.begin(), arcs_.end(), on)) return moved;
+    if (free_between(d, moved) && std::none_of(arcs_.begin(), arcs_.end(), wrong)) return moved;
   }
   throw scene::Error(scene::ErrorCode::internal, "local star: a direction cannot leave its arc");
 }

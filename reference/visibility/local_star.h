@@ -25,8 +25,9 @@ class LocalStar {
   // Whether the great circle arc from d0 (excluded) to d1 (included) surely meets no incident piece. d0 and d1 not opposite.
   bool free_between(const exact::Vector3& d0, const exact::Vector3& d1) const;
 
-  // d moved towards `by` so little that no piece lies between.
-  exact::Vector3 nudged(const exact::Vector3& d, const exact::Vector3& by) const;
+  // d moved towards `by`, and by much less towards `then`, so little that no piece lies between.
+  exact::Vector3 nudged(const exact::Vector3& d, const exact::Vector3& by,
+                        const exact::Vector3& then = CGAL::NULL_VECTOR) const;
 
   // The directions of the plane through x with this normal in which a piece crosses or touches it.
   std::vector<exact::Vector3> traces(const exact::Vector3& normal) const;

@@ -23,7 +23,8 @@ bool right(const Point2& a, const Point2& b, const Point2& c) { return CGAL::ori
 // Boxes that can meet the sector: on its plane, between its rays, beyond its near bound.
 class SectorBoxTest {
  public:
-  explicit SectorBoxTest(const Sector& s) : plane_(s.plane), bounds_{lateral(s, s.on_ray0, 1), lateral(s, s.on_ray1, -1), near(s)} {}
+  explicit SectorBoxTest(const Sector& s)
+      : plane_(s.plane), bounds_{lateral(s, s.on_ray0, 1), lateral(s, s.on_ray1, -1), near(s)} {}
   bool operator()(const CGAL::Bbox_3& box) const {
     if (!plane_(box)) return false;
     return std::all_of(std::begin(bounds_), std::end(bounds_), [&](const auto& h) { return h.may_be_positive(box); });
@@ -36,7 +37,8 @@ class SectorBoxTest {
   }
   static exact::PlaneBoxTest near(const Sector& s) {
     if (s.from_apex()) return exact::PlaneBoxTest(s.plane);
-    return exact::PlaneBoxTest(exact::Plane3(s.near0, CGAL::cross_product(s.near1 - s.near0, s.plane.orthogonal_vector())));
+    return exact::PlaneBoxTest(
+        exact::Plane3(s.near0, CGAL::cross_product(s.near1 - s.near0, s.plane.orthogonal_vector())));
   }
   exact::PlaneBoxTest plane_;
   exact::PlaneBoxTest bounds_[3];
@@ -56,7 +58,8 @@ class Envelope {
     for (const auto& [edge, at] : edge_crossing_) add_crossing({false, edge, at});
     for (const std::uint32_t p : plane_vertices_) add_crossing({true, p, spot(complex_.points[p])});
     std::sort(out_.coplanar_edges.begin(), out_.coplanar_edges.end());
-    out_.coplanar_edges.erase(std::unique(out_.coplanar_edges.begin(), out_.coplanar_edges.end()), out_.coplanar_edges.end());
+    out_.coplanar_edges.erase(std::unique(out_.coplanar_edges.begin(), out_.coplanar_edges.end()),
+                              out_.coplanar_edges.end());
     sweep();
   }
   OnWedge take() { return std::move(out_); }
@@ -94,7 +97,8 @@ class Envelope {
     if (on.size() == 3) out_.coplanar_pieces.push_back(t);
     if (on.size() >= 2) {
       for (const std::uint32_t e : complex_.piece_edges[t]) {
-        if (side(complex_.edges[e].a) == CGAL::ON_ORIENTED_BOUNDARY && side(complex_.edges[e].b) == CGAL::ON_ORIENTED_BOUNDARY) {
+        if (side(complex_.edges[e].a) == CGAL::ON_ORIENTED_BOUNDARY &&
+            side(complex_.edges[e].b) == CGAL::ON_ORIENTED_BOUNDARY) {
           out_.coplanar_edges.push_back(e);
         }
       }
@@ -108,7 +112,8 @@ class Envelope {
     if (below) {
       for (const std::uint32_t e : complex_.piece_edges[t]) {
         const CGAL::Oriented_side a = side(complex_.edges[e].a), b = side(complex_.edges[e].b);
-        if (a != b && a != CGAL::ON_ORIENTED_BOUNDARY && b != CGAL::ON_ORIENTED_BOUNDARY) ends.push_back(crossing_of(e));
+        if (a != b && a != CGAL::ON_ORIENTED_BOUNDARY && b != CGAL::ON_ORIENTED_BOUNDARY)
+          ends.push_back(crossing_of(e));
       }
     }
     if (ends.size() != 2) return;  // touches the plane in one corner
@@ -132,7 +137,8 @@ class Envelope {
 
   // Angular tests for points that may lie anywhere in the plane.
   bool in_closed_cone(const Point2& u, const Point2& w, const Point2& x) const {
-    return !right(out_.center, u, x) && !left(out_.center, w, x) && (left(out_.center, u, x) || right(out_.center, w, x));
+    return !right(out_.center, u, x) && !left(out_.center, w, x) &&
+           (left(out_.center, u, x) || right(out_.center, w, x));
   }
   bool in_open_cone(const Point2& u, const Point2& w, const Point2& x) const {
     return left(out_.center, u, x) && right(out_.center, w, x);
@@ -215,7 +221,8 @@ class Envelope {
       stops.push_back({intervals_[i].first, {i}, {}});
       stops.push_back({intervals_[i].second, {}, {i}});
     }
-    std::stable_sort(stops.begin(), stops.end(), [&](const Stop& x, const Stop& y) { return left(out_.center, x.at.q, y.at.q); });
+    std::stable_sort(stops.begin(), stops.end(),
+                     [&](const Stop& x, const Stop& y) { return left(out_.center, x.at.q, y.at.q); });
     std::vector<Stop> merged;
     for (Stop& s : stops) {
       if (!merged.empty() && !left(out_.center, merged.back().at.q, s.at.q)) {
@@ -254,7 +261,9 @@ class Envelope {
 
 }  // namespace
 
-OnWedge on_wedge_visibility(const Sector& sector, const exact::SceneQuery& scene) { return Envelope(sector, scene).take(); }
+OnWedge on_wedge_visibility(const Sector& sector, const exact::SceneQuery& scene) {
+  return Envelope(sector, scene).take();
+}
 
 bool reaches(const OnWedge& wedge, const Strip& strip, const Point2& q) {
   if (!strip.blocker) return true;

@@ -25,8 +25,8 @@ struct Spot {
 struct Sector {
   exact::Plane3 plane;  // V in the closed negative side
   exact::Point3 center;
-  exact::Point3 near0, near1;        // counter-clockwise about the normal as seen from center
-  exact::Point3 on_ray0, on_ray1;    // points of the bounding rays
+  exact::Point3 near0, near1;           // counter-clockwise about the normal as seen from center
+  exact::Point3 on_ray0, on_ray1;       // points of the bounding rays
   std::vector<std::uint32_t> on_plane;  // points of the complex known to lie in the plane (saves exact zero tests)
   bool from_apex() const { return near0 == near1; }
 };
@@ -60,10 +60,10 @@ struct Radial {
 struct OnWedge {
   PlaneFrame frame;
   exact::Point2 center;
-  std::vector<Strip> strips;        // counter-clockwise, covering the sector
+  std::vector<Strip> strips;  // counter-clockwise, covering the sector
   std::vector<Blocker> blockers;
   std::vector<Radial> radials;
-  std::vector<Crossing> crossings;  // by edge, then vertices
+  std::vector<Crossing> crossings;             // by edge, then vertices
   std::vector<std::uint32_t> coplanar_pieces;  // pieces in the plane that may meet the sector
   std::vector<std::uint32_t> coplanar_edges;   // edges in the plane that may meet it
 };

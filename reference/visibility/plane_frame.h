@@ -11,7 +11,8 @@ namespace clues::reference {
 class PlaneFrame {
  public:
   explicit PlaneFrame(const exact::Plane3& plane)
-      : axis_(exact::dominant_axis(plane.orthogonal_vector())), flip_(CGAL::is_negative(plane.orthogonal_vector()[axis_])) {}
+      : axis_(exact::dominant_axis(plane.orthogonal_vector())),
+        flip_(CGAL::is_negative(plane.orthogonal_vector()[axis_])) {}
 
   exact::Point2 operator()(const exact::Point3& p) const {
     const exact::Point2 q = exact::drop_axis(p, axis_);

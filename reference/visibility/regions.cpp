@@ -66,7 +66,8 @@ bool inside(const std::vector<std::vector<Point2>>& rings, const Point2& p) {
 
 // A short rational point inside triangle abc; `which` chooses among several.
 Point2 inner_point(const Point2& a, const Point2& b, const Point2& c, std::size_t which) {
-  const Point2 p = CGAL::barycenter(a, FT(3 + static_cast<int>(which) % 5), b, FT(4 + static_cast<int>(which) % 7), c, FT(5));
+  const Point2 p =
+      CGAL::barycenter(a, FT(3 + static_cast<int>(which) % 5), b, FT(4 + static_cast<int>(which) % 7), c, FT(5));
   const CGAL::Orientation o = CGAL::orientation(a, b, c);
   for (int level = 0; level < exact::kSimpleLevels; ++level) {
     const Point2 q(exact::simple_near(p.x(), level), exact::simple_near(p.y(), level));
@@ -78,8 +79,10 @@ Point2 inner_point(const Point2& a, const Point2& b, const Point2& c, std::size_
 // A point inside the face: of a triangle of its constrained triangulation, which one depends on `which`.
 Point2 inner_point(const std::vector<std::vector<Point2>>& rings, std::size_t which) {
   if (rings.size() == 1 && rings[0].size() == 3) return inner_point(rings[0][0], rings[0][1], rings[0][2], which);
-  using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>, CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-  CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::No_constraint_intersection_requiring_constructions_tag> cdt;
+  using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>,
+                                                   CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+  CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::No_constraint_intersection_requiring_constructions_tag>
+      cdt;
   for (const auto& ring : rings) cdt.insert_constraint(ring.begin(), ring.end(), true);
   std::vector<std::pair<FT, Point2>> by_size;
   for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
@@ -95,7 +98,10 @@ Point2 inner_point(const std::vector<std::vector<Point2>>& rings, std::size_t wh
 class SideMapper {
  public:
   SideMapper(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options)
-      : scene_(scene), fixpoint_(fixpoint), options_(options), walker_(scene, options.planted_bug != PlantedBug::no_rule_3) {
+      : scene_(scene),
+        fixpoint_(fixpoint),
+        options_(options),
+        walker_(scene, options.planted_bug != PlantedBug::no_rule_3) {
     for (const ValidPiece& piece : fixpoint.wedges.pieces()) {
       const Wedge& w = piece.wedge;
       if (!w.unbounded) {
@@ -104,7 +110,8 @@ class SideMapper {
       }
       add_radials(piece);
       for (const std::uint32_t t : piece.on_wedge->coplanar_pieces) {
-        const bool front = CGAL::is_positive(scene.complex().planes[t].orthogonal_vector() * w.plane.orthogonal_vector());
+        const bool front =
+            CGAL::is_positive(scene.complex().planes[t].orthogonal_vector() * w.plane.orthogonal_vector());
         upon_[{t, front}].push_back(&piece);
       }
     }
@@ -220,12 +227,15 @@ class SideMapper {
     return ring;
   }
 
-  std::vector<std::pair<Point2, Point2>> segments_on(const SideKey& key, const PlaneFrame& frame, const Kernel::Triangle_2& triangle) const {
+  std::vector<std::pair<Point2, Point2>> segments_on(const SideKey& key, const PlaneFrame& frame,
+                                                     const Kernel::Triangle_2& triangle) const {
     std::vector<std::pair<Point2, Point2>> flat;
     const auto add = [&](const Point2& a, const Point2& b) {
       for (const auto& s : clipped(triangle, a, b)) {
         bool on_border = false;  // along the triangle's own border a segment separates nothing
-        for (int i = 0; i < 3; ++i) on_border |= CGAL::collinear(triangle[i], triangle[i + 1], s.first) && CGAL::collinear(triangle[i], triangle[i + 1], s.second);
+        for (int i = 0; i < 3; ++i)
+          on_border |= CGAL::collinear(triangle[i], triangle[i + 1], s.first) &&
+                       CGAL::collinear(triangle[i], triangle[i + 1], s.second);
         if (!on_border) flat.push_back(s);
       }
     };
@@ -282,7 +292,8 @@ class SideMapper {
     for (const Point3& x : fixpoint_.beyond_limit) {
       bool outside = false;
       for (const AnticoneFacet& f : anticone_facets(x, scene_.cell())) {
-        outside |= std::all_of(r.rings[0].begin(), r.rings[0].end(), [&](const Point3& q) { return f.plane.oriented_side(q) == CGAL::ON_NEGATIVE_SIDE; });
+        outside |= std::all_of(r.rings[0].begin(), r.rings[0].end(),
+                               [&](const Point3& q) { return f.plane.oriented_side(q) == CGAL::ON_NEGATIVE_SIDE; });
       }
       if (!outside) return true;
     }
@@ -299,14 +310,16 @@ class SideMapper {
 
 }  // namespace
 
-void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options, VisibilityMap& map) {
+void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options,
+                  VisibilityMap& map) {
   const SideMapper mapper(scene, fixpoint, options);
   const auto& pieces = map.complex.pieces;
   std::vector<SideKey> sides;
   for (std::uint32_t t = 0; t < pieces.size(); ++t) {
     for (const bool front : {true, false}) {
-      const bool counts = map.mode == Mode::sheet || std::any_of(pieces[t].origins.begin(), pieces[t].origins.end(),
-                                                                 [&](const exact::Origin& o) { return o.same_side == front; });
+      const bool counts =
+          map.mode == Mode::sheet || std::any_of(pieces[t].origins.begin(), pieces[t].origins.end(),
+                                                 [&](const exact::Origin& o) { return o.same_side == front; });
       if (counts) sides.emplace_back(t, front);
     }
   }

@@ -130,7 +130,8 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   Point3 p = start.p;
   std::optional<SurfaceSide> surface = start.surface;
   const ContourEdge* contour = start.contour;
-  if (contour && contour->cover) return walk;  // only a wedge piece upon the covering surface can light this edge (D14, rule 2)
+  if (contour && contour->cover)
+    return walk;  // only a wedge piece upon the covering surface can light this edge (D14, rule 2)
   for (int depth = 0;; ++depth) {
     if (depth == kLongestWalk) {
       walk.unresolved = true;
@@ -159,7 +160,9 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
           }
         }
       }
-      good = [beyond, on = *surface, before](const Point3& v) { return beyond(on, v) && (!before || beyond(*before, v)); };
+      good = [beyond, on = *surface, before](const Point3& v) {
+        return beyond(on, v) && (!before || beyond(*before, v));
+      };
     } else if (contour) {
       // v so near the supporting plane that no incident piece lies between it and the supporting polygon.
       anchor = cell.vertices()[static_cast<std::size_t>(contour->touching.front())];
@@ -178,9 +181,11 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     Point3 v;
     int attempt = 0;
     do {
-      if (attempt == kAttempts) throw scene::Error(scene::ErrorCode::internal, "walk: no sight line in general position");
-      v = choose(mix(seed * 1000003 + static_cast<std::uint64_t>(depth) * 1009 + static_cast<std::uint64_t>(attempt)), anchor, good);
-      answer = scene_->crossings(v, p);
+      if (attempt == kAttempts)
+        throw scene::Error(scene::ErrorCode::internal, "walk: no sight line in general position");
+      v = choose(mix(seed * 1000003 + static_cast<std::uint64_t>(depth) * 1009 + static_cast<std::uint64_t>(attempt)),
+                 anchor, good);
+      answer = scene_->crossings(v, p, contour != nullptr);
       ++attempt;
     } while (answer.degenerate);
     if (answer.hits.empty()) {
@@ -231,7 +236,9 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
     const bool at_start = &leg == &walk.legs.front();
     note(wedges.crossed(leg.m, leg.p, first, [&](const ValidPiece& piece) {
       const exact::Plane3& h = piece.wedge.plane;
-      const auto on_plane = [&](std::uint32_t point) { return h.oriented_side(complex.points[point]) == CGAL::ON_ORIENTED_BOUNDARY; };
+      const auto on_plane = [&](std::uint32_t point) {
+        return h.oriented_side(complex.points[point]) == CGAL::ON_ORIENTED_BOUNDARY;
+      };
       const auto holds_piece = [&](std::uint32_t t) {
         const auto& c = complex.pieces[t].corners;
         return on_plane(c[0]) && on_plane(c[1]) && on_plane(c[2]);
@@ -240,12 +247,14 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
         if (holds_piece(leg.piece)) return true;
         if (leg.from_edge) {  // a wedge through the edge itself runs outside the groove
           const auto& edges = complex.piece_edges[leg.piece];
-          return std::any_of(edges.begin(), edges.end(), [&](auto e) { return on_plane(complex.edges[e].a) && on_plane(complex.edges[e].b); });
+          return std::any_of(edges.begin(), edges.end(),
+                             [&](auto e) { return on_plane(complex.edges[e].a) && on_plane(complex.edges[e].b); });
         }
       }
       if (h.oriented_side(leg.p) != CGAL::ON_ORIENTED_BOUNDARY) return false;
       if (!at_start) return true;  // p is the m of the leg before, and was looked at there
-      if (start.contour) return on_plane(complex.edges[start.contour->edge].a) && on_plane(complex.edges[start.contour->edge].b);
+      if (start.contour)
+        return on_plane(complex.edges[start.contour->edge].a) && on_plane(complex.edges[start.contour->edge].b);
       return start.surface && holds_piece(start.surface->piece);
     }));
     if (result != Meets::yes && !leg.from_edge) upon(leg.piece, leg.front, leg.m);

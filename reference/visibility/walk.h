@@ -33,7 +33,7 @@ struct Leg {
 struct Walk {
   bool ends_at_cell = false;
   bool unresolved = false;  // never ends: the label is visible, as a counted fallback
-  std::vector<Leg> legs;  // from p towards the cell
+  std::vector<Leg> legs;    // from p towards the cell
 };
 
 // The side of a piece on which a point is asked for.
@@ -46,7 +46,8 @@ struct SurfaceSide {
 struct Start {
   exact::Point3 p;
   std::optional<SurfaceSide> surface;
-  const ContourEdge* contour = nullptr;  // D13a: p is inside this edge, meant just off it in H-, beside the supporting polygon
+  const ContourEdge* contour =
+      nullptr;  // D13a: p is inside this edge, meant just off it in H-, beside the supporting polygon
 };
 
 class Walker {

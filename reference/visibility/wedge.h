@@ -26,10 +26,11 @@ struct Wedge {
   exact::Plane3 plane;         // V lies in its closed negative side H+; its positive side is H-, the visible side
   exact::Point3 center;        // c
   exact::Point3 near0, near1;  // SE-MV: both equal c
-  exact::Point3 on_ray0, on_ray1;  // points of the two rays; c, on_ray0, on_ray1 turn counter-clockwise about plane's normal
+  exact::Point3 on_ray0,
+      on_ray1;  // points of the two rays; c, on_ray0, on_ray1 turn counter-clockwise about plane's normal
   bool unbounded = false;
-  exact::Point3 far0, far1;    // when bounded: on ray0 and ray1
-  std::uint32_t blocker = 0;   // when bounded: the piece that ends it
+  exact::Point3 far0, far1;   // when bounded: on ray0 and ray1
+  std::uint32_t blocker = 0;  // when bounded: the piece that ends it
 };
 
 }  // namespace clues::reference

@@ -44,7 +44,8 @@ CGAL::Bbox_3 box_of(const Wedge& w, const CGAL::Bbox_3& bounds) {
 Meets covers(const ValidPiece& piece, const Point3& x) {
   const OnWedge& on = *piece.on_wedge;
   const Point2 q = on.frame(x), n0 = on.frame(piece.wedge.near0), n1 = on.frame(piece.wedge.near1);
-  const auto sector = {CGAL::orientation(on.center, piece.strip.on_ray0.q, q), CGAL::orientation(piece.strip.on_ray1.q, on.center, q)};
+  const auto sector = {CGAL::orientation(on.center, piece.strip.on_ray0.q, q),
+                       CGAL::orientation(piece.strip.on_ray1.q, on.center, q)};
   Meets result = all_positive(sector);
   const auto also = [&](const Meets m) {
     if (result != Meets::no && m != Meets::yes) result = m;
@@ -66,7 +67,8 @@ Meets crosses(const ValidPiece& piece, const Point3& m, const Point3& p) {
   if (at_p == CGAL::ON_ORIENTED_BOUNDARY) return covers(piece, p) == Meets::no ? Meets::no : Meets::degenerate;
   if (at_m == CGAL::ON_ORIENTED_BOUNDARY) return covers(piece, m) == Meets::no ? Meets::no : Meets::degenerate;
   // m -> p runs along the normal; it passes left of a directed line of the plane exactly when the orientation is positive.
-  Meets result = all_positive({CGAL::orientation(m, p, w.center, w.on_ray0), CGAL::orientation(m, p, w.on_ray1, w.center)});
+  Meets result =
+      all_positive({CGAL::orientation(m, p, w.center, w.on_ray0), CGAL::orientation(m, p, w.on_ray1, w.center)});
   const auto also = [&](const Point3& a, const Point3& b) {
     if (result == Meets::no) return;
     const Meets r = all_positive({CGAL::orientation(m, p, a, b)});
@@ -87,7 +89,8 @@ void WedgeSet::add(std::vector<ValidPiece> batch) {
     const auto id = static_cast<std::uint32_t>(pieces_.size());
     boxes.push_back(box_of(piece.wedge, scene_->bounds()));
     for (const std::uint32_t t : piece.on_wedge->coplanar_pieces) {
-      const bool front = CGAL::is_positive(scene_->complex().planes[t].orthogonal_vector() * piece.wedge.plane.orthogonal_vector());
+      const bool front =
+          CGAL::is_positive(scene_->complex().planes[t].orthogonal_vector() * piece.wedge.plane.orthogonal_vector());
       upon_[{t, front}].push_back(id);
     }
     for (const std::uint32_t e : piece.on_wedge->coplanar_edges) along_[e].push_back(id);

@@ -113,7 +113,7 @@ TEST(ClosedForm, BehindAClosedRoomAllIsHidden) {
 
 TEST(ClosedForm, ATriangleThatMeetsTheCellIsVisible) {
   SceneBuilder s;
-  s.triangle({0, 0, 0}, {5, 0, 0}, {0, 5, 0});    // through the cell
+  s.triangle({0, 0, 0}, {5, 0, 0}, {0, 5, 0});     // through the cell
   s.triangle({1, -1, -1}, {1, 1, -1}, {1, 0, 1});  // touches its face x = 1
   const auto map = map_of(s.mesh(), box_cell(-1, -1, -1, 1, 1, 1));
   EXPECT_EQ(map.visible, (std::vector<std::uint32_t>{0, 1}));

@@ -14,7 +14,8 @@ Contradictions contradictions(const reference::VisibilityMap& map, std::size_t p
   const exact::SceneQuery query(map.complex, map.cell);
   std::vector<exact::TriangleCorners> corners;
   for (const exact::Piece& p : map.complex.pieces) {
-    corners.push_back({map.complex.points[p.corners[0]], map.complex.points[p.corners[1]], map.complex.points[p.corners[2]]});
+    corners.push_back(
+        {map.complex.points[p.corners[0]], map.complex.points[p.corners[1]], map.complex.points[p.corners[2]]});
   }
   fuzz::Random random(seed);
   for (const reference::Region& r : map.regions) {

@@ -61,11 +61,12 @@ void judge_scenes(std::uint64_t per_kind, std::size_t points_per_region) {
   EXPECT_GT(s.refined_triangles, 0U);
   EXPECT_GT(occurred.points, 0U);
   EXPECT_GT(occurred.sight_lines, 0U);
-  std::cout << "seed " << kSeed << ", " << per_kind << " scenes of each kind: " << s.regions_visible << " visible and " << s.regions_hidden
-            << " hidden regions, " << occurred.points << " hidden points by the oracle, " << occurred.sight_lines << " sight lines; SV-ME " << s.sv_me
-            << ", SE-ME " << s.se_me << ", SE-MV " << s.se_mv << " (" << s.inside_corners << " at corners), CSVs " << s.csv << ", generations "
-            << s.generations << ", parallel edges " << s.parallel_edges << ", refined triangles " << s.refined_triangles << ", fallbacks "
-            << s.conservative_fallbacks << "\n";
+  std::cout << "seed " << kSeed << ", " << per_kind << " scenes of each kind: " << s.regions_visible << " visible and "
+            << s.regions_hidden << " hidden regions, " << occurred.points << " hidden points by the oracle, "
+            << occurred.sight_lines << " sight lines; SV-ME " << s.sv_me << ", SE-ME " << s.se_me << ", SE-MV "
+            << s.se_mv << " (" << s.inside_corners << " at corners), CSVs " << s.csv << ", generations "
+            << s.generations << ", parallel edges " << s.parallel_edges << ", refined triangles " << s.refined_triangles
+            << ", fallbacks " << s.conservative_fallbacks << "\n";
 }
 
 TEST(RandomScenes, NothingHiddenIsSeen) { judge_scenes(6, 8); }
@@ -83,7 +84,8 @@ TEST(RandomScenes, TheMapDoesNotDependOnThreadsOrTriangleOrder) {
     const scene::CellSpec spec{"", scene.cell};
     const auto first = reference::first_order_visibility(scene.mesh, cell, one);
     EXPECT_EQ(scene::to_json_text(reference::to_result(first, spec, true)),
-              scene::to_json_text(reference::to_result(reference::first_order_visibility(scene.mesh, cell, two), spec, true)));
+              scene::to_json_text(
+                  reference::to_result(reference::first_order_visibility(scene.mesh, cell, two), spec, true)));
 
     scene::TriangleMesh reversed = scene.mesh;
     std::reverse(reversed.triangles.begin(), reversed.triangles.end());

@@ -23,7 +23,8 @@ std::uint32_t SceneBuilder::triangle(const scene::Point& a, const scene::Point& 
   return id;
 }
 
-std::uint32_t SceneBuilder::quad(const scene::Point& a, const scene::Point& b, const scene::Point& c, const scene::Point& d) {
+std::uint32_t SceneBuilder::quad(const scene::Point& a, const scene::Point& b, const scene::Point& c,
+                                 const scene::Point& d) {
   const std::uint32_t id = triangle(a, b, c);
   triangle(a, c, d);
   return id;
@@ -34,7 +35,9 @@ std::uint32_t SceneBuilder::plate(double x0, double y0, double x1, double y1, do
 }
 
 std::uint32_t SceneBuilder::box(const scene::Point& lo, const scene::Point& hi) {
-  const auto p = [&](int i) { return scene::Point{i & 1 ? hi[0] : lo[0], i & 2 ? hi[1] : lo[1], i & 4 ? hi[2] : lo[2]}; };
+  const auto p = [&](int i) {
+    return scene::Point{i & 1 ? hi[0] : lo[0], i & 2 ? hi[1] : lo[1], i & 4 ? hi[2] : lo[2]};
+  };
   const std::uint32_t id = quad(p(0), p(2), p(3), p(1));
   quad(p(4), p(5), p(7), p(6));
   quad(p(0), p(1), p(5), p(4));
@@ -44,7 +47,8 @@ std::uint32_t SceneBuilder::box(const scene::Point& lo, const scene::Point& hi) 
   return id;
 }
 
-std::uint32_t SceneBuilder::prism(const std::vector<std::array<double, 2>>& polygon, double h, const std::vector<std::array<int, 3>>& cap) {
+std::uint32_t SceneBuilder::prism(const std::vector<std::array<double, 2>>& polygon, double h,
+                                  const std::vector<std::array<int, 3>>& cap) {
   const auto id = static_cast<std::uint32_t>(mesh_.triangles.size());
   const auto at = [&](std::size_t i, double z) { return scene::Point{polygon[i][0], polygon[i][1], z}; };
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -52,7 +56,8 @@ std::uint32_t SceneBuilder::prism(const std::vector<std::array<double, 2>>& poly
     quad(at(i, -h), at(j, -h), at(j, h), at(i, h));
   }
   for (const auto& c : cap) {
-    const auto i = static_cast<std::size_t>(c[0]), j = static_cast<std::size_t>(c[1]), k = static_cast<std::size_t>(c[2]);
+    const auto i = static_cast<std::size_t>(c[0]), j = static_cast<std::size_t>(c[1]),
+               k = static_cast<std::size_t>(c[2]);
     triangle(at(i, h), at(j, h), at(k, h));
     triangle(at(i, -h), at(k, -h), at(j, -h));
   }
@@ -65,7 +70,8 @@ exact::ConvexCell box_cell(double x0, double y0, double z0, double x1, double y1
   return exact::ConvexCell::from_doubles(corners);
 }
 
-reference::VisibilityMap map_of(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const reference::Options& options) {
+reference::VisibilityMap map_of(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
+                                const reference::Options& options) {
   reference::Options o = options;
   o.check_two_walks = true;
   return reference::first_order_visibility(mesh, cell, o);
@@ -91,7 +97,8 @@ FT twice_area(const std::vector<Point3>& ring) {  // of its shadow on the plane 
 
 }  // namespace
 
-FT hidden_area(const reference::VisibilityMap& map, const scene::TriangleMesh&, std::uint32_t first, std::uint32_t count, bool front) {
+FT hidden_area(const reference::VisibilityMap& map, const scene::TriangleMesh&, std::uint32_t first,
+               std::uint32_t count, bool front) {
   FT sum(0);
   for (const reference::Region& r : map.regions) {
     if (r.visible) continue;
