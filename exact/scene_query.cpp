@@ -103,6 +103,17 @@ SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_p
   return answer;
 }
 
+std::vector<std::pair<Point3, Point3>> SceneQuery::outline_in_cell(std::uint32_t piece) const {
+  std::vector<std::pair<Point3, Point3>> outline;
+  if (!meets_cell_[piece] || cell_->dimension() < 3) return outline;
+  std::vector<Point3> part;
+  for (const std::uint32_t c : complex_->pieces[piece].corners) part.push_back(complex_->points[c]);
+  for (const CellFacet& f : cell_->facets()) part = clip(part, f.plane, -1);
+  for (std::size_t i = 0; part.size() >= 3 && i < part.size(); ++i)
+    outline.emplace_back(part[i], part[(i + 1) % part.size()]);
+  return outline;
+}
+
 bool SceneQuery::is_free(const Point3& v, const Point3& p) const {
   const Kernel::Segment_3 segment(v, p);
   for (const std::uint32_t t : tree_.candidates(SegmentBoxTest(v, p))) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "exact/box_tree.h"
@@ -44,6 +45,8 @@ class SceneQuery {
 
   // Whether piece t meets the closed cell (D3).
   bool meets_cell(std::uint32_t piece) const { return meets_cell_[piece]; }
+  // The outline of the part of piece t in a cell of dimension 3; empty if that part has no area.
+  std::vector<std::pair<Point3, Point3>> outline_in_cell(std::uint32_t piece) const;
   const CGAL::Bbox_3& bounds() const { return bounds_; }  // of scene and cell
   const Complex& complex() const { return *complex_; }
   const ConvexCell& cell() const { return *cell_; }

@@ -19,13 +19,15 @@ CGAL::Sign beside(const Point3& a, const Point3& b, const Vector3& n, const Poin
 
 std::vector<SupportingPlane> supporting_planes(const Point3& a, const Point3& b, const exact::ConvexCell& cell) {
   const std::vector<Point3>& s = cell.vertices();
-  for (const Point3& v : s) {
-    if (CGAL::collinear(a, b, v)) return {};
+  std::vector<std::size_t> off_line;  // the line may touch V in a vertex or an edge
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (!CGAL::collinear(a, b, s[i])) off_line.push_back(i);
   }
-  // Seen along the line, V spans less than a half turn unless the line meets it; its two ends are found by comparison.
+  if (off_line.empty()) return {};
+  // Seen along the line, V spans at most a half turn unless the line passes through int V; its ends are found by comparison.
   const auto end = [&](CGAL::Orientation turn) {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < s.size(); ++i) {
+    std::size_t best = off_line.front();
+    for (const std::size_t i : off_line) {
       if (CGAL::orientation(a, b, s[best], s[i]) == turn) best = i;
     }
     return best;
@@ -33,20 +35,21 @@ std::vector<SupportingPlane> supporting_planes(const Point3& a, const Point3& b,
   std::vector<SupportingPlane> planes;
   for (const CGAL::Orientation turn : {CGAL::POSITIVE, CGAL::NEGATIVE}) {
     const std::size_t m = end(turn);
-    SupportingPlane found;
-    for (std::size_t i = 0; i < s.size(); ++i) {
+    const exact::Plane3 plane = turn == CGAL::POSITIVE ? exact::Plane3(a, b, s[m]) : exact::Plane3(b, a, s[m]);
+    const Vector3 n = plane.orthogonal_vector();
+    // The touching vertices, by the side of the line they are on. On both sides only if the line runs through a facet of V.
+    std::vector<int> left, right;
+    for (const std::size_t i : off_line) {
       const CGAL::Orientation o = CGAL::orientation(a, b, s[m], s[i]);
       if (o == turn) return {};  // no end: the line passes through V
-      if (o == CGAL::COPLANAR) found.touching.push_back(static_cast<int>(i));
+      if (o != CGAL::COPLANAR) continue;
+      (beside(a, b, n, s[i]) == CGAL::POSITIVE ? left : right).push_back(static_cast<int>(i));
     }
-    found.plane = turn == CGAL::POSITIVE ? exact::Plane3(a, b, s[m]) : exact::Plane3(b, a, s[m]);
-    const Vector3 n = found.plane.orthogonal_vector();
-    const CGAL::Sign side = beside(a, b, n, s[m]);
-    for (const int i : found.touching) {
-      if (beside(a, b, n, s[static_cast<std::size_t>(i)]) != side)
-        return {};  // V reaches both sides of the line: it meets V
+    for (const auto& touching : {left, right}) {
+      if (!touching.empty()) planes.push_back({plane, touching});
     }
-    planes.push_back(std::move(found));
+    // Then both ends of V lie in this one plane, unless all of V does and both ways round count.
+    if (!left.empty() && !right.empty() && left.size() + right.size() < off_line.size()) break;
   }
   return planes;
 }

@@ -26,8 +26,9 @@ struct ContourEdge {
       cover;  // a piece lying in the plane between the edge and V: it covers the near side of the edge
 };
 
-// The up to two supporting planes of V through the line ab, each oriented with V in the closed negative side. None when the line
-// meets V. If V lies in one plane with the line: that plane, both ways round.
+// The supporting planes of V through the line ab, each oriented with V in the closed negative side: up to two, none when the line
+// meets int V. A line that only touches V has them too (a box that leans on the cell: the definition's D10 says it has none, and
+// then hides what is visible). If the plane meets V on both sides of the line it is given once for each side.
 struct SupportingPlane {
   exact::Plane3 plane;
   std::vector<int> touching;

@@ -239,6 +239,8 @@ class SideMapper {
         if (!on_border) flat.push_back(s);
       }
     };
+    for (const auto& [a, b] : scene_.outline_in_cell(key.first))
+      add(frame(a), frame(b));  // D3: inside V all is visible
     const auto traces = traces_.find(key);
     if (traces != traces_.end()) {
       for (const Segment3& s : traces->second) add(frame(s.first), frame(s.second));
