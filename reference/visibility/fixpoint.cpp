@@ -350,9 +350,10 @@ class Search {
   }
 
   void add_csv(const ValidPiece& piece, const Crossing& c) {
-    if (options_.planted_bug == PlantedBug::retested_csv &&
-        !walker_.label({c.at.p, std::nullopt, nullptr}, wedges_, kSourceSeed).visible)
-      return;
+    if (options_.planted_bug == PlantedBug::retested_csv) {
+      const Start start{c.at.p, std::nullopt, nullptr};
+      if (walker_.visible(start, walker_.walk(start, kSourceSeed), wedges_, 0) != Meets::yes) return;
+    }
     Apex* apex = c.at_vertex ? corner(c.id) : csv(c.id, c.at.p);
     const int generation = piece.wedge.generation + 1;
     if (apex->on_edge() && (apex->generation < 0 || generation < apex->generation)) apex->generation = generation;

@@ -83,14 +83,11 @@ std::optional<Leg> Walker::groove_leg(const Walk& walk) const {
     const exact::Edge& e = complex.edges[id];
     if (std::find(e.pieces.begin(), e.pieces.end(), one.piece) == e.pieces.end()) continue;
     const Point3 &a = complex.points[e.a], &b = complex.points[e.b];
-    if (CGAL::collinear(last.m, one.m, two.m)) return std::nullopt;
-    const exact::Plane3 h(last.m, one.m, two.m);
-    const auto value = [&](const Point3& x) { return h.a() * x.x() + h.b() * x.y() + h.c() * x.z() + h.d(); };
-    const FT at_a = value(a), at_b = value(b);
-    if (CGAL::sign(at_a) * CGAL::sign(at_b) >= 0) return std::nullopt;
-    const Point3 y = exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a));
     const Point3 q = exact::collapsed(CGAL::midpoint(last.m, one.m));
-    const exact::SegmentAnswer between = scene_->crossings(y, q);
+    const FT t = ((q - a) * (b - a)) / ((b - a) * (b - a));
+    if (!CGAL::is_positive(t) || t >= FT(1)) return std::nullopt;
+    const Point3 y = exact::collapsed(a + t * (b - a));  // the foot of q on the edge
+    const exact::SegmentAnswer between = scene_->crossings(q, y);
     if (between.degenerate || !between.hits.empty()) return std::nullopt;
     return Leg{y, q, last.piece, last.front, true};
   }

@@ -2,7 +2,10 @@
 // second walk from other points of the cell (D14). No contradiction is tolerated. Every scene replays from its name.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <iostream>
 #include <string>
 
 #include "fuzz/generators/random_scenes.h"
@@ -71,7 +74,10 @@ void judge_scenes(std::uint64_t per_kind, std::size_t points_per_region) {
 
 TEST(RandomScenes, NothingHiddenIsSeen) { judge_scenes(6, 8); }
 
-TEST(RandomScenesLong, NothingHiddenIsSeen) { judge_scenes(50, 20); }
+TEST(RandomScenesLong, NothingHiddenIsSeen) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  judge_scenes(50, 20);
+}
 
 TEST(RandomScenes, TheMapDoesNotDependOnThreadsOrTriangleOrder) {
   for (const fuzz::Kind kind : {fuzz::Kind::loose_triangles, fuzz::Kind::axis_boxes, fuzz::Kind::interpenetrating}) {
