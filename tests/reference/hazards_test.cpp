@@ -9,6 +9,7 @@
 #include "judges.h"
 #include "reference/visibility/anticone.h"
 #include "reference/visibility/contour.h"
+#include "reference/visibility/fixpoint.h"
 
 namespace clues::test {
 namespace {
@@ -50,10 +51,10 @@ TEST(Hazard, A3LeavingASolidThroughAVisibleFace) {
   const auto hits = query.crossings(q, p).hits;
   ASSERT_EQ(hits.size(), 2U);
   const Point3 m = q + hits.back().t * (p - q);
-  for (const auto& w : map.wedges) {
-    EXPECT_FALSE(w.plane.oriented_side(m) == CGAL::ON_NEGATIVE_SIDE &&
-                 w.plane.oriented_side(p) == CGAL::ON_POSITIVE_SIDE);
-  }
+  reference::Statistics unused;
+  const reference::Options defaults;
+  const auto wedges = reference::find_wedges(query, defaults, unused).wedges;
+  EXPECT_NE(wedges.crossed(m, p, 0, [](const auto&) { return false; }), reference::Meets::yes);
   EXPECT_TRUE(query.is_free(Point3(0.5, 3.5, 0.1), p));
 }
 
