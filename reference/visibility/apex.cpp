@@ -51,6 +51,12 @@ Probe Apex::probe(const Vector3& limit, const Vector3& aside, const Vector3& off
   return {limit, actual, CGAL::NULL_VECTOR};
 }
 
+bool Apex::has_sector_facing(const Vector3& d) const {
+  if (sectors_.empty()) return false;
+  const std::vector<int> face = star_.face_of(d);
+  return std::any_of(sectors_.begin(), sectors_.end(), [&](const ApexSector& s) { return s.face == face; });
+}
+
 void Apex::start_round() {
   probes_.clear();
   fresh_ = false;

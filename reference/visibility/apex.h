@@ -45,6 +45,8 @@ class Apex {
     probes_.push_back(p);
     fresh_ = true;
   }
+  // Whether a sector starts in the local face that contains d.
+  bool has_sector_facing(const exact::Vector3& d) const;
   // The sectors that exist by the probes so far and were not given before in this round.
   std::vector<std::size_t> new_sectors();
   void start_round();

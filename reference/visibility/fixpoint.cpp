@@ -47,6 +47,16 @@ struct Source {
   bool lit = false;
 };
 
+// A mesh vertex seen from v in int V: a source of SE-MV wedges even where no contour edge ends (a corner whose edges all point away
+// from the cell).
+struct VertexSource {
+  std::uint32_t point = 0;
+  Point3 x, v;
+  Probe probe;
+  Walk walk;
+  bool lit = false;
+};
+
 // A sector waiting to become valid pieces: either a contour edge seen from a touching cell vertex, or a sector of an apex.
 struct Job {
   std::size_t contour = 0;
@@ -76,6 +86,7 @@ class Search {
   }
 
   Fixpoint run() {
+    make_vertex_sources();
     for (bool changed = true; changed;) {
       ++statistics_.rounds;
       changed = round();
@@ -99,6 +110,10 @@ class Search {
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       if (sources_[i].walk.ends_at_cell || sources_[i].walk.unresolved) lit.push_back(i);
     }
+    for (VertexSource& s : vertex_sources_) {
+      s.lit = false;
+      if (s.walk.ends_at_cell || s.walk.unresolved) light_vertex(s);
+    }
     std::vector<Job> jobs = light(lit);
     while (!jobs.empty()) {
       report();
@@ -106,6 +121,9 @@ class Search {
       std::vector<ValidPiece> batch = build(jobs);
       wedges_.add(std::move(batch));
       for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
+      for (VertexSource& s : vertex_sources_) {
+        if (!s.lit && walker_.visible(start_of(s), s.walk, wedges_, first) == Meets::yes) light_vertex(s);
+      }
       jobs = light(newly_lit(first));
     }
 
@@ -167,6 +185,37 @@ class Search {
   }
 
   Start start_of(const Source& s) const { return {s.y, std::nullopt, &contours_[s.contour]}; }
+
+  static Start start_of(const VertexSource& s) { return {s.x, std::nullopt, nullptr, s.v}; }
+
+  void light_vertex(VertexSource& s) {
+    s.lit = true;
+    Apex* apex = corner(s.point);
+    apex->add_probe(s.probe);
+    touched_.insert(apex);
+  }
+
+  // Every mesh vertex, once for each sight line from near a cell vertex that arrives in a local face where a sector starts.
+  void make_vertex_sources() {
+    const std::vector<Point3>& cell = scene_.cell().vertices();
+    for (std::uint32_t p = 0; p < complex_.points.size(); ++p) {
+      const Apex* apex = corner(p);
+      for (std::size_t i = 0; i < cell.size(); ++i) {
+        std::vector<int> weights;
+        for (std::size_t j = 0; j < cell.size(); ++j)
+          weights.push_back(i == j ? 5003 : 3 + static_cast<int>((7 * j + 11 * i + p) % 13));
+        VertexSource s{p, complex_.points[p], scene_.cell().interior_point(weights), {}, {}, false};
+        const Vector3 d = s.v - s.x;
+        if (!apex->has_sector_facing(d)) continue;
+        s.probe = {d, d, CGAL::NULL_VECTOR};
+        vertex_sources_.push_back(std::move(s));
+      }
+    }
+    tbb::parallel_for(std::size_t{0}, vertex_sources_.size(), [&](std::size_t i) {
+      vertex_sources_[i].walk = walker_.walk(start_of(vertex_sources_[i]), kSourceSeed);
+    });
+    statistics_.walks += vertex_sources_.size();
+  }
 
   // Hidden sources that the pieces from index `first` on make visible.
   std::vector<std::size_t> newly_lit(std::size_t first) {
@@ -440,6 +489,7 @@ class Search {
   std::set<std::uint32_t> is_contour_;
   std::vector<std::vector<Point3>> cuts_, new_cuts_;  // per edge; cuts_ in lexicographic order
   std::vector<Source> sources_;
+  std::vector<VertexSource> vertex_sources_;
   WedgeSet wedges_;
   std::map<std::pair<std::uint32_t, Point3>, std::unique_ptr<Apex>, CsvLess> csvs_;
   std::map<std::uint32_t, std::unique_ptr<Apex>> corners_;

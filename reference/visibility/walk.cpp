@@ -180,6 +180,12 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     do {
       if (attempt == kAttempts)
         throw scene::Error(scene::ErrorCode::internal, "walk: no sight line in general position");
+      if (depth == 0 && start.from) {
+        v = *start.from;
+        answer = scene_->crossings(v, p);
+        if (answer.degenerate) return walk;
+        break;
+      }
       v = choose(mix(seed * 1000003 + static_cast<std::uint64_t>(depth) * 1009 + static_cast<std::uint64_t>(attempt)),
                  anchor, good);
       answer = scene_->crossings(v, p, contour != nullptr);

@@ -48,6 +48,8 @@ struct Start {
   std::optional<SurfaceSide> surface;
   const ContourEdge* contour =
       nullptr;  // D13a: p is inside this edge, meant just off it in H-, beside the supporting polygon
+  std::optional<exact::Point3> from =
+      std::nullopt;  // p is a mesh vertex, seen along the sight line from here (in int V)
 };
 
 class Walker {

@@ -205,6 +205,12 @@ TEST(Hazard, AWedgeThatRunsAlongASurfaceCutsIt) {
   expect_no_contradiction(map_of(scene.mesh, exact::ConvexCell::from_doubles(scene.cell)));
 }
 
+// Not on the list: a corner whose edges all point away from the cell has no contour edge and needs SE-MV wedges all the same.
+TEST(Hazard, ACornerWithoutAContourEdgeHasWedges) {
+  const auto scene = fuzz::generate(fuzz::Kind::open_sheets, 20261121, 3);
+  expect_no_contradiction(map_of(scene.mesh, exact::ConvexCell::from_doubles(scene.cell)));
+}
+
 // Not on the list, against the definition's D10: an edge whose line touches the cell without entering it carries wedges. Found on axis-boxes-1-44.
 TEST(Hazard, AnEdgeWhoseLineTouchesTheCellHasWedges) {
   EXPECT_FALSE(reference::supporting_planes(Point3(1, 2, 0), Point3(1, 3, 0), box_cell(-1, -3, 0, 1, 2, 1)).empty());
