@@ -30,7 +30,7 @@ struct Options {
   Mode mode = Mode::sheet;
   int generation_limit =
       16;           // D17: wedges of a later generation are not built; what they could show is labelled visible
-  int threads = 0;  // 0: all cores; the answer does not depend on it
+  int threads = 0;  // accepted, but one thread is used at present (see first_order.cpp)
   bool check_two_walks = false;  // D14: walk twice, from two independent v, and count disagreements
   Progress progress;
   PlantedBug planted_bug = PlantedBug::none;
