@@ -61,12 +61,14 @@ void set_triangle_bounds(const LocalErrors& e, LocalSegment& out) {
 Reach make_local(const LocalFrame& frame, const Segment& s, LocalSegment& out) {
   std::array<double, 3> a{}, b{};
   double size = 0;
+  bool near = true;  // false for anything that is not a number, too
   for (std::size_t i = 0; i < 3; ++i) {
     a[i] = frame.to_local(s.a[i], i);
     b[i] = frame.to_local(s.b[i], i);
+    near = near && std::fabs(a[i]) <= kReach && std::fabs(b[i]) <= kReach;
     size = std::max({size, std::fabs(a[i]), std::fabs(b[i])});
   }
-  if (!(size <= kReach)) {
+  if (!near) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (!std::isfinite(s.a[i]) || !std::isfinite(s.b[i])) {
         throw scene::Error(scene::ErrorCode::non_finite, "an end point of a segment is not finite");
