@@ -1,4 +1,4 @@
-// Our own bounding volume hierarchy over the triangles of a mesh (D1): four boxes a node, four triangles a leaf, both in floats of a local
+// Our own bounding volume hierarchy over the triangles of a mesh (D1): eight boxes a node, four triangles a leaf, both in floats of a local
 // frame and rounded outward or with derived bounds; exact coordinates stay in the mesh. Built by binned surface-area heuristic, in
 // parallel; the same tree for any number of threads. Triangles without area are left out: they are no surface.
 #pragma once

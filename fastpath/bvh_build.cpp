@@ -1,7 +1,8 @@
-// Binned surface-area heuristic (Wald 2007), four children a node: the largest child that is not a leaf is split until there are four.
+// Binned surface-area heuristic (Wald 2007), eight children a node: the largest child that is not a leaf is split until there are eight.
 #include "fastpath/bvh_build.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 
@@ -185,7 +186,7 @@ void append(Tree& tree, Tree&& part) {
 }
 
 void build(const Range& range, int level, Tree& tree) {
-  std::array<Range, 4> part{range};
+  std::array<Range, BoxLanes::kWidth> part{range};
   std::size_t parts = 1;
   while (parts < part.size()) {
     std::size_t largest = parts;
@@ -201,7 +202,7 @@ void build(const Range& range, int level, Tree& tree) {
   const std::size_t self = tree.nodes.size();
   tree.nodes.emplace_back();
   std::fill(std::begin(tree.nodes[self].child), std::end(tree.nodes[self].child), BoxLanes::kEmpty);
-  for (std::size_t lane = 0; lane < 4; ++lane)
+  for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane)
     set_lane(tree.nodes[self], lane, lane < parts ? part[lane].bounds.boxes : Box{});
 
   const auto build_child = [&](std::size_t lane, Tree& into) -> std::uint32_t {
@@ -221,12 +222,9 @@ void build(const Range& range, int level, Tree& tree) {
     }
     return;
   }
-  std::array<Tree, 4> sub;
-  std::array<std::uint32_t, 4> child{};
-  const auto task = [&](std::size_t lane) {
-    if (lane < parts) child[lane] = build_child(lane, sub[lane]);
-  };
-  tbb::parallel_invoke([&] { task(0); }, [&] { task(1); }, [&] { task(2); }, [&] { task(3); });
+  std::array<Tree, BoxLanes::kWidth> sub;
+  std::array<std::uint32_t, BoxLanes::kWidth> child{};
+  tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t lane) { child[lane] = build_child(lane, sub[lane]); });
   for (std::size_t lane = 0; lane < parts; ++lane) {
     const auto base =
         static_cast<std::uint32_t>((child[lane] & BoxLanes::kLeaf) != 0 ? tree.leaves.size() : tree.nodes.size());

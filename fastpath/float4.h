@@ -24,6 +24,8 @@ inline Float4 load4(const float* aligned) {
   return v;
 }
 
+inline void store4(float* to, Float4 v) { std::memcpy(to, &v, sizeof v); }
+
 // Without NaN the order of the arguments does not matter, except for the sign of zero.
 inline Float4 min4(Float4 a, Float4 b) {
 #ifdef __SSE2__

@@ -52,10 +52,10 @@ void set_triangle_bounds(const LocalErrors& e, LocalSegment& out) {
   const double r = 2 * (c * D + G * d) + 4 * u * G * D;
   const double edge = 3 * (r + 2 * u * G * D) + 18 * u * G * D;
   const double den = 42 * u * D + 6 * d, t = 42 * u * G + 6 * c;
-  out.edge_error = rounded_up(edge * kSpare);
-  out.plane_error = rounded_up((den + t + 6 * u * (G + D)) * kSpare);
-  out.sum_error = rounded_up((2 * edge + 18 * u * G * D) * kSpare);
-  out.sum_error_2 = rounded_up((den + 12 * u * D) * kSpare);
+  out.edge_error = static_cast<float>(edge * kSpare);
+  out.plane_error = static_cast<float>((den + t + 6 * u * (G + D)) * kSpare);
+  out.sum_error = static_cast<float>((2 * edge + 18 * u * G * D) * kSpare);
+  out.sum_error_2 = static_cast<float>((den + 12 * u * D) * kSpare);
 }
 
 Reach make_local(const LocalFrame& frame, const Segment& s, LocalSegment& out) {
@@ -118,11 +118,11 @@ Reach make_local(const LocalFrame& frame, const Segment& s, LocalSegment& out) {
 
   // |float point - exact point| <= start_error + along_error. A component of `along` nearer to zero than that is replaced by it, which moves points by
   // as much again; then quotients stay below 2^26 and nothing is infinite. Rounding the origins costs u each.
-  const double position = (e.start_error + e.along_error) * kSpare;
+  const double position = static_cast<float>((e.start_error + e.along_error) * kSpare);
   const double reach = (2 * position + kFloatUnit * (e.start_size + 1)) * kSpare;
   for (std::size_t i = 0; i < 3; ++i) {
     float along = out.along[i];
-    if (std::fabs(static_cast<double>(along)) < position) along = rounded_up(position) * (along < 0 ? -1.0F : 1.0F);
+    if (std::fabs(static_cast<double>(along)) < position) along = std::copysign(static_cast<float>(position), along);
     out.forward[i] = along > 0;
     const double toward = along > 0 ? reach : -reach;
     out.near_origin[i] = static_cast<float>(static_cast<double>(out.start[i]) + toward);

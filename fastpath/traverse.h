@@ -15,14 +15,13 @@ void traverse(const Bvh& bvh, const LocalSegment& segment, const Leaf& leaf) {
   const BoxLanes* const nodes = bvh.nodes().data();
   const TriangleBlock* const blocks = bvh.blocks().data();
   const BoxTest test(segment);
-  std::array<std::uint32_t, 3 * Bvh::kDeepest + 4> stack;  // NOLINT: filled as it grows
+  std::array<std::uint32_t, (BoxLanes::kWidth - 1) * Bvh::kDeepest + 4> stack;  // NOLINT: filled as it grows
   std::size_t size = 0;
   std::uint32_t next = 0;
   for (;;) {
     if ((next & BoxLanes::kLeaf) == 0) {
       const BoxLanes& node = nodes[next];
-      Float4 near;
-      unsigned met = test(node, 1.0F, near);
+      unsigned met = test(node, 1.0F, nullptr);
       if (met != 0) {
         next = node.child[__builtin_ctz(met)];
         for (met &= met - 1; met != 0; met &= met - 1) stack[size++] = node.child[__builtin_ctz(met)];
@@ -45,7 +44,7 @@ void traverse_ordered(const Bvh& bvh, const LocalSegment& segment, const Leaf& l
     float near;
     std::uint32_t child;
   };
-  std::array<Waiting, 3 * Bvh::kDeepest + 4> stack;  // NOLINT: filled as it grows
+  std::array<Waiting, (BoxLanes::kWidth - 1) * Bvh::kDeepest + 4> stack;  // NOLINT: filled as it grows
   std::size_t size = 0;
   stack[size++] = {0, 0};
   while (size > 0) {
@@ -57,9 +56,9 @@ void traverse_ordered(const Bvh& bvh, const LocalSegment& segment, const Leaf& l
       continue;
     }
     const BoxLanes& node = bvh.nodes()[next.child];
-    Float4 near;
+    std::array<float, BoxLanes::kWidth> near;  // NOLINT: filled by the test
     const std::size_t first = size;
-    for (unsigned met = test(node, end, near); met != 0; met &= met - 1) {
+    for (unsigned met = test(node, end, near.data()); met != 0; met &= met - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(met));
       const Waiting child{near[lane], node.child[lane]};
       std::size_t at = size++;

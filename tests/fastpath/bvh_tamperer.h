@@ -18,7 +18,7 @@ class BvhTamperer {
   // Every box loses `by` at every side.
   static void shrink_boxes(Bvh& bvh, float by) {
     for (BoxLanes& node : bvh.nodes_) {
-      for (std::size_t lane = 0; lane < 4; ++lane) {
+      for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane) {
         for (std::size_t i = 0; i < 3; ++i) {
           node.side[i][lane] += by;
           node.side[i + 3][lane] -= by;
