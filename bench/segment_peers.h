@@ -26,7 +26,6 @@ struct NamedPeer {
   std::string name;
   std::function<bool(const fastpath::Segment&)> any_hit;
   double build_seconds = 0;
-  bool slow = false;
 };
 
 inline double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -50,7 +49,7 @@ NamedPeer cgal_peer(const scene::TriangleMesh& mesh, const std::string& name) {
           [triangles, tree, point](const fastpath::Segment& s) {
             return tree->do_intersect(typename Kernel::Segment_3(point(s.a), point(s.b)));
           },
-          seconds_since(start), true};
+          seconds_since(start)};
 }
 
 #ifdef CLUES_EMBREE
@@ -91,7 +90,7 @@ inline NamedPeer embree_peer(const scene::TriangleMesh& mesh, const std::string&
             rtcOccluded1(scene.get(), &context, &ray);
             return ray.tfar < 0;
           },
-          seconds_since(start), false};
+          seconds_since(start)};
 }
 #else
 inline constexpr bool kHaveEmbree = false;

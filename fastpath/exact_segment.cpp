@@ -4,7 +4,9 @@
 #include <gmpxx.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -52,6 +54,69 @@ Whole cross(const Whole& a, const Whole& b) {
 mpz_class dot(const Whole& a, const Whole& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 bool is_zero(const Whole& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0; }
+
+__extension__ using Wide = __int128;
+using Small = std::array<std::int64_t, 3>;
+
+// The same when the points are multiples of one power of two by whole numbers below 2^40, as they are on grids and in meshes of floats. O(1), no
+// memory: the usual way of being degenerate is cheap.
+std::optional<std::array<Small, 5>> small_numbers(const std::array<const Point*, 5>& points) {
+  constexpr int kBits = 40;
+  std::array<Small, 5> out{};
+  std::array<std::array<int, 3>, 5> exponents{};
+  int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::min();
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double x = (*points[i])[k];
+      if (x == 0) continue;
+      const auto bits = std::bit_cast<std::uint64_t>(x);
+      const int exponent = static_cast<int>((bits >> 52U) & 0x7ffU);
+      if (exponent == 0) return std::nullopt;  // subnormal
+      auto mantissa = static_cast<std::int64_t>((bits & 0xfffffffffffffU) | 0x10000000000000U);
+      const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
+      mantissa >>= zeros;
+      out[i][k] = x < 0 ? -mantissa : mantissa;
+      exponents[i][k] = exponent + zeros;
+      least = std::min(least, exponent + zeros);
+      most = std::max(most, exponent + 53);
+    }
+  }
+  if (most - least > kBits) return most < least ? std::optional(out) : std::nullopt;
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (out[i][k] != 0) out[i][k] *= std::int64_t{1} << static_cast<unsigned>(exponents[i][k] - least);
+    }
+  }
+  return out;
+}
+
+// Differences below 2^41, products of two below 2^82, their differences below 2^83, times 2^41, three of those: below 2^126.
+int orientation(const Small& a, const Small& b, const Small& c, const Small& d) {
+  std::array<std::array<Wide, 3>, 3> m{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    m[0][k] = b[k] - a[k];
+    m[1][k] = c[k] - a[k];
+    m[2][k] = d[k] - a[k];
+  }
+  const Wide value = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
+                     m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
+                     m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  return value > 0 ? 1 : value < 0 ? -1 : 0;
+}
+
+// Unsure only in the plane of the triangle.
+Meets meets_small(const std::array<Small, 5>& p) {
+  const int at_a = orientation(p[0], p[1], p[2], p[3]), at_b = orientation(p[0], p[1], p[2], p[4]);
+  if (at_a == 0 && at_b == 0) return Meets::unsure;
+  if (at_a * at_b >= 0) return Meets::no;
+  bool left = false, right = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int side = orientation(p[3], p[4], p[i], p[(i + 1) % 3]);
+    left = left || side > 0;
+    right = right || side < 0;
+  }
+  return left && right ? Meets::no : Meets::yes;
+}
 
 // A set of parameters: an interval with or without its ends.
 struct Interval {
@@ -176,7 +241,13 @@ bool degenerate_exact(const Corners& t) {
   return is_zero(cross(p[1] - p[0], p[2] - p[0]));
 }
 
-bool meets_exact(const Segment& s, const Corners& t) { return met_part(s, t).has_value(); }
+bool meets_exact(const Segment& s, const Corners& t) {
+  if (const auto small = small_numbers({&t[0], &t[1], &t[2], &s.a, &s.b})) {
+    const Meets meets = meets_small(*small);
+    if (meets != Meets::unsure) return meets == Meets::yes;
+  }
+  return met_part(s, t).has_value();
+}
 
 bool blocks_exact(const Segment& s, const Corners& t, const Cell& cell) { return first_block(s, t, &cell).has_value(); }
 

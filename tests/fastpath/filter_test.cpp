@@ -194,7 +194,9 @@ TEST(ExactStage, AgreesWithTheOracleOnGrids) {
     Corners t{};
     Segment s;
     for (Point* q : {&t[0], &t[1], &t[2], &s.a, &s.b}) {
-      for (double& x : *q) x = random.between(-1, 1) * 0.1;
+      // Multiples of 0.1 as a double, of a power of two, and of numbers just within and just beyond 2^40 times another.
+      const double unit = i % 4 == 0 ? 0.1 : i % 4 == 1 ? 0x1p-60 : i % 4 == 2 ? 0x1.0000000002p0 : 0x1.0000000001p0;
+      for (double& x : *q) x = random.between(-1, 1) * unit;
     }
     if (degenerate_exact(t)) continue;
     const bool expected = oracle_meets(s, t);
