@@ -98,10 +98,17 @@ std::vector<Segment> near_degenerate_segments(const TriangleMesh& mesh, double r
 
 struct Peer {
   std::string name;
-  std::function<bool(const Segment&)> any_hit;
+  std::function<void(const std::vector<Segment>&, std::vector<std::uint8_t>&)> run;
   std::vector<double> rates{};
   std::vector<std::uint8_t> answers{};
 };
+
+template <class AnyHit>
+Peer one_by_one(const std::string& name, AnyHit any_hit) {
+  return {name, [any_hit](const std::vector<Segment>& segments, std::vector<std::uint8_t>& answers) {
+            for (std::size_t i = 0; i < segments.size(); ++i) answers[i] = any_hit(segments[i]) ? 1 : 0;
+          }};
+}
 
 double median(std::vector<double> x) {
   std::sort(x.begin(), x.end());
@@ -116,7 +123,7 @@ void run_rounds(std::vector<Peer>& peer_list, const std::vector<Segment>& segmen
   for (int round = 0; round < kRounds; ++round) {
     for (Peer& peer : peer_list) {
       const auto start = std::chrono::steady_clock::now();
-      for (std::size_t i = 0; i < segments.size(); ++i) peer.answers[i] = peer.any_hit(segments[i]) ? 1 : 0;
+      peer.run(segments, peer.answers);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       peer.rates.push_back(static_cast<double>(segments.size()) / seconds);
     }
@@ -147,11 +154,15 @@ void bench(const std::string& name, const TriangleMesh& mesh, double reach) {
   const double build = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   SegmentQueries queries(bvh);
   std::vector<Peer> peer_list;
-  peer_list.push_back({"clues (exact)", [&](const Segment& s) { return queries.any_hit(s); }});
+  peer_list.push_back(one_by_one("clues (exact)", [&](const Segment& s) { return queries.any_hit(s); }));
+  peer_list.push_back(
+      {"clues (exact), batch", [&](const std::vector<Segment>& segments, std::vector<std::uint8_t>& answers) {
+         queries.any_hits(segments, answers);
+       }});
   std::string builds = fmt::format("clues {:.2f} s", build);
   std::vector<peers::NamedPeer> others = peers::make_peers(mesh);
   for (peers::NamedPeer& other : others) {
-    peer_list.push_back({other.name, std::move(other.any_hit)});
+    peer_list.push_back(one_by_one(other.name, other.any_hit));
     builds += fmt::format(", {} {:.2f} s", other.name, other.build_seconds);
   }
   fmt::print("# {}: {} triangles; built in: {}\n", name, mesh.triangles.size(), builds);

@@ -5,14 +5,17 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 
 #include "fastpath/exact_segment.h"
 #include "fastpath/traverse.h"
+#include "scene/error.h"
 
 namespace clues::fastpath {
 namespace {
 
-constexpr std::size_t kGrain = 256;  // segments a task
+constexpr std::size_t kGrain = 256;   // segments a task
+constexpr std::size_t kTogether = 6;  // segments that one thread walks with at once
 
 bool apart(const Range& x, const Range& y) { return x.high < y.low || y.high < x.low; }
 bool contains(const Range& x, const Range& y) { return x.low < y.low && y.high < x.high; }
@@ -67,6 +70,18 @@ bool SegmentQueries::blocks(const Query& query, std::uint32_t triangle, bool kno
   return blocks_exact(s, t, *query.cell);
 }
 
+bool SegmentQueries::any_of_block(const Query& query, const BlockTest& test, const TriangleBlock& block) {
+  ++counts_.blocks;
+  const BlockAnswer answer = test(block);
+  for (unsigned lanes = answer.hit | answer.unsure; lanes != 0; lanes &= lanes - 1) {
+    const int lane = __builtin_ctz(lanes);
+    if (query.ignores(block.id[lane])) continue;
+    const bool hit = ((answer.hit >> lane) & 1U) != 0;
+    if ((hit && query.cell == nullptr) || blocks(query, block.id[lane], hit)) return true;
+  }
+  return false;
+}
+
 bool SegmentQueries::any_hit(const Segment& s, const Except& except) {
   ++counts_.queries;
   LocalSegment local;
@@ -74,23 +89,57 @@ bool SegmentQueries::any_hit(const Segment& s, const Except& except) {
   const Query query(s, except);
   const BlockTest test(local);
   bool found = false;
-  std::uint64_t seen = 0;
-  traverse(*bvh_, local, [&](const TriangleBlock& block) {
-    ++seen;
-    const BlockAnswer answer = test(block);
-    for (unsigned lanes = answer.hit | answer.unsure; lanes != 0; lanes &= lanes - 1) {
-      const int lane = __builtin_ctz(lanes);
-      if (query.ignores(block.id[lane])) continue;
-      const bool hit = ((answer.hit >> lane) & 1U) != 0;
-      if ((hit && query.cell == nullptr) || blocks(query, block.id[lane], hit)) {
-        found = true;
-        return true;
+  traverse(*bvh_, local, [&](const TriangleBlock& block) { return found = any_of_block(query, test, block); });
+  return found;
+}
+
+void SegmentQueries::any_hits(std::span<const Segment> segments, std::span<std::uint8_t> answers,
+                              const Except& except) {
+  if (answers.size() != segments.size()) {
+    throw scene::Error(scene::ErrorCode::bad_argument, "any_hits needs room for one answer for each segment");
+  }
+  struct Lane {
+    Query query;
+    BlockTest test;
+    Walk walk;
+    std::uint8_t* answer;
+    // In place: a walk has room for a whole stack, which must not be copied.
+    Lane(const Segment& segment, const Except& but, const LocalSegment& local, std::uint8_t* to)
+        : query(segment, but), test(local), walk(local), answer(to) {}
+  };
+  std::array<std::optional<Lane>, kTogether> lanes;
+  std::size_t next = 0;
+  // Puts the next segment that needs a walk into the lane; false when there is none.
+  const auto refill = [&](std::optional<Lane>& lane) {
+    for (; next < segments.size(); ++next) {
+      ++counts_.queries;
+      answers[next] = 0;
+      LocalSegment local;
+      if (make_local(bvh_->frame(), segments[next], local) == Reach::misses || bvh_->nodes().empty()) continue;
+      lane.emplace(segments[next], except, local, &answers[next]);
+      ++next;
+      return true;
+    }
+    lane.reset();
+    return false;
+  };
+  std::size_t active = 0;
+  for (auto& lane : lanes) active += refill(lane) ? 1 : 0;
+  while (active > 0) {
+    for (auto& lane : lanes) {
+      if (!lane) continue;
+      const bool goes_on = lane->walk.step(*bvh_, [&](const TriangleBlock& block) {
+        const bool found = any_of_block(lane->query, lane->test, block);
+        *lane->answer = found ? 1 : 0;
+        return found;
+      });
+      if (goes_on) {
+        lane->walk.prefetch(*bvh_);
+      } else if (!refill(lane)) {
+        --active;
       }
     }
-    return false;
-  });
-  counts_.blocks += seen;
-  return found;
+  }
 }
 
 std::vector<std::uint32_t> SegmentQueries::all_hits(const Segment& s, const Except& except) {
@@ -164,8 +213,8 @@ std::vector<std::uint8_t> any_hits(const Bvh& bvh, std::span<const Segment> segm
   std::vector<SegmentCounts> parts((segments.size() + kGrain - 1) / kGrain);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
     SegmentQueries queries(bvh);
-    const std::size_t end = std::min(segments.size(), (part + 1) * kGrain);
-    for (std::size_t i = part * kGrain; i < end; ++i) answers[i] = queries.any_hit(segments[i], except) ? 1 : 0;
+    const std::size_t begin = part * kGrain, size = std::min(segments.size() - begin, kGrain);
+    queries.any_hits(segments.subspan(begin, size), std::span(answers).subspan(begin, size), except);
     parts[part] = queries.counts();
   });
   if (counts != nullptr) {

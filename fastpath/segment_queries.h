@@ -43,6 +43,9 @@ class SegmentQueries {
 
   // Whether any triangle blocks the segment.
   bool any_hit(const Segment& s, const Except& except = {});
+  // The same for many segments, several at a time: faster, as their waits for memory overlap. answers[i] becomes 1 where segments[i] is blocked, else
+  // 0; as many answers as segments.
+  void any_hits(std::span<const Segment> segments, std::span<std::uint8_t> answers, const Except& except = {});
   // All that do, ascending.
   std::vector<std::uint32_t> all_hits(const Segment& s, const Except& except = {});
   // The one that does so nearest to s.a, the least id among several at the same point. A triangle along the segment counts from where it begins.
@@ -53,6 +56,7 @@ class SegmentQueries {
  private:
   struct Query;
   bool blocks(const Query& query, std::uint32_t triangle, bool known_to_meet);
+  bool any_of_block(const Query& query, const BlockTest& test, const TriangleBlock& block);
 
   const Bvh* bvh_;
   SegmentCounts counts_;

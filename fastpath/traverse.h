@@ -8,30 +8,51 @@
 
 namespace clues::fastpath {
 
-// leaf(block) returns true to end the walk. Children in any order.
+// The walk as a sequence of steps, children in any order, so that the walks of several segments can take turns: while one waits for memory
+// another computes.
+class Walk {
+ public:
+  explicit Walk(const LocalSegment& segment) : test_(segment) {}
+
+  // Looks at one node or one block; false when that was the last. leaf(block) returns true to end the walk. The tree is not empty.
+  template <class Leaf>
+  bool step(const Bvh& bvh, const Leaf& leaf) {
+    if ((next_ & BoxLanes::kLeaf) == 0) {
+      const BoxLanes& node = bvh.nodes()[next_];
+      unsigned met = test_(node, 1.0F, nullptr);
+      if (met != 0) {
+        next_ = node.child[__builtin_ctz(met)];
+        for (met &= met - 1; met != 0; met &= met - 1) stack_[size_++] = node.child[__builtin_ctz(met)];
+        return true;
+      }
+    } else if (leaf(bvh.blocks()[next_ & ~BoxLanes::kLeaf])) {
+      return false;
+    }
+    if (size_ == 0) return false;
+    next_ = stack_[--size_];
+    return true;
+  }
+
+  // Asks for the memory that the next step needs.
+  void prefetch(const Bvh& bvh) const {
+    const bool leaf = (next_ & BoxLanes::kLeaf) != 0;
+    const auto* at = leaf ? reinterpret_cast<const char*>(bvh.blocks().data() + (next_ & ~BoxLanes::kLeaf))
+                          : reinterpret_cast<const char*>(bvh.nodes().data() + next_);
+    for (std::size_t i = 0; i < (leaf ? sizeof(TriangleBlock) : sizeof(BoxLanes)); i += 64) __builtin_prefetch(at + i);
+  }
+
+ private:
+  BoxTest test_;
+  std::uint32_t next_ = 0;
+  std::size_t size_ = 0;
+  std::array<std::uint32_t, (BoxLanes::kWidth - 1) * Bvh::kDeepest + 4> stack_;  // NOLINT: filled as it grows
+};
+
 template <class Leaf>
 void traverse(const Bvh& bvh, const LocalSegment& segment, const Leaf& leaf) {
   if (bvh.nodes().empty()) return;
-  const BoxLanes* const nodes = bvh.nodes().data();
-  const TriangleBlock* const blocks = bvh.blocks().data();
-  const BoxTest test(segment);
-  std::array<std::uint32_t, (BoxLanes::kWidth - 1) * Bvh::kDeepest + 4> stack;  // NOLINT: filled as it grows
-  std::size_t size = 0;
-  std::uint32_t next = 0;
-  for (;;) {
-    if ((next & BoxLanes::kLeaf) == 0) {
-      const BoxLanes& node = nodes[next];
-      unsigned met = test(node, 1.0F, nullptr);
-      if (met != 0) {
-        next = node.child[__builtin_ctz(met)];
-        for (met &= met - 1; met != 0; met &= met - 1) stack[size++] = node.child[__builtin_ctz(met)];
-        continue;
-      }
-    } else if (leaf(blocks[next & ~BoxLanes::kLeaf])) {
-      return;
-    }
-    if (size == 0) return;
-    next = stack[--size];
+  Walk walk(segment);
+  while (walk.step(bvh, leaf)) {
   }
 }
 

@@ -194,6 +194,8 @@ TEST(SegmentQueries, ABatchAnswersLikeSingleQueries) {
   ASSERT_EQ(answers.size(), segments.size());
   for (std::size_t i = 0; i < segments.size(); ++i) ASSERT_EQ(answers[i] != 0, queries.any_hit(segments[i])) << i;
   EXPECT_EQ(counts, queries.counts());
+  std::vector<std::uint8_t> too_few(segments.size() - 1);
+  EXPECT_THROW(queries.any_hits(segments, too_few), scene::Error);
   segments[1234].b[0] = NAN;
   EXPECT_THROW(any_hits(bvh, segments), scene::Error);
 }
