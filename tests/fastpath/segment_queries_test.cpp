@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "bvh_tamperer.h"
 #include "fuzz/generators/city.h"
@@ -59,6 +60,19 @@ TEST(SegmentQueries, RandomScenesAgreeWithTheOracle) {
   EXPECT_GT(counts.blocks, 0U);
   EXPECT_GT(counts.doubles, 1000U);
   EXPECT_GT(counts.exact, 1000U);
+}
+
+TEST(SegmentQueriesLong, ManyRandomScenesAgreeWithTheOracle) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  fuzz::Random random(kSeed);
+  for (std::uint64_t index = 100; index < 160; ++index) {
+    for (const fuzz::Kind kind : fuzz::all_kinds) {
+      const auto scene = fuzz::generate(kind, kSeed, index);
+      const double factor = random.one_in(2) ? 1 : std::ldexp(1 + random_double(random) / 2, random.between(-80, 80));
+      const auto mesh = moved(scene.mesh, factor, random.one_in(2) ? 0 : factor * 1000 * random_double(random));
+      ASSERT_EQ(wrong_answers(mesh, Bvh(mesh), kSeed + index, 300), 0) << scene.name;
+    }
+  }
 }
 
 TEST(SegmentQueries, ScaleAndOffsetDoNotMatter) {
