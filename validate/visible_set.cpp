@@ -21,7 +21,7 @@ class Search {
       : mesh_(mesh),
         cell_(cell),
         options_(options),
-        scene_(mesh, cell, options.mode == reference::Mode::solid, options.planted_bug) {}
+        scene_(mesh, cell, options.mode == reference::Mode::solid) {}
 
   VisibleSet run() {
     VisibleSet result;
