@@ -2,8 +2,11 @@
 // first-order map (T1), and itself with the search in another order.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
+#include <iostream>
+#include <string>
 
 #include "fuzz/generators/random_scenes.h"
 #include "validate/judge.h"
@@ -128,17 +131,50 @@ void run(CellKind cell, int count, std::size_t most_triangles, bool both_orders,
   EXPECT_GT(all.found_by_edge, 0U);
 }
 
-TEST(VisibleSetRandom, AgreesWithWitnessesAndTheMap) { run(CellKind::generated, 4, 24, true, true); }
-TEST(VisibleSetRandom, CellAmidTheTriangles) { run(CellKind::amid, 2, 24, true, false); }
-TEST(VisibleSetRandom, FlatCell) { run(CellKind::polygon, 2, 24, true, false); }
-TEST(VisibleSetRandom, SegmentAsCell) { run(CellKind::segment, 2, 24, true, false); }
-TEST(VisibleSetRandom, PointAsCell) { run(CellKind::point, 2, 24, true, false); }
+// CLUES_COUNT: so many scenes of each kind instead.
+void run_long(CellKind cell, int count, bool demand_all) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  run(cell, static_cast<int>(number_from("CLUES_COUNT", static_cast<std::uint64_t>(count))), 60, true, demand_all);
+}
 
-TEST(VisibleSetRandomLong, AgreesWithWitnessesAndTheMap) { run(CellKind::generated, 40, 60, true, true); }
-TEST(VisibleSetRandomLong, CellAmidTheTriangles) { run(CellKind::amid, 20, 60, true, false); }
-TEST(VisibleSetRandomLong, FlatCell) { run(CellKind::polygon, 20, 60, true, false); }
-TEST(VisibleSetRandomLong, SegmentAsCell) { run(CellKind::segment, 20, 60, true, false); }
-TEST(VisibleSetRandomLong, PointAsCell) { run(CellKind::point, 20, 60, true, false); }
+TEST(VisibleSetRandom, AgreesWithWitnessesAndTheMap) { run(CellKind::generated, 2, 22, true, true); }
+TEST(VisibleSetRandom, CellAmidTheTriangles) { run(CellKind::amid, 1, 22, true, false); }
+TEST(VisibleSetRandom, FlatCell) { run(CellKind::polygon, 1, 22, true, false); }
+TEST(VisibleSetRandom, SegmentAsCell) { run(CellKind::segment, 1, 22, true, false); }
+TEST(VisibleSetRandom, PointAsCell) { run(CellKind::point, 1, 22, true, false); }
+
+TEST(VisibleSetRandomLong, AgreesWithWitnessesAndTheMap) { run_long(CellKind::generated, 40, true); }
+TEST(VisibleSetRandomLong, CellAmidTheTriangles) { run_long(CellKind::amid, 20, true); }
+TEST(VisibleSetRandomLong, FlatCell) { run_long(CellKind::polygon, 20, true); }
+TEST(VisibleSetRandomLong, SegmentAsCell) { run_long(CellKind::segment, 20, true); }
+TEST(VisibleSetRandomLong, PointAsCell) { run_long(CellKind::point, 20, false); }
+
+// Figures for docs/visible-set.md: processor time without the map, scenes by their number of triangles.
+TEST(VisibleSetFiguresLong, TimePerScene) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  for (const fuzz::Kind kind : fuzz::all_kinds) {
+    for (const std::size_t size : {10, 20, 40, 60}) {
+      double total = 0, worst = 0;
+      std::uint64_t scenes = 0;
+      for (std::uint64_t i = 0; i < 400 && scenes < 8; ++i) {
+        const auto scene = fuzz::generate(kind, 1, i);
+        const std::size_t n = scene.mesh.triangles.size();
+        if (n + size / 8 < size || n > size + size / 8) continue;
+        VisibleSetOptions options;
+        options.trust_map = false;
+        const double begin = seconds();
+        exact_visible_set(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
+        const double used = seconds() - begin;
+        total += used;
+        worst = std::max(worst, used);
+        ++scenes;
+      }
+      if (scenes == 0) continue;  // the generator makes none of this size
+      std::cout << fuzz::name_of(kind) << ", about " << size << " triangles: " << scenes << " scenes, mean "
+                << total / static_cast<double>(scenes) << " s, worst " << worst << " s\n";
+    }
+  }
+}
 
 }  // namespace
 }  // namespace clues::validate
