@@ -114,7 +114,6 @@ class SightWindow {
   Answer search(std::vector<Cone> cones, int wedge);
 
   const CellShape& cell_;
-  const SightTarget& target_;
   const SightEdge& edge_;
   Passage passage_;
   PlantedSightBug bug_;

@@ -63,7 +63,9 @@ void examine(const fuzz::GeneratedScene& scene, bool both_orders, Counters& tota
   if (cell.dimension() > 0) {  // the map finds no sight lines in general position from every single point
     const auto map = reference::first_order_visibility(scene.mesh, cell, {});
     in_omega = map.visible;
-    judged = judge_pvs(scene.mesh, map, all);
+    JudgeOptions judge_options;
+    judge_options.points_per_region = 4;
+    judged = judge_pvs(scene.mesh, map, all, judge_options);
     ASSERT_TRUE(judged.contradictions.empty());
   }
   for (std::uint32_t t = 0; t < all.size(); ++t) {
