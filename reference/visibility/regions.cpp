@@ -140,6 +140,11 @@ class SideMapper {
 
   Output map_side(std::uint32_t t, bool front) const {
     Output out;
+    const auto faces = [&](const Point3& s) {
+      return scene_.complex().planes[t].oriented_side(s) == (front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE);
+    };
+    const std::vector<Point3>& cell = scene_.cell().vertices();
+    const bool seen_by_cell = std::any_of(cell.begin(), cell.end(), faces);
     const exact::Complex& complex = scene_.complex();
     const auto& corners = complex.pieces[t].corners;
     const exact::Plane3& plane = complex.planes[t];
