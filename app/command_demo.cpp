@@ -84,7 +84,7 @@ bool show(const DemoScene& demo, const DemoRequest& request) {
 
   const auto stem = fs::path(request.out) / demo.name;
   const auto file = [&](const char* suffix) { return fs::path(stem.string() + suffix); };
-  scene::write_file_atomically(file(".off"), to_off_text(demo.mesh));
+  scene::write_file_atomically(file(".off"), scene::to_off_text(demo.mesh));
   scene::write_file_atomically(file(".pvs"), scene::to_pvs_text(map.visible));
   scene::write_file_atomically(file(".ply"), to_ply_text(map));
   scene::write_file_atomically(file(".svg"), to_svg_text(map, demo.title));
