@@ -209,10 +209,9 @@ ChildProcess::Io ChildProcess::read_line(std::string& line, Clock::time_point de
       return Io::ok;
     }
     if (out_ < 0) {
-      if (read_.empty()) return Io::closed;
       line = std::move(read_);
       read_.clear();
-      return Io::ok;
+      return Io::closed;
     }
     if (!pump(deadline, most_bytes)) return Io::late;
   }

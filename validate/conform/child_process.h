@@ -36,8 +36,8 @@ class ChildProcess {
   // `closed`: it reads no more.
   Io write_line(std::string_view line, Clock::time_point deadline);
 
-  // The next line of its standard output, without the end of the line. `closed`: there is no further one (an unfinished last line counts as
-  // a line). `too_long`: more than `most_bytes`.
+  // The next line of its standard output, without the end of the line. `closed`: there is no further one; `line` is what came after the last
+  // end of a line. `too_long`: more than `most_bytes`.
   Io read_line(std::string& line, Clock::time_point deadline, std::size_t most_bytes);
 
   // Closes its input, waits for its end, and kills it (and its group, in any case) at the deadline.

@@ -1,0 +1,23 @@
+// An implementation under test, whichever way it is reached: result files (result_files.h), or a program (program_subject.h), which may be
+// `clues iut --library`, speaking for a shared library.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "validate/conform/protocol.h"
+#include "validate/vectors/suite.h"
+
+namespace clues::validate {
+
+class Subject {
+ public:
+  virtual ~Subject() = default;
+
+  virtual const Implementation& about() const = 0;
+
+  // The answers to some cases, in their order. What is asked in one call does not depend on any other call; called from many threads.
+  virtual std::vector<Answer> answer(std::span<const VectorCase* const> cases) const = 0;
+};
+
+}  // namespace clues::validate
