@@ -16,6 +16,7 @@
 #include "app/self_check.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/mesh_io.h"
 #include "scene/result.h"
 #include "validate/judge_report.h"
 

@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/pidfd.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -142,7 +142,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, std::uint64_t 
                            (error == ENOENT ? "command not found" : std::generic_category().message(error)) +
                            "; give the path of a program that can be executed");
   }
-  pid_fd_ = pidfd_open(pid_, 0);
+  pid_fd_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
   if (pid_fd_ < 0) {
     const int kept = errno;
     kill(-pid_, SIGKILL);
