@@ -12,6 +12,7 @@ void add_map_command(CLI::App& program, int& status);
 void add_check_command(CLI::App& program, int& status);
 void add_conform_command(CLI::App& program, int& status);
 void add_iut_command(CLI::App& program, int& status);
+void add_lint_command(CLI::App& program, int& status);
 void add_demo_command(CLI::App& program, int& status);
 
 }  // namespace clues::app

@@ -18,6 +18,7 @@ constexpr const char* footer = R"(EXAMPLES
 EXIT CODES
   0  fine
   1  findings: the PVS that was checked is unsound, the implementation that was tested fails
+  1  findings: the PVS that was checked is unsound, a vector is wrong
   2  bad usage or bad input; nothing was written
   3  not everything could be decided or run
   4  an oracle contradicted itself: a defect of clues, please report it
@@ -47,6 +48,7 @@ int main(int argc, char** argv) {
   app::add_check_command(program, status);
   app::add_conform_command(program, status);
   app::add_iut_command(program, status);
+  app::add_lint_command(program, status);
   app::add_demo_command(program, status);
   try {
     program.parse(argc, argv);

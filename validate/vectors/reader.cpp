@@ -320,6 +320,12 @@ VectorFile parse_vector_file(std::string_view text, const std::string& name, boo
   return file;
 }
 
+Expectation parse_expectation(std::string_view text, std::uint64_t triangles) {
+  const json value = parse_json(text, "expect");
+  const Where where{"expect", ""};
+  return read_expectation(Field(value, where, ""), triangles);
+}
+
 VectorFile read_vector_file(const fs::path& path, bool drafts) {
   return parse_vector_file(scene::read_file_bytes(path), path.string(), drafts);
 }

@@ -22,6 +22,7 @@ std::vector<std::filesystem::path> vector_files(
 VectorFile read_vector_file(const std::filesystem::path& path, bool drafts = false);
 VectorFile parse_vector_file(std::string_view text, const std::string& name, bool drafts = false);
 VectorIndex read_vector_index(const std::filesystem::path& folder);
+Expectation parse_expectation(std::string_view text, std::uint64_t triangles);
 
 // '*' stands for any characters, '?' for one. For --case GLOB.
 bool matches_glob(std::string_view text, std::string_view glob);

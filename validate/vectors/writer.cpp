@@ -135,4 +135,6 @@ std::string to_json_text(const VectorIndex& index) {
                   {"cases", cases}});
 }
 
+std::string to_json_text(const Expectation& expect) { return text_of(expectation_json(expect)); }
+
 }  // namespace clues::validate

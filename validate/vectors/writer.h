@@ -10,6 +10,7 @@ namespace clues::validate {
 
 std::string to_json_text(const VectorFile& file);
 std::string to_json_text(const VectorIndex& index);
+std::string to_json_text(const Expectation& expect);
 
 // C99: "0x1.8p+1", "-0x0p+0"; reads back as the same double, bit for bit.
 std::string to_hex_float(double x);
