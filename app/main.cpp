@@ -17,8 +17,7 @@ constexpr const char* footer = R"(EXAMPLES
 
 EXIT CODES
   0  fine
-  1  findings: the PVS that was checked is unsound, the implementation that was tested fails
-  1  findings: the PVS that was checked is unsound, a vector is wrong
+  1  findings: the PVS that was checked is unsound, the implementation fails, or a vector is wrong
   2  bad usage or bad input; nothing was written
   3  not everything could be decided or run
   4  an oracle contradicted itself: a defect of clues, please report it
