@@ -33,7 +33,7 @@ struct ConformRequest {
   std::string level = "full", shard;
   int jobs = 0;
   double time_limit = 10;
-  std::uint64_t memory_limit = 0, errors = 0;
+  std::int64_t memory_limit = 0, errors = 0;
   std::string expect_failures, json, junit;
   bool every_case = false;
 };
@@ -86,8 +86,10 @@ std::unique_ptr<validate::Subject> make_subject(const ConformRequest& request) {
   if (!(request.time_limit > 0) || request.time_limit > 86400)
     fail_usage("--time-limit: give seconds, above 0 and up to 86400");
   limits.time = std::chrono::milliseconds(static_cast<std::int64_t>(std::ceil(request.time_limit * 1000)));
-  if (request.memory_limit > (std::uint64_t{1} << 40)) fail_usage("--memory-limit: give megabytes, up to 2^40");
-  limits.memory_bytes = request.memory_limit * 1000000;
+  if (request.memory_limit < 0 || request.memory_limit > 1000000000) {
+    fail_usage(fmt::format("--memory-limit {}: give megabytes, 0 (no limit) to 10^9", request.memory_limit));
+  }
+  limits.memory_bytes = static_cast<std::uint64_t>(request.memory_limit) * 1000000;
   if (!is_library(request.implementation)) {
     return std::make_unique<validate::ProgramSubject>(validate::split_command(request.implementation), limits);
   }
@@ -123,6 +125,7 @@ int run_conform(const ConformRequest& request) {
   }
   if (request.jobs < 0 || request.jobs > 4096)
     fail_usage(fmt::format("--jobs {}: use 0 (all cores) to 4096", request.jobs));
+  if (request.errors < 0) fail_usage(fmt::format("--errors {}: use 0 (never stop) or more", request.errors));
   for (const auto& file : {request.json, request.junit}) {
     if (!file.empty()) require_writable_parent(file);
   }
@@ -146,7 +149,7 @@ int run_conform(const ConformRequest& request) {
 
   const auto subject = make_subject(request);
   options.jobs = request.jobs > 0 ? request.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  options.error_limit = request.errors;
+  options.error_limit = static_cast<std::uint64_t>(request.errors);
   validate::Run run;
   {
     ProgressBar bar("clues conform");

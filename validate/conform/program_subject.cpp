@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 #include "scene/error.h"
 #include "validate/conform/child_process.h"
@@ -130,29 +129,31 @@ bool leaves_process_usable(AnswerKind kind) {
          kind == AnswerKind::errored;
 }
 
-// A block of cases.
+// A block of cases, and the process that it was put to last.
 class Block {
  public:
-  Block(const std::vector<std::string>& words, const ProgramLimits& limits, std::size_t cases)
-      : words_(words), limits_(limits), answers_(cases) {}
+  Block(const std::vector<std::string>& words, const ProgramLimits& limits) : words_(words), limits_(limits) {}
 
-  void ask(std::size_t i, const VectorCase& test) {
-    bool is_fresh = !conversation_;
-    answers_[i] = ask_once(test);
-    if (answers_[i].kind == AnswerKind::malformed_output && !is_fresh) {
+  void put(Answer answer) { answers_.push_back(std::move(answer)); }
+
+  void ask(const VectorCase& test) {
+    const bool is_fresh = !conversation_;
+    auto answer = ask_once(test);
+    if (answer.kind == AnswerKind::malformed_output && !is_fresh) {
       auto second = ask_once(test);
-      if (second.kind != AnswerKind::malformed_output) blame_for_surplus(answers_[i].stderr_tail);
-      answers_[i] = std::move(second);
+      if (second.kind != AnswerKind::malformed_output) blame_for_surplus(answer.stderr_tail);
+      answer = std::move(second);
     }
-    last_ = i;
+    last_ = answers_.size();
+    put(std::move(answer));
   }
+
+  const std::vector<Answer>& answers() const { return answers_; }
 
   std::vector<Answer> take() {
     if (conversation_ && conversation_->stop_and_find_surplus()) blame_for_surplus(conversation_->stderr_tail());
     return std::move(answers_);
   }
-
-  std::vector<Answer>& answers() { return answers_; }
 
  private:
   Answer ask_once(const VectorCase& test) {
@@ -172,7 +173,7 @@ class Block {
   }
 
   void blame_for_surplus(const std::string& stderr_tail) {
-    auto& answer = answers_[*last_];
+    auto& answer = answers_[last_];
     answer = refusal(AnswerKind::malformed_output, "more than one line in reply to one 'run'");
     answer.stderr_tail = stderr_tail;
   }
@@ -180,8 +181,8 @@ class Block {
   const std::vector<std::string>& words_;
   ProgramLimits limits_;
   std::vector<Answer> answers_;
+  std::size_t last_ = 0;                        // the answer of the process that is there now, or was last
   std::unique_ptr<Conversation> conversation_;  // that may be asked on
-  std::optional<std::size_t> last_;             // asked last
 };
 
 }  // namespace
@@ -200,17 +201,18 @@ ProgramSubject::ProgramSubject(std::vector<std::string> words, const ProgramLimi
   conversation.stop_and_find_surplus();
 }
 
-std::vector<Answer> ProgramSubject::answer(std::span<const VectorCase* const> cases) const {
-  Block block(words_, limits_, cases.size());
-  for (std::size_t i = 0; i < cases.size(); ++i) {
-    const bool solid = cases[i]->mode == CaseMode::solid;
+std::vector<Answer> ProgramSubject::answer(std::span<const VectorCase* const> cases, const GoOn& go_on) const {
+  Block block(words_, limits_);
+  for (const auto* test : cases) {
+    const bool solid = test->mode == CaseMode::solid;
     if (solid ? !about_.solid : !about_.sheet) {
-      block.answers()[i] = refusal(AnswerKind::unsupported, solid ? "mode solid" : "mode sheet");
-    } else if (about_.float32 && !is_exact_in_float32(*cases[i])) {
-      block.answers()[i] = refusal(AnswerKind::skipped, "coordinates that are not single-precision numbers");
+      block.put(refusal(AnswerKind::unsupported, solid ? "mode solid" : "mode sheet"));
+    } else if (about_.float32 && !is_exact_in_float32(*test)) {
+      block.put(refusal(AnswerKind::skipped, "coordinates that are not single-precision numbers"));
     } else {
-      block.ask(i, *cases[i]);
+      block.ask(*test);
     }
+    if (!go_on(block.answers().size() - 1, block.answers().back())) break;
   }
   return block.take();
 }

@@ -23,7 +23,7 @@ class ProgramSubject : public Subject {
   ProgramSubject(std::vector<std::string> words, const ProgramLimits& limits);
 
   const Implementation& about() const override { return about_; }
-  std::vector<Answer> answer(std::span<const VectorCase* const> cases) const override;
+  std::vector<Answer> answer(std::span<const VectorCase* const> cases, const GoOn& go_on) const override;
 
  private:
   std::vector<std::string> words_;

@@ -51,9 +51,12 @@ ResultFiles::ResultFiles(fs::path folder) : folder_(std::move(folder)) {
   about_.name = "result files";
 }
 
-std::vector<Answer> ResultFiles::answer(std::span<const VectorCase* const> cases) const {
+std::vector<Answer> ResultFiles::answer(std::span<const VectorCase* const> cases, const GoOn& go_on) const {
   std::vector<Answer> answers;
-  for (const auto* test : cases) answers.push_back(read_answer(*test, folder_));
+  for (const auto* test : cases) {
+    answers.push_back(read_answer(*test, folder_));
+    if (!go_on(answers.size() - 1, answers.back())) break;
+  }
   return answers;
 }
 

@@ -16,7 +16,7 @@ class ResultFiles : public Subject {
   explicit ResultFiles(std::filesystem::path folder);
 
   const Implementation& about() const override { return about_; }
-  std::vector<Answer> answer(std::span<const VectorCase* const> cases) const override;
+  std::vector<Answer> answer(std::span<const VectorCase* const> cases, const GoOn& go_on) const override;
 
  private:
   std::filesystem::path folder_;

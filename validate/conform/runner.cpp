@@ -142,9 +142,14 @@ Run run_cases(const Subject& subject, const std::vector<const VectorCase*>& case
             if (!progress.is_wanted()) continue;
             const auto first = block * block_size;
             const std::span block_cases(cases.data() + first, std::min(block_size, cases.size() - first));
-            auto answers = subject.answer(block_cases);
+            // With as many problems in this block alone, the run ends in it.
+            std::uint64_t problems = 0;
+            auto answers = subject.answer(block_cases, [&](std::size_t i, const Answer& answer) {
+              problems += run.is_problem(grade(*block_cases[i], answer)) ? 1 : 0;
+              return options.error_limit == 0 || problems < options.error_limit;
+            });
             std::vector<CaseResult> results;
-            for (std::size_t i = 0; i < block_cases.size(); ++i)
+            for (std::size_t i = 0; i < answers.size(); ++i)
               results.push_back(grade(*block_cases[i], std::move(answers[i])));
             progress.put(block, std::move(results));
           }
