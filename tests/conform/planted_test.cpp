@@ -36,8 +36,7 @@ class WrongMethodTest : public testing::TestWithParam<WrongMethod> {
     EXPECT_EQ(done.ran.exit_code, 1) << done.ran.err;
     EXPECT_GT(count(done, "unsound"), 0U);
     EXPECT_THAT(done.ran.out, AllOf(HasSubstr("UNSOUND "), HasSubstr("\n  repeat: clues conform --suite ")));
-    for (const char* other :
-         {"malformed_output", "crash", "timeout", "errored", "resource", "unsupported", "skipped"}) {
+    for (const char* other : {"malformed_output", "crash", "timeout", "resource", "unsupported", "skipped"}) {
       EXPECT_EQ(count(done, other), 0U) << other;
     }
     for (const auto& test : done.report["cases"]) {

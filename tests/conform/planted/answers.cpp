@@ -13,6 +13,7 @@
 #include "exact/convex_cell.h"
 #include "exact/scene_query.h"
 #include "reference/visibility/first_order.h"
+#include "scene/error.h"
 
 namespace clues::planted {
 namespace {
@@ -52,7 +53,7 @@ Ids seen_from_centre(const Request& request) {
     std::array<exact::Point3, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = exact::to_exact(request.mesh.points[request.mesh.triangles[t][i]]);
     const auto middle = CGAL::centroid(corners[0], corners[1], corners[2]);
-    bool is_seen = query.is_free(cell.center(), middle);
+    bool is_seen = middle == cell.center() || query.is_free(cell.center(), middle);
     for (const auto& corner : corners)
       is_seen = is_seen || query.is_free(cell.center(), middle + (corner - middle) * exact::FT(0.9));
     if (is_seen) seen.push_back(t);
@@ -116,7 +117,11 @@ Ids hit_by_random_rays(const Request& request) {
 Ids with_float32_coordinates(Request request) {
   for (auto* points : {&request.mesh.points, &request.cell}) {
     for (auto& point : *points) {
-      for (double& x : point) x = static_cast<float>(x);
+      for (double& x : point) {
+        x = static_cast<float>(x);
+        if (!std::isfinite(x))
+          throw scene::Error(scene::ErrorCode::non_finite, "a coordinate overflows single precision");
+      }
     }
   }
   return reference_answer(request);

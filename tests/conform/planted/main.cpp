@@ -123,7 +123,8 @@ int main(int argc, char** argv) {
       try {
         answer.visible = planted::answer(mode, request);
       } catch (const scene::Error& error) {
-        answer.kind = validate::AnswerKind::rejected_input;
+        const bool internal = error.code() == scene::ErrorCode::internal;
+        answer.kind = internal ? validate::AnswerKind::errored : validate::AnswerKind::rejected_input;
         answer.message = error.what();
       }
       say(validate::run_reply(request.seq, answer));
