@@ -64,10 +64,11 @@ struct VectorCase {
 
 // What a flag means, once per file.
 struct VectorNote {
-  std::string bug_type;              // "EDGE_CASE", "PRECISION", "METHOD", "INPUT", "MODE"
-  std::string description;           // the situation
-  std::string effect;                // what goes wrong where it is not respected
-  std::vector<std::string> hazards;  // "B-7", "A-3": numbers of docs/hazards.md
+  std::string bug_type;     // "EDGE_CASE", "PRECISION", "METHOD", "INPUT", "MODE"
+  std::string description;  // the situation
+  std::string effect;       // what goes wrong where it is not respected
+  std::vector<std::string>
+      hazards;  // "B-7", "A-3": the traps of the published text, as numbered in tests/reference/hazards_test.cpp
 };
 
 struct VectorSource {
