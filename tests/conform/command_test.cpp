@@ -81,6 +81,18 @@ TEST(Reports, AreTheSameForAnyNumberOfJobs) {
   EXPECT_EQ(texts.size(), 2U);
 }
 
+TEST(Reports, StopAtTheSameProblemForAnyNumberOfJobs) {
+  std::set<std::string> texts;
+  for (const std::string jobs : {"1", "3", "8"}) {
+    const auto done = conform({"--impl", planted("from-centre"), "--errors", "25", "--jobs", jobs}, published_suite);
+    EXPECT_EQ(done.ran.exit_code, 1);
+    EXPECT_EQ(done.report["problems"], 25);
+    EXPECT_GT(done.report["not_reached"], 0);
+    texts.insert(done.ran.out + done.report.dump());
+  }
+  EXPECT_EQ(texts.size(), 1U);
+}
+
 TEST(Reports, JunitCountsWhatItHolds) {
   const TestFolder folder;
   run_clues({"conform", "--suite", small_suite, "--impl", planted("reads-float32"), "--junit", "sound.xml"},

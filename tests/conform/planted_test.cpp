@@ -157,7 +157,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Misbehaviour{"not-json", "malformed_output", "is not JSON", 1},
                     Misbehaviour{"unknown-field", "malformed_output", "unknown field 'vissible'", 1},
                     Misbehaviour{"two-kinds", "malformed_output", "exactly one of", 1},
-                    Misbehaviour{"endless-line", "malformed_output", "endless line", 1},
+                    Misbehaviour{"endless-line", "malformed_output", "wrote without end", 1},
+                    Misbehaviour{"floods-after-its-answer", "malformed_output", "more than one line", 1},
+                    Misbehaviour{"nests-deeply", "malformed_output", "'visible' holds a list", 1},
                     Misbehaviour{"errs", "errored", "planted", 3}, Misbehaviour{"skips", "skipped", "1 skipped", 0},
                     Misbehaviour{"rejects", "rejected_input", "1 rejected_input", 0}),
     [](const auto& test) {
@@ -169,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(
 // ---- what costs time or memory
 
 TEST(Hanging, IsKilledWithAllItsChildren) {
-  for (const std::string mode : {"hangs", "hangs-with-child"}) {
+  for (const std::string mode : {"hangs", "hangs-with-child", "hangs-in-another-group"}) {
     const auto done = conform({"--impl", planted(mode), "--case", screen, "--time-limit", "0.2"});
     EXPECT_EQ(done.ran.exit_code, 1);
     EXPECT_EQ(done.outcomes, (std::map<std::string, std::string>{{screen, "timeout"}}));

@@ -23,6 +23,7 @@ namespace clues::validate {
 namespace {
 
 constexpr std::size_t kept_errors = 4096;
+constexpr std::size_t most_unasked = 1 << 20;  // read while it has not even been asked
 
 [[noreturn]] void fail_here(const char* what) {
   throw std::system_error(errno, std::generic_category(), std::string("cannot start a program: ") + what);
@@ -171,8 +172,8 @@ bool ChildProcess::pump(Clock::time_point deadline, std::size_t most_bytes) {
   if (to_write_.empty()) polled[2].fd = -1;
   if (read_.size() > most_bytes) polled[0].fd = -1;  // it floods us; let it wait
   const int ready = poll(polled.data(), polled.size(), milliseconds_until(deadline));
-  if (ready < 0 && errno == EINTR) return true;
-  if (ready <= 0) return false;
+  if (ready < 0) return errno == EINTR;
+  if (ready == 0) return Clock::now() < deadline;
   if (polled[1].revents != 0) {
     read_some(err_, errors_);
     if (errors_.size() > 2 * kept_errors) errors_.erase(0, errors_.size() - kept_errors);
@@ -194,7 +195,7 @@ ChildProcess::Io ChildProcess::write_line(std::string_view line, Clock::time_poi
   to_write_.append(line).push_back('\n');
   while (!to_write_.empty()) {
     if (in_ < 0) return Io::closed;
-    if (!pump(deadline, std::string::npos - 1)) return Io::late;
+    if (!pump(deadline, most_unasked)) return Io::late;
   }
   return Io::ok;
 }
@@ -226,6 +227,7 @@ ChildProcess::End ChildProcess::finish(Clock::time_point deadline) {
     std::array<pollfd, 3> polled{{{pid_fd_, POLLIN, 0}, {out_, POLLIN, 0}, {err_, POLLIN, 0}}};
     const int ready = poll(polled.data(), polled.size(), milliseconds_until(deadline));
     if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0 && Clock::now() < deadline) continue;
     if (ready <= 0) break;
     std::string ignored;
     if (polled[1].revents != 0) read_some(out_, ignored);
@@ -245,6 +247,7 @@ ChildProcess::End ChildProcess::finish(Clock::time_point deadline) {
 
 void ChildProcess::reap(bool killed_here) {
   kill(-pid_, SIGKILL);
+  if (killed_here) kill(pid_, SIGKILL);  // it may have left its group
   int status = 0;
   rusage usage{};
   while (wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) continue;

@@ -43,6 +43,9 @@ class ChildProcess {
   // Closes its input, waits for its end, and kills it (and its group, in any case) at the deadline.
   End finish(Clock::time_point deadline);
 
+  // Whether it wrote something that no read_line has taken.
+  bool has_unread_output() const { return !read_.empty(); }
+
   // The last few lines of its standard error, printable.
   std::string stderr_tail() const;
 

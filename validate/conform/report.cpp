@@ -24,10 +24,10 @@ std::string row(const std::string& name, const Tally& tally, std::size_t width) 
   std::uint64_t failed = 0, unanswered = 0;
   for (const auto outcome : {Outcome::malformed_output, Outcome::crash, Outcome::timeout}) failed += tally.of(outcome);
   for (const auto outcome : {Outcome::errored, Outcome::resource}) unanswered += tally.of(outcome);
-  const auto not_put = tally.of(Outcome::unsupported) + tally.of(Outcome::skipped) + tally.of(Outcome::rejected_input);
+  const auto skipped = tally.of(Outcome::unsupported) + tally.of(Outcome::skipped) + tally.of(Outcome::rejected_input);
   return fmt::format("{:<{}}  {:>5}  {:>5}  {:>12}  {:>7}  {:>6}  {:>10}  {:>7}  {:>8}  {:>8}  {:>6}\n", name, width,
                      tally.cases, tally.of(Outcome::tight), tally.of(Outcome::conservative), tally.of(Outcome::unsound),
-                     failed, unanswered, not_put, ratio_text(tally.over_estimate()), ratio_text(tally.under_estimate()),
+                     failed, unanswered, skipped, ratio_text(tally.over_estimate()), ratio_text(tally.under_estimate()),
                      tally.looser);
 }
 
@@ -36,7 +36,7 @@ std::string table(const Run& run) {
   for (const auto& [topic, tally] : run.topics) width = std::max(width, topic.size());
   auto text =
       fmt::format("{:<{}}  {:>5}  {:>5}  {:>12}  {:>7}  {:>6}  {:>10}  {:>7}  {:>8}  {:>8}  {:>6}\n", "topic", width,
-                  "cases", "tight", "conservative", "unsound", "failed", "unanswered", "not put", "Qo", "Qu", "looser");
+                  "cases", "tight", "conservative", "unsound", "failed", "unanswered", "skipped", "Qo", "Qu", "looser");
   for (const auto& [topic, tally] : run.topics) text += row(topic, tally, width);
   return text + row("total", run.total, width);
 }

@@ -49,6 +49,10 @@ void misbehave(const std::string& mode, const validate::Request& request) {
     if (fork() == 0) hang();  // holds the pipes open, too
     hang();
   }
+  if (mode == "hangs-in-another-group") {
+    setpgid(0, getpgid(getppid()));
+    hang();
+  }
   if (mode == "crashes") {
     std::fputs("about to crash\n", stderr);
     std::raise(SIGSEGV);
@@ -63,6 +67,12 @@ void misbehave(const std::string& mode, const validate::Request& request) {
   } else if (mode == "answers-twice") {
     say(reply(seq, all));
     say(reply(seq, all));
+  } else if (mode == "floods-after-its-answer") {
+    say(reply(seq, all));
+    while (std::fputs("0123456789abcde\n", stdout) >= 0) continue;
+  } else if (mode == "nests-deeply") {
+    say("{\"seq\":" + number + ",\"result\":{\"visible\":[" + std::string(400000, '[') + std::string(400000, ']') +
+        "]}}");
   } else if (mode == "lies-about-seq") {
     say(reply(seq + 1, all));
   } else if (mode == "out-of-range") {
