@@ -2,9 +2,9 @@
 #include <string>
 
 #include "exact/convex_cell.h"
+#include "exact/scene_query.h"
 #include "exact/witness.h"
 #include "validate/conform/grade.h"
-#include "validate/judge.h"
 
 namespace clues::validate {
 namespace {
@@ -23,8 +23,9 @@ std::string flaw_of_proof(const VectorCase& test, const MustBeVisible& proof) {
         exact::check_witness(test.mesh, cell, proof.triangle, proof.front, point_of(proof.v), point_of(proof.p));
     return verdict.valid ? "" : verdict.reason;
   }
-  const auto corner = [&](int i) { return exact::to_exact(test.mesh.points[test.mesh.triangles[proof.triangle][i]]); };
-  return meets_cell(corner(0), corner(1), corner(2), cell) ? "" : "it does not meet the cell";
+  const auto& [a, b, c] = test.mesh.triangles[proof.triangle];
+  const auto corner = [&](std::uint32_t i) { return exact::to_exact(test.mesh.points[i]); };
+  return exact::meets_cell({corner(a), corner(b), corner(c)}, cell) ? "" : "it does not meet the cell";
 }
 
 }  // namespace clues::validate

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "exact/point_occlusion.h"
+#include "exact/scene_query.h"
 #include "exact/witness.h"
 #include "reference/visibility/first_order.h"
 #include "scene/error.h"
@@ -59,7 +60,7 @@ class Facts {
   bool in_omega(std::uint32_t t) const { return contains(map_.visible, t); }
   bool touches_cell(std::uint32_t t) const {
     const auto [a, b, c] = corners(t);
-    return meets_cell(a, b, c, cell_);
+    return exact::meets_cell({a, b, c}, cell_);
   }
 
   exact::WitnessVerdict check(const Witness& w) const {
