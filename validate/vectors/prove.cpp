@@ -1,0 +1,255 @@
+// The facts of a case are computed once (Facts) and then compared with, or turned into, an expectation.
+#include "validate/vectors/prove.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "exact/point_occlusion.h"
+#include "exact/scene_query.h"
+#include "exact/witness.h"
+#include "reference/visibility/first_order.h"
+#include "scene/error.h"
+#include "validate/judge.h"
+#include "validate/judge_report.h"
+#include "validate/vectors/short_witness.h"
+
+namespace clues::validate {
+namespace {
+
+using exact::FT;
+using exact::Point3;
+
+FT number_of(const std::string& text) {
+  const auto slash = text.find('/');
+  const FT numerator(FT::Exact_type(text.substr(0, slash)));
+  return slash == std::string::npos ? numerator : numerator / FT(FT::Exact_type(text.substr(slash + 1)));
+}
+
+Point3 point_of(const RationalPoint& p) { return Point3(number_of(p[0]), number_of(p[1]), number_of(p[2])); }
+
+RationalPoint text_of(const Point3& p) {
+  return {exact::to_string_exact(p.x()), exact::to_string_exact(p.y()), exact::to_string_exact(p.z())};
+}
+
+template <class List>
+bool contains(const List& ascending, std::uint32_t id) {
+  return std::binary_search(ascending.begin(), ascending.end(), id);
+}
+
+// Weights of points of a triangle: the middle, beside each corner, beside each edge.
+constexpr std::array<std::array<int, 3>, 7> kPlaces{
+    {{1, 1, 1}, {61, 2, 1}, {1, 61, 2}, {2, 1, 61}, {31, 32, 1}, {1, 31, 32}, {32, 1, 31}}};
+
+class Facts {
+ public:
+  explicit Facts(const VectorCase& c)
+      : case_(c),
+        cell_(exact::ConvexCell::from_doubles(c.cell)),
+        degenerate_(scene::degenerate_triangles(c.mesh)),
+        map_(reference::first_order_visibility(c.mesh, cell_, options(c))) {
+    for (std::uint32_t t = 0; t < c.mesh.triangles.size(); ++t) {
+      if (!contains(degenerate_, t)) soup_.push_back(corners(t));
+    }
+  }
+
+  const exact::ConvexCell& cell() const { return cell_; }
+  const reference::VisibilityMap& map() const { return map_; }
+  const std::vector<std::uint32_t>& degenerate() const { return degenerate_; }
+  std::uint32_t triangles() const { return static_cast<std::uint32_t>(case_.mesh.triangles.size()); }
+  bool in_omega(std::uint32_t t) const { return contains(map_.visible, t); }
+  bool touches_cell(std::uint32_t t) const {
+    const auto [a, b, c] = corners(t);
+    return exact::meets_cell({a, b, c}, cell_);
+  }
+
+  exact::WitnessVerdict check(const Witness& w) const {
+    if (case_.mode == CaseMode::solid && !w.front) return {false, "a back side does not count in solid mode"};
+    return exact::check_witness(case_.mesh, cell_, w.triangle, w.front, w.v, w.p);
+  }
+
+  exact::OcclusionAnswer oracle(std::uint32_t t, bool front, const Point3& p) const {
+    const auto [a, b, c] = corners(t);
+    const exact::Plane3 plane(a, b, c);
+    return exact::point_occlusion(p, front ? plane : plane.opposite(), cell_, soup_);
+  }
+
+  // Asks the oracle at some places of t, on the sides that count. A sight line that it finds is confirmed before it is believed.
+  std::optional<Witness> search_with_oracle(std::uint32_t t, std::uint64_t& asked) const {
+    const auto [a, b, c] = corners(t);
+    for (const auto& [i, j, k] : kPlaces) {
+      const Point3 p = exact::collapsed(CGAL::barycenter(a, FT(i), b, FT(j), c, FT(k)));
+      for (const bool front : {true, false}) {
+        if (!front && case_.mode == CaseMode::solid) continue;
+        ++asked;
+        const auto answer = oracle(t, front, p);
+        if (answer.occluded || !answer.witness) continue;
+        const Witness found{t, front, *answer.witness, p};
+        if (check(found).valid) return found;
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Witness> search_witness(std::uint32_t t) const {
+    if (auto found = short_witness(case_.mesh, cell_, t, case_.mode == CaseMode::solid)) return found;
+    std::uint64_t unused = 0;
+    auto found = search_with_oracle(t, unused);
+    if (!found) {
+      JudgeOptions only;
+      only.only = {t};
+      only.points_per_region = 40;
+      const auto judgement = judge_pvs(case_.mesh, map_, {}, only);
+      if (!judgement.witnesses.empty()) found = judgement.witnesses.front();
+    }
+    if (found) found = shortened(case_.mesh, cell_, *found);
+    return found;
+  }
+
+ private:
+  static reference::Options options(const VectorCase& c) {
+    reference::Options options;
+    options.mode = c.mode == CaseMode::solid ? reference::Mode::solid : reference::Mode::sheet;
+    options.check_two_walks = true;
+    return options;
+  }
+  exact::TriangleCorners corners(std::uint32_t t) const {
+    const auto& points = case_.mesh.points;
+    const auto& [a, b, c] = case_.mesh.triangles[t];
+    return {exact::to_exact(points[a]), exact::to_exact(points[b]), exact::to_exact(points[c])};
+  }
+
+  const VectorCase& case_;
+  exact::ConvexCell cell_;
+  std::vector<std::uint32_t> degenerate_;
+  reference::VisibilityMap map_;
+  std::vector<exact::TriangleCorners> soup_;
+};
+
+std::string ids(const std::vector<std::uint32_t>& list) { return fmt::format("[{}]", fmt::join(list, ", ")); }
+
+std::string words(const Witness& w) {
+  return fmt::format("free sight line from {} to {} on its {}", to_string_exact(w.v), to_string_exact(w.p),
+                     w.front ? "front" : "back");
+}
+
+class Prover {
+ public:
+  explicit Prover(const VectorCase& c) : facts_(c), expect_(*c.expect) {}
+
+  CaseProofs run() {
+    if (expect_.no_surface != facts_.degenerate()) {
+      complain("expect.no_surface", "without area are exactly " + ids(facts_.degenerate()));
+    }
+    for (const auto& seen : expect_.must_be_visible) prove_visible(seen);
+    for (const auto& hidden : expect_.umbra) prove_umbra(hidden);
+    prove_first_order();
+    return std::move(proofs_);
+  }
+
+ private:
+  void complain(const std::string& field, const std::string& message, bool contradiction = false) {
+    proofs_.findings.push_back({field, message, contradiction});
+  }
+
+  void prove_visible(const MustBeVisible& seen) {
+    const std::uint32_t t = seen.triangle;
+    const std::string field = fmt::format("expect.must_be_visible, triangle {}", t);
+    if (contains(facts_.degenerate(), t)) return complain(field, "has no area: it belongs into no_surface");
+    const bool touches = facts_.touches_cell(t);
+    if (touches != seen.meets_cell) {
+      return complain(field, touches ? "meets the cell: say \"meets_cell\": true" : "does not meet the cell");
+    }
+    if (touches) {
+      ++proofs_.cell_contacts;
+      return;
+    }
+    const Witness witness{t, seen.front, point_of(seen.v), point_of(seen.p)};
+    if (text_of(witness.v) != seen.v || text_of(witness.p) != seen.p)
+      complain(field, "a fraction is not in lowest terms");
+    const auto verdict = facts_.check(witness);
+    if (!verdict.valid) return complain(field, "no witness: " + verdict.reason);
+    ++proofs_.witnesses;
+    ++proofs_.oracle_points;
+    if (facts_.oracle(t, seen.front, witness.p).occluded) {
+      complain(field, "the witness is good, but the point-occlusion oracle calls p hidden", true);
+    }
+    if (!facts_.in_omega(t)) complain(field, "the witness is good, but the first-order map calls it hidden", true);
+  }
+
+  void prove_umbra(const Umbra& hidden) {
+    const std::uint32_t t = hidden.triangle;
+    const std::string field = fmt::format("expect.umbra, triangle {}", t);
+    if (contains(facts_.degenerate(), t)) return complain(field, "has no area: it belongs into no_surface");
+    if (facts_.touches_cell(t)) return complain(field, "is visible: it meets the cell");
+    if (const auto seen = facts_.search_with_oracle(t, proofs_.oracle_points)) {
+      return complain(field, "is visible: " + words(*seen), !facts_.in_omega(t));
+    }
+    const bool by_map = !facts_.in_omega(t);
+    if (by_map != (hidden.proof == UmbraProof::first_order_map)) {
+      return complain(field, by_map ? "is outside Omega: the proof is first_order_map"
+                                    : "is inside Omega: first_order_map does not prove it hidden");
+    }
+    if (by_map) {
+      ++proofs_.umbra_by_map;
+      return;
+    }
+    complain(field, "cannot be proved exhaustively in this version");
+  }
+
+  void prove_first_order() {
+    const auto& map = facts_.map();
+    if (expect_.first_order_visible != map.visible) {
+      complain("expect.first_order_visible", "the first-order visible triangles are exactly " + ids(map.visible));
+    }
+    if (map.statistics.walk_disagreements != 0) complain("scene", "two walks to one point disagree (D14)", true);
+    if (map.statistics.conservative_fallbacks != 0) {
+      complain("scene", "the map was cut short by the generation limit (D17): too hard to be a case");
+    }
+  }
+
+  Facts facts_;
+  const Expectation& expect_;
+  CaseProofs proofs_;
+};
+
+}  // namespace
+
+CaseProofs prove_case(const VectorCase& c) { return Prover(c).run(); }
+
+std::optional<Expectation> derive_expectation(const VectorCase& c, std::string& why) {
+  const Facts facts(c);
+  Expectation expect;
+  expect.no_surface = facts.degenerate();
+  expect.first_order_visible = facts.map().visible;
+  for (std::uint32_t t = 0; t < facts.triangles(); ++t) {
+    if (contains(facts.degenerate(), t)) continue;
+    if (facts.touches_cell(t)) {
+      expect.must_be_visible.push_back({t, true, true, {}, {}});
+      continue;
+    }
+    if (!facts.in_omega(t)) {
+      expect.umbra.push_back({t, UmbraProof::first_order_map});
+      continue;
+    }
+    if (c.expect) {
+      const auto& old = c.expect->must_be_visible;
+      const auto same =
+          std::find_if(old.begin(), old.end(), [&](const auto& o) { return o.triangle == t && !o.meets_cell; });
+      if (same != old.end() && facts.check({t, same->front, point_of(same->v), point_of(same->p)}).valid) {
+        expect.must_be_visible.push_back(
+            {t, false, same->front, text_of(point_of(same->v)), text_of(point_of(same->p))});
+        continue;
+      }
+    }
+    if (const auto found = facts.search_witness(t)) {
+      expect.must_be_visible.push_back({t, false, found->front, text_of(found->v), text_of(found->p)});
+      continue;
+    }
+    why = fmt::format("triangle {} is first-order visible, but no sight line was found", t);
+    return std::nullopt;
+  }
+  return expect;
+}
+
+}  // namespace clues::validate
