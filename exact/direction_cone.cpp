@@ -9,10 +9,6 @@ namespace {
 
 CGAL::Sign side_of(const Vector3& normal, const Vector3& d) { return CGAL::sign(CGAL::scalar_product(normal, d)); }
 
-FT signed_value(const Plane3& plane, const Point3& x) {
-  return plane.a() * x.x() + plane.b() * x.y() + plane.c() * x.z() + plane.d();
-}
-
 }  // namespace
 
 std::optional<DirectionCone> cone_of(const std::vector<Point3>& polygon, const Point3& p) {
@@ -92,7 +88,7 @@ std::vector<Point3> clipped(const std::vector<Point3>& polygon, const Plane3& pl
   std::vector<Point3> part;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Point3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const FT at_a = signed_value(plane, a), at_b = signed_value(plane, b);
+    const FT at_a = value_at(plane, a), at_b = value_at(plane, b);
     if (CGAL::sign(at_a) != CGAL::NEGATIVE) part.push_back(a);
     if (CGAL::sign(at_a) * CGAL::sign(at_b) == CGAL::NEGATIVE) part.push_back(a + (b - a) * (at_a / (at_a - at_b)));
   }

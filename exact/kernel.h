@@ -29,6 +29,9 @@ inline scene::Point to_double_estimate(const Point3& p) {
   return {CGAL::to_double(p.x()), CGAL::to_double(p.y()), CGAL::to_double(p.z())};
 }
 
+// The plane's form at p: its sign is the side p is on, its ratio at two points the ratio of their distances.
+inline FT value_at(const Plane3& h, const Point3& p) { return h.a() * p.x() + h.b() * p.y() + h.c() * p.z() + h.d(); }
+
 // "p/q" in lowest terms, "p" when the denominator is 1.
 std::string to_string_exact(const FT& x);
 

@@ -3,32 +3,15 @@
 
 #include <algorithm>
 
+#include "exact/direction_cone.h"
+
 namespace clues::exact {
-namespace {
 
-// The part of the closed polygon on the closed positive (keep = +1) or negative side of a plane.
-std::vector<Point3> clip(const std::vector<Point3>& polygon, const Plane3& h, int keep) {
-  std::vector<Point3> out;
-  const auto value = [&](const Point3& p) {
-    return FT(keep) * (h.a() * p.x() + h.b() * p.y() + h.c() * p.z() + h.d());
-  };
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const FT vp = value(p), vq = value(q);
-    if (!CGAL::is_negative(vp)) out.push_back(p);
-    if ((CGAL::is_negative(vp) && CGAL::is_positive(vq)) || (CGAL::is_positive(vp) && CGAL::is_negative(vq))) {
-      out.push_back(p + (vp / (vp - vq)) * (q - p));
-    }
-  }
-  return out;
-}
-
-// Whether the closed triangle meets the closed cell. A flat cell is bounded by its plane (both sides) and by its edges.
-bool triangle_meets_cell(const std::array<Point3, 3>& t, const ConvexCell& cell) {
+bool meets_cell(const TriangleCorners& t, const ConvexCell& cell) {
   std::vector<Point3> rest(t.begin(), t.end());
   if (cell.dimension() == 3) {
     for (const CellFacet& f : cell.facets()) {
-      rest = clip(rest, f.plane, -1);
+      rest = clipped(rest, f.plane.opposite());
       if (rest.empty()) return false;
     }
     return true;
@@ -47,10 +30,6 @@ bool triangle_meets_cell(const std::array<Point3, 3>& t, const ConvexCell& cell)
   return false;
 }
 
-FT value(const Plane3& h, const Point3& p) { return h.a() * p.x() + h.b() * p.y() + h.c() * p.z() + h.d(); }
-
-}  // namespace
-
 SceneQuery::SceneQuery(const Complex& complex, const ConvexCell& cell) : complex_(&complex), cell_(&cell) {
   CGAL::Bbox_3 cell_box;
   for (const Point3& s : cell.vertices()) cell_box += s.bbox();
@@ -61,9 +40,8 @@ SceneQuery::SceneQuery(const Complex& complex, const ConvexCell& cell) : complex
     const auto& c = piece.corners;
     boxes.push_back(complex.points[c[0]].bbox() + complex.points[c[1]].bbox() + complex.points[c[2]].bbox());
     bounds_ += boxes.back();
-    meets_cell_.push_back(
-        CGAL::do_overlap(boxes.back(), cell_box) &&
-        triangle_meets_cell({complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]}, cell));
+    meets_cell_.push_back(CGAL::do_overlap(boxes.back(), cell_box) &&
+                          exact::meets_cell({complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]}, cell));
   }
   tree_ = BoxTree(std::move(boxes));
 }
@@ -91,7 +69,7 @@ SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_p
       answer.degenerate = true;
       return answer;
     }
-    const FT at_end = value(complex_->planes[t], p), at_start = value(complex_->planes[t], v);
+    const FT at_end = value_at(complex_->planes[t], p), at_start = value_at(complex_->planes[t], v);
     const FT s = at_start / (at_start - at_end);
     if (meets_cell_[t] && cell_->interior_contains(v + s * (p - v))) continue;
     answer.hits.push_back({t, s});
@@ -108,7 +86,7 @@ std::vector<std::pair<Point3, Point3>> SceneQuery::outline_in_cell(std::uint32_t
   if (!meets_cell_[piece] || cell_->dimension() < 3) return outline;
   std::vector<Point3> part;
   for (const std::uint32_t c : complex_->pieces[piece].corners) part.push_back(complex_->points[c]);
-  for (const CellFacet& f : cell_->facets()) part = clip(part, f.plane, -1);
+  for (const CellFacet& f : cell_->facets()) part = clipped(part, f.plane.opposite());
   for (std::size_t i = 0; part.size() >= 3 && i < part.size(); ++i)
     outline.emplace_back(part[i], part[(i + 1) % part.size()]);
   return outline;

@@ -11,6 +11,7 @@
 #include "exact/box_tree.h"
 #include "exact/complex.h"
 #include "exact/convex_cell.h"
+#include "exact/point_occlusion.h"
 
 namespace clues::exact {
 
@@ -23,6 +24,9 @@ struct SegmentAnswer {
   bool degenerate = false;  // touches an edge, a vertex, or runs in a plane: choose another segment
   std::vector<Hit> hits;    // ascending in t; complete unless degenerate
 };
+
+// Whether the closed triangle meets the closed cell (D3), exactly. A flat cell is bounded by its plane (both sides) and by its edges.
+bool meets_cell(const TriangleCorners& triangle, const ConvexCell& cell);
 
 class SceneQuery {
  public:

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "exact/point_occlusion.h"
+#include "exact/scene_query.h"
 #include "exact/witness.h"
 #include "validate/region_points.h"
 
@@ -40,8 +41,9 @@ class Judge {
 
   bool touches_cell(std::uint32_t triangle) const {
     const auto& [a, b, c] = mesh_.triangles[triangle];
-    return meets_cell(exact::to_exact(mesh_.points[a]), exact::to_exact(mesh_.points[b]),
-                      exact::to_exact(mesh_.points[c]), map_.cell);
+    return exact::meets_cell(
+        {exact::to_exact(mesh_.points[a]), exact::to_exact(mesh_.points[b]), exact::to_exact(mesh_.points[c])},
+        map_.cell);
   }
 
   // A confirmed witness for the triangle on one of its regions with the given label; `count` places a region.
@@ -92,23 +94,6 @@ double area_estimate(const scene::TriangleMesh& mesh, std::uint32_t triangle) {
 }
 
 }  // namespace
-
-bool meets_cell(const Point3& a, const Point3& b, const Point3& c, const exact::ConvexCell& cell) {
-  const exact::Kernel::Triangle_3 triangle(a, b, c);
-  const auto& corners = cell.vertices();
-  if (cell.dimension() == 0) return triangle.has_on(corners[0]);
-  if (cell.dimension() == 1) return CGAL::do_intersect(triangle, exact::Kernel::Segment_3(corners[0], corners[1]));
-  // Either a corner lies in the cell, or the triangle leaves it (or never enters it) through a facet.
-  if (cell.contains(a) || cell.contains(b) || cell.contains(c)) return true;
-  for (const auto& facet : cell.facets()) {
-    for (std::size_t i = 1; i + 1 < facet.corners.size(); ++i) {
-      const exact::Kernel::Triangle_3 part(corners[facet.corners[0]], corners[facet.corners[i]],
-                                           corners[facet.corners[i + 1]]);
-      if (CGAL::do_intersect(triangle, part)) return true;
-    }
-  }
-  return false;
-}
 
 Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::VisibilityMap& map,
                     const std::vector<std::uint32_t>& pvs, const JudgeOptions& options) {

@@ -63,7 +63,4 @@ struct JudgeOptions {
 Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::VisibilityMap& map,
                     const std::vector<std::uint32_t>& pvs, const JudgeOptions& options = {});
 
-// Whether the closed triangle meets the closed cell (D3), exactly.
-bool meets_cell(const exact::Point3& a, const exact::Point3& b, const exact::Point3& c, const exact::ConvexCell& cell);
-
 }  // namespace clues::validate

@@ -25,8 +25,11 @@ Apex Apex::at_edge(const exact::Complex& complex, const exact::ConvexCell& cell,
 }
 
 Apex::Apex(const exact::ConvexCell& cell, const Point3& x, LocalStar star) : x_(x), star_(std::move(star)) {
+  for (const Point3& s : cell.vertices()) anticone_.push_back(x - s);
   for (const AnticoneFacet& f : anticone_facets(x, cell)) {
     const Vector3 n = f.plane.orthogonal_vector();
+    const Vector3 inwards =
+        CGAL::is_positive(n * (x - cell.center())) ? x - cell.center() : n;  // n: V lies in the plane
     const auto turns_left = [&](const Vector3& u, const Vector3& w) {
       return CGAL::is_positive(n * CGAL::cross_product(u, w));
     };
@@ -40,15 +43,19 @@ Apex::Apex(const exact::ConvexCell& cell, const Point3& x, LocalStar star) : x_(
       if (!turns_left(rays[i], rays[i + 1])) continue;
       const auto size = [](const Vector3& v) { return CGAL::abs(v.x()) + CGAL::abs(v.y()) + CGAL::abs(v.z()); };
       const Vector3 middle = rays[i] / size(rays[i]) + rays[i + 1] / size(rays[i + 1]);
-      sectors_.push_back(
-          {f.plane, rays[i], rays[i + 1], middle, star_.face_of(star_.nudged(middle, n)), nullptr, false});
+      const Vector3 inner = star_.nudged(middle, inwards);
+      sectors_.push_back({f.plane, rays[i], rays[i + 1], middle, inner, star_.face_of(inner), nullptr, false});
     }
   }
 }
 
 Probe Apex::probe(const Vector3& limit, const Vector3& aside, const Vector3& off) const {
   const Vector3 actual = aside == CGAL::NULL_VECTOR ? star_.nudged(limit, off) : star_.nudged(limit, aside, off);
-  return {limit, actual, CGAL::NULL_VECTOR};
+  return {{limit, aside == CGAL::NULL_VECTOR ? off : aside, off}, actual, CGAL::NULL_VECTOR};
+}
+
+bool Apex::spreads(const Probe& p, const ApexSector& s) const {
+  return !on_edge_ || star_.spreads_around_edge(p.beside, s.inner, anticone_);
 }
 
 bool Apex::has_sector_facing(const Vector3& d) const {
@@ -72,17 +79,19 @@ std::vector<std::size_t> Apex::new_sectors() {
   for (const Probe& p : probes_) faces.push_back(star_.face_of(p.actual));
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
     ApexSector& s = sectors_[i];
-    if (s.built || std::find(faces.begin(), faces.end(), s.face) == faces.end()) continue;
+    if (s.built) continue;
     const Vector3 n = s.plane.orthogonal_vector();
-    // Visible space strictly in H+ that surely reaches the points just off `middle` in H+ too. A point of the visible part of a
-    // crossed edge reaches every direction of its own face.
-    bool bounds_nothing = false;
-    for (std::size_t k = 0; k < probes_.size() && !bounds_nothing; ++k) {
+    bool exists = false, bounds_nothing = false;
+    for (std::size_t k = 0; k < probes_.size(); ++k) {
       const Probe& p = probes_[k];
-      bounds_nothing =
-          (p.lit_edge != CGAL::NULL_VECTOR && faces[k] == s.face && CGAL::is_negative(n * p.lit_edge)) ||
-          (CGAL::is_negative(n * p.limit) && CGAL::is_negative(n * p.actual) && star_.free_between(p.actual, s.middle));
+      const bool spreads_here = faces[k] == s.face && spreads(p, s);
+      exists |= spreads_here;
+      // Visible space strictly in H+ that surely reaches the points just off `middle` in H+ too. A point of the visible part of a
+      // crossed edge reaches whatever its own face allows.
+      bounds_nothing |= (p.lit_edge != CGAL::NULL_VECTOR && spreads_here && CGAL::is_negative(n * p.lit_edge)) ||
+                        (CGAL::is_negative(n * p.beside.limit) && star_.free_between(p.beside, s.middle));
     }
+    if (!exists) continue;
     if (bounds_nothing) continue;
     s.built = true;
     found.push_back(i);

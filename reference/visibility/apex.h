@@ -2,7 +2,7 @@
 //
 // On the small sphere around x (LocalStar) a wedge with apex x goes in directions w of the boundary of the anti-cone. It exists where
 // visible space near x, known by a few probes, lies in the same local face as the points just off w in H-: a sight line that
-// reaches x there goes on in every direction of A(x). It is left out where that same visible space surely reaches the other side (H+)
+// reaches x there goes on in every direction of A(x) that no piece is in the way of. It is left out where that same visible space surely reaches the other side (H+)
 // of the wedge as well: such a piece bounds nothing. Building too many pieces would be correct too, only slower (D12).
 #pragma once
 
@@ -17,9 +17,10 @@
 
 namespace clues::reference {
 
-// Visible space beside x: the limit direction it is known for, and a true direction just off it, inside the visible face.
+// Visible space beside x: the direction it is known for, and a true direction so near to it that no piece lies between.
 struct Probe {
-  exact::Vector3 limit, actual;
+  Beside beside;
+  exact::Vector3 actual;
   exact::Vector3 lit_edge = CGAL::NULL_VECTOR;  // at a CSV: the direction of the visible part of the crossed edge
 };
 
@@ -27,7 +28,8 @@ struct Probe {
 struct ApexSector {
   exact::Plane3 plane;
   exact::Vector3 ray0, ray1, middle;
-  std::vector<int> face;
+  exact::Vector3 inner;                     // beside middle, inside the anti-cone
+  std::vector<int> face;                    // that inner is in
   std::shared_ptr<const OnWedge> on_wedge;  // made when first needed
   bool built = false;                       // in this round
 };
@@ -61,8 +63,12 @@ class Apex {
  private:
   Apex(const exact::ConvexCell& cell, const exact::Point3& x, LocalStar star);
 
+  // Whether the visible space of the probe, in the local face of the sector, reaches the sector's inside.
+  bool spreads(const Probe& p, const ApexSector& s) const;
+
   exact::Point3 x_;
   LocalStar star_;
+  std::vector<exact::Vector3> anticone_;  // its rays: away from the cell's vertices
   bool on_edge_ = false;
   std::uint32_t id_ = 0;
   std::vector<ApexSector> sectors_;

@@ -1,6 +1,6 @@
 #include "reference/visibility/first_order.h"
 
-#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <string>
@@ -32,18 +32,18 @@ bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode
 
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                      const Options& options) {
-  // One thread, whatever options.threads asks for: with two, a sweep of CGAL's arrangement once met inconsistent comparisons of lazy
-  // numbers shared between threads (one run in about five of the random scenes). Until that is understood no map is made in parallel.
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   VisibilityMap map{exact::build_complex(mesh), cell, options.mode, {}, {}, {}, {}, {}};
   if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
   if (options.mode == Mode::solid) require_solid(map.complex);
   map.statistics.refined_triangles = map.complex.refined_triangles;
 
   const exact::SceneQuery scene(map.complex, map.cell);
-  const Fixpoint fixpoint = find_wedges(scene, options, map.statistics);
-  for (const ValidPiece& p : fixpoint.wedges.pieces()) map.wedges.push_back(p.wedge);
-  make_regions(scene, fixpoint, options, map);
+  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    const Fixpoint fixpoint = find_wedges(scene, options, map.statistics);
+    for (const ValidPiece& p : fixpoint.wedges.pieces()) map.wedges.push_back(p.wedge);
+    make_regions(scene, fixpoint, options, map);
+  });
 
   // D15: the PVS. D3: a triangle that meets the cell is visible.
   std::vector<bool> visible(mesh.triangles.size(), false);

@@ -207,7 +207,7 @@ class Search {
         VertexSource s{p, complex_.points[p], scene_.cell().interior_point(weights), {}, {}, false};
         const Vector3 d = s.v - s.x;
         if (!apex->has_sector_facing(d)) continue;
-        s.probe = {d, d, CGAL::NULL_VECTOR};
+        s.probe = {{d, CGAL::NULL_VECTOR, CGAL::NULL_VECTOR}, d, CGAL::NULL_VECTOR};
         vertex_sources_.push_back(std::move(s));
       }
     }

@@ -26,7 +26,19 @@ bool in_arc(const Vector3& a, const Vector3& b, const Vector3& normal, const Vec
           CGAL::is_positive(normal * CGAL::cross_product(y, b)));
 }
 
+// The first sign that is not zero.
+CGAL::Sign leading(const FT& a, const FT& b, const FT& c) {
+  const CGAL::Sign sa = CGAL::sign(a);
+  if (sa != CGAL::ZERO) return sa;
+  const CGAL::Sign sb = CGAL::sign(b);
+  return sb != CGAL::ZERO ? sb : CGAL::sign(c);
+}
+
 }  // namespace
+
+CGAL::Sign side_of(const Vector3& normal, const Beside& d) {
+  return leading(normal * d.limit, normal * d.aside, normal * d.off);
+}
 
 LocalStar LocalStar::around_vertex(const exact::Complex& complex, std::uint32_t point) {
   LocalStar star;
@@ -175,6 +187,58 @@ bool LocalStar::free_between(const Vector3& d0, const Vector3& d1) const {
     if (in_arc(a, b, arc.normal, CGAL::abs(at1) * d0 + CGAL::abs(at0) * d1)) return false;
   }
   return true;
+}
+
+bool LocalStar::free_between(const Beside& d0, const Vector3& d1) const {
+  for (const Arc& arc : arcs_) {
+    const CGAL::Sign s0 = side_of(arc.normal, d0), s1 = CGAL::sign(arc.normal * d1);
+    if (s0 != CGAL::ZERO && s0 == s1) continue;
+    if (s0 == CGAL::ZERO && s1 != CGAL::ZERO) continue;
+    if (s0 == CGAL::ZERO) return false;  // within the arc's great circle: not a way to rely on
+    const FT at0 = CGAL::abs(arc.normal * d0.limit), at1 = CGAL::abs(arc.normal * d1);
+    const Vector3& a = nodes_[static_cast<std::size_t>(arc.a)];
+    const Vector3& b = nodes_[static_cast<std::size_t>(arc.b)];
+    if (in_arc(a, b, arc.normal, CGAL::is_zero(at0) ? d0.limit : at1 * d0.limit + at0 * d1)) return false;
+  }
+  return true;
+}
+
+bool LocalStar::spreads_around_edge(const Beside& d, const Vector3& inner, const std::vector<Vector3>& rays) const {
+  // Seen along the edge every piece is a ray, and a way may turn by less than a half turn at once. Angles about the axis, from d:
+  const Vector3& axis = nodes_[0];
+  const auto turn = [&](const Vector3& w) { return side_of(CGAL::cross_product(w, axis), d); };  // of d -> w
+  const auto half = [&](const Vector3& w) {  // 0: like d, 1: first half turn, 2: opposite, 3: second half turn
+    const CGAL::Sign s = turn(w);
+    if (s != CGAL::ZERO) return s == CGAL::POSITIVE ? 1 : 3;
+    return CGAL::is_positive(CGAL::cross_product(axis, d.limit) * CGAL::cross_product(axis, w)) ? 0 : 2;
+  };
+  bool ccw = true;  // inner comes before all pieces
+  for (std::size_t i = 2; i < nodes_.size(); ++i) {
+    const int h = half(nodes_[i]), h_inner = half(inner);
+    ccw &= h_inner != h ? h_inner < h : det_sign(axis, inner, nodes_[i]) == CGAL::POSITIVE;
+  }
+  const CGAL::Sign way = ccw ? CGAL::POSITIVE : CGAL::NEGATIVE;
+  if (turn(inner) == way) return true;
+  // Too far for one step: by way of some w of the cone, less than a half turn from d and from inner.
+  struct Forms {
+    FT from_d[3], to_inner;  // signed: both positive (the first by its leading part) is what is asked for
+  };
+  std::vector<Forms> forms;
+  for (const Vector3& r : rays) {
+    const Vector3 n = CGAL::cross_product(r, axis);
+    const FT sign(ccw ? 1 : -1);
+    forms.push_back(
+        {{sign * (n * d.limit), sign * (n * d.aside), sign * (n * d.off)}, sign * CGAL::determinant(axis, r, inner)});
+  }
+  for (const Forms& a : forms) {
+    if (leading(a.from_d[0], a.from_d[1], a.from_d[2]) != CGAL::POSITIVE) continue;
+    for (const Forms& b : forms) {  // a alone, or a combination of a and b
+      if (!CGAL::is_positive(b.to_inner)) continue;
+      const auto cross = [&](int k) { return FT(a.from_d[k] * b.to_inner - a.to_inner * b.from_d[k]); };
+      if (CGAL::is_positive(a.to_inner) || leading(cross(0), cross(1), cross(2)) == CGAL::POSITIVE) return true;
+    }
+  }
+  return false;
 }
 
 Vector3 LocalStar::nudged(const Vector3& d, const Vector3& by, const Vector3& then) const {

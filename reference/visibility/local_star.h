@@ -13,6 +13,13 @@
 
 namespace clues::reference {
 
+// A direction just beside another: limit, moved a little towards aside, and by much less towards off.
+struct Beside {
+  exact::Vector3 limit, aside, off;
+};
+// The side of the plane with this normal that it is on.
+CGAL::Sign side_of(const exact::Vector3& normal, const Beside& d);
+
 class LocalStar {
  public:
   // Around mesh vertex `point`, or around x inside edge `edge`.
@@ -24,6 +31,14 @@ class LocalStar {
 
   // Whether the great circle arc from d0 (excluded) to d1 (included) surely meets no incident piece. d0 and d1 not opposite.
   bool free_between(const exact::Vector3& d0, const exact::Vector3& d1) const;
+
+  // The same for a direction just beside another; touching an end of an arc counts as meeting it.
+  bool free_between(const Beside& d0, const exact::Vector3& d1) const;
+
+  // Around an edge point, for d and `inner` in one face, inner in the interior of the convex cone spanned by `rays`: whether one can go from d
+  // to inner by arcs that each run towards a direction inside the cone, without meeting a piece. (A point visible at d has continuations in all
+  // directions of the anti-cone; so this says whether visible space at d spreads to inner.)
+  bool spreads_around_edge(const Beside& d, const exact::Vector3& inner, const std::vector<exact::Vector3>& rays) const;
 
   // d moved towards `by`, and by much less towards `then`, so little that no piece lies between.
   exact::Vector3 nudged(const exact::Vector3& d, const exact::Vector3& by,

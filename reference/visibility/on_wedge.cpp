@@ -78,8 +78,7 @@ class Envelope {
     if (found != edge_crossing_.end()) return found->second;
     const Point3 &a = complex_.points[complex_.edges[edge].a], &b = complex_.points[complex_.edges[edge].b];
     const exact::Plane3& h = sector_.plane;
-    const auto value = [&](const Point3& p) { return h.a() * p.x() + h.b() * p.y() + h.c() * p.z() + h.d(); };
-    const FT at_a = value(a), at_b = value(b);
+    const FT at_a = exact::value_at(h, a), at_b = exact::value_at(h, b);
     return edge_crossing_.emplace(edge, spot(exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a)))).first->second;
   }
 

@@ -40,6 +40,26 @@ std::vector<std::pair<Point2, Point2>> clipped(const Kernel::Triangle_2& t, cons
   return {};
 }
 
+using Segments2 = std::vector<std::pair<Point2, Point2>>;
+
+// The same point set without overlaps: collinear segments that meet become one. (The sweep of CGAL 5.5 fails on some sets of three and more
+// overlapping segments, depending on where its nodes lie in memory.) O(n^2) filtered orientation tests.
+Segments2 without_overlaps(const Segments2& segments) {
+  Segments2 out;
+  for (auto [a, b] : segments) {
+    if (b < a) std::swap(a, b);
+    std::erase_if(out, [&a = a, &b = b](const auto& other) {
+      const auto& [c, d] = other;
+      if (!CGAL::collinear(c, d, a) || !CGAL::collinear(c, d, b) || d < a || b < c) return false;
+      if (c < a) a = c;
+      if (b < d) b = d;
+      return true;
+    });
+    out.emplace_back(a, b);
+  }
+  return out;
+}
+
 // Twice the signed area of a ring.
 FT twice_area(const std::vector<Point2>& ring) {
   FT sum(0);
@@ -137,7 +157,7 @@ class SideMapper {
       return exact::collapsed(p[2] + u * (p[0] - p[2]) + w * (p[1] - p[2]));
     };
 
-    const auto flat = segments_on({t, front}, frame, triangle);
+    const Segments2 flat = without_overlaps(segments_on({t, front}, frame, triangle));
     if (flat.empty()) {
       Region r{t, front, false, {{p[0], p[1], p[2]}}, FT(1), {}};
       finish(r, {{triangle[0], triangle[1], triangle[2]}}, lift, out);
@@ -227,9 +247,8 @@ class SideMapper {
     return ring;
   }
 
-  std::vector<std::pair<Point2, Point2>> segments_on(const SideKey& key, const PlaneFrame& frame,
-                                                     const Kernel::Triangle_2& triangle) const {
-    std::vector<std::pair<Point2, Point2>> flat;
+  Segments2 segments_on(const SideKey& key, const PlaneFrame& frame, const Kernel::Triangle_2& triangle) const {
+    Segments2 flat;
     const auto add = [&](const Point2& a, const Point2& b) {
       for (const auto& s : clipped(triangle, a, b)) {
         bool on_border = false;  // along the triangle's own border a segment separates nothing

@@ -42,12 +42,12 @@ Point3 Walker::choose(std::uint64_t seed, const std::optional<Point3>& anchor, c
   }
 }
 
+FT Walker::height(const SurfaceSide& on, const Point3& x) const {
+  const FT d = exact::value_at(scene_->complex().planes[on.piece], x);
+  return on.front ? d : FT(-d);
+}
+
 std::optional<Point3> Walker::anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const {
-  const auto height = [&](const SurfaceSide& on, const Point3& x) {
-    const exact::Plane3& h = scene_->complex().planes[on.piece];
-    const FT d = h.a() * x.x() + h.b() * x.y() + h.c() * x.z() + h.d();
-    return on.front ? d : FT(-d);
-  };
   const std::vector<Point3>& s = scene_->cell().vertices();
   std::vector<FT> a, b;
   std::optional<std::size_t> best;
@@ -69,6 +69,37 @@ std::optional<Point3> Walker::anchor_beyond(const SurfaceSide& side, const Surfa
         if (CGAL::is_positive(height(*also, y))) return exact::collapsed(y);
       }
     }
+  }
+  return std::nullopt;
+}
+
+std::optional<Point3> Walker::end_of_groove(const SurfaceSide& one, const SurfaceSide& two) const {
+  const std::vector<Point3>& s = scene_->cell().vertices();
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const FT a = height(one, s[i]), b = height(two, s[i]);
+    if (!CGAL::is_negative(a) && !CGAL::is_negative(b)) return s[i];
+    if (!CGAL::is_positive(a)) continue;
+    for (const Point3& other : s) {
+      const FT c = height(one, other);
+      if (!CGAL::is_negative(c)) continue;
+      const Point3 x = exact::collapsed(s[i] + (a / (a - c)) * (other - s[i]));
+      if (!CGAL::is_negative(height(two, x))) return x;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<Point3> Walker::along_groove(const Point3& p, const SurfaceSide& on, const SurfaceSide& before,
+                                           const Point3& end) const {
+  constexpr int kPulls = 64;
+  Point3 v = choose(0, anchor_beyond(on, nullptr), [&](const Point3& x) {
+    return scene_->complex().planes[on.piece].oriented_side(x) == strict_side(on.front);
+  });
+  for (int i = 0; i < kPulls; ++i, v = exact::collapsed(end + (v - end) / FT(8))) {
+    const exact::SegmentAnswer answer = scene_->crossings(v, p);
+    if (!answer.degenerate && std::none_of(answer.hits.begin(), answer.hits.end(),
+                                           [&](const exact::Hit& hit) { return hit.piece == before.piece; }))
+      return v;
   }
   return std::nullopt;
 }
@@ -136,6 +167,7 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     }
     std::optional<Point3> anchor;
     Good good = [](const Point3&) { return true; };
+    std::optional<Point3> along;        // a v whose sight line leaves a groove at its end
     std::optional<SurfaceSide> before;  // the wall that the walk stood on before this one, if they share an edge
     if (surface) {
       anchor = anchor_beyond(*surface, nullptr);
@@ -149,6 +181,9 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
         const std::optional<Point3> both = anchor_beyond(*surface, &*before);
         if (both) {
           anchor = both;
+        } else if (const std::optional<Point3> end = end_of_groove(*surface, *before)) {
+          along = along_groove(p, *surface, *before, *end);
+          before.reset();
         } else {
           before.reset();
           if (const std::optional<Leg> leg = groove_leg(walk)) {
@@ -178,13 +213,23 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     Point3 v;
     int attempt = 0;
     do {
-      if (attempt == kAttempts)
-        throw scene::Error(scene::ErrorCode::internal, "walk: no sight line in general position");
+      if (attempt == kAttempts) {
+        // A flat cell in the supporting plane itself: every sight line runs in that plane, along the edges that lie in it.
+        if (!contour) throw scene::Error(scene::ErrorCode::internal, "walk: no sight line in general position");
+        walk.unresolved = true;
+        return walk;
+      }
       if (depth == 0 && start.from) {
         v = *start.from;
         answer = scene_->crossings(v, p);
         if (answer.degenerate) return walk;
         break;
+      }
+      if (along && attempt == 0) {
+        v = *along;
+        answer = scene_->crossings(v, p);
+        ++attempt;
+        continue;
       }
       v = choose(mix(seed * 1000003 + static_cast<std::uint64_t>(depth) * 1009 + static_cast<std::uint64_t>(attempt)),
                  anchor, good);

@@ -7,7 +7,8 @@
 // A walk into a groove that no point of V looks into along its edge would go on for ever, from one wall to the other, towards the
 // edge: T3 orders points, but an order of points may descend without end (definition, D14 says the recursion ends). Beside the edge all is hidden:
 // a chain of D9 that comes to such a place came from a place still nearer to the edge, and so never began at V. So the walk
-// ends there, hidden, with a leg from the edge.
+// ends there, hidden, with a leg from the edge. This holds only if V keeps away from the edge's line. Where V touches it, sight lines nearly along
+// the edge come in at the groove's end, past the walls, however near the edge p is: then the walk looks that way.
 //
 // So walks are made once, and only their legs are looked at again when new wedge pieces appear (D17a).
 #pragma once
@@ -73,15 +74,19 @@ class Walker {
   using Good = std::function<bool(const exact::Point3&)>;
   // A point v of int V near `anchor` (or anywhere) that satisfies the predicate; it must hold near the anchor.
   exact::Point3 choose(std::uint64_t seed, const std::optional<exact::Point3>& anchor, const Good& good) const;
+  // A multiple of the distance of x from the piece's plane, positive on the given side.
+  exact::FT height(const SurfaceSide& on, const exact::Point3& x) const;
   // A point of V strictly on the given side of the piece's plane, and, if `also` is given, on that side of that plane too; none when V has no such point.
   std::optional<exact::Point3> anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const;
+  // A point of the closed V in both closed half spaces, for two walls that no point of V is strictly in front of at once; none if V keeps away.
+  std::optional<exact::Point3> end_of_groove(const SurfaceSide& one, const SurfaceSide& two) const;
+  // v in int V near `end`, strictly in front of `on`, such that the sight line to p does not cross `before`; none was found: nullopt.
+  std::optional<exact::Point3> along_groove(const exact::Point3& p, const SurfaceSide& on, const SurfaceSide& before,
+                                            const exact::Point3& end) const;
   // The last leg of a walk that runs into the groove between two pieces for ever.
   std::optional<Leg> groove_leg(const Walk& walk) const;
   exact::Point3 last_crossing(const exact::Point3& v, const exact::Point3& p, const exact::Hit& hit,
                               const Good& good) const;
-  // The cell vertex farthest out on that side of the piece's plane; -1 when V has no point strictly there.
-  int anchor_beyond(const SurfaceSide& side) const;
-
   const exact::SceneQuery* scene_;
   bool rule_3_;
 };

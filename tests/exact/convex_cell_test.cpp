@@ -1,6 +1,8 @@
 // D2: exact view cells of every dimension, independent of the order of their points.
 #include "exact/convex_cell.h"
 
+#include "exact/scene_query.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -123,6 +125,22 @@ TEST(Kernel, ExactTextIsInLowestTerms) {
   EXPECT_EQ(to_string_exact(FT(0.1)), "3602879701896397/36028797018963968");
   EXPECT_EQ(to_string_exact(collapsed(FT(1) / FT(3) + FT(1) / FT(6))), "1/2");
   EXPECT_EQ(collapsed(Point3(FT(1) / FT(3), 0, 1)), Point3(FT(1) / FT(3), 0, 1));
+}
+
+TEST(MeetsCell, EveryDimension) {
+  const TriangleCorners t{Point3(0, 0, 0), Point3(4, 0, 0), Point3(0, 4, 0)};
+  const auto cell = [](const std::vector<scene::Point>& points) { return ConvexCell::from_doubles(points); };
+  EXPECT_TRUE(meets_cell(t, cell({{1, 1, 0}})));
+  EXPECT_FALSE(meets_cell(t, cell({{1, 1, 0x1p-60}})));
+  EXPECT_TRUE(meets_cell(t, cell({{1, 1, -1}, {1, 1, 1}})));
+  EXPECT_FALSE(meets_cell(t, cell({{3, 3, -1}, {3, 3, 1}})));
+  EXPECT_TRUE(meets_cell(t, cell({{-1, 1, -1}, {9, 1, -1}, {1, 1, 5}})));
+  EXPECT_TRUE(meets_cell(t, cell({{0, 0, -1}, {-1, 0, -2}, {0, -1, -2}, {0, 0, 0}})));  // touches at a corner
+  // The triangle pierces the box without a corner in it; the box holds the triangle; they are apart.
+  EXPECT_TRUE(meets_cell({Point3(-9, -9, 1), Point3(9, -9, 1), Point3(0, 9, 1)},
+                         cell({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 3}})));
+  EXPECT_TRUE(meets_cell(t, cell({{-9, -9, -9}, {99, -9, -9}, {-9, 99, -9}, {-9, -9, 99}})));
+  EXPECT_FALSE(meets_cell(t, cell({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 3}})));
 }
 
 }  // namespace

@@ -230,5 +230,30 @@ TEST(Hazard, AWalkIntoAGrooveEnds) {
   }
 }
 
+// Not on the list: beside the groove's line nothing is hidden if that line touches the cell: sight lines come in at the groove's end. Found on
+// open-sheets-20261121-32.
+TEST(Hazard, AGrooveWhoseLineTouchesTheCellIsSeenFromItsEnd) {
+  const auto scene = fuzz::generate(fuzz::Kind::open_sheets, 20261121, 32);
+  const auto map = map_of(scene.mesh, exact::ConvexCell::from_doubles(scene.cell));
+  expect_no_contradiction(map);
+  EXPECT_EQ(map.statistics.conservative_fallbacks, 0U);
+}
+
+// Not on the list: visible space before a wall does not spread round the wall's edge, though on a small sphere about a point of the edge it is the same
+// face. A wedge taken for superfluous because of such space left one region with hidden and visible points (axis-boxes-20261121-20).
+TEST(Hazard, VisibleSpaceBeforeAWallDoesNotTurnRoundItsEdge) {
+  const auto scene = fuzz::generate(fuzz::Kind::axis_boxes, 20261121, 20);
+  expect_no_contradiction(map_of(scene.mesh, exact::ConvexCell::from_doubles(scene.cell)));
+}
+
+// Not on the list: a flat cell in the plane of a wall. All its sight lines to the wall's edges run in that plane; such an edge is taken for
+// visible, and counted (axis-boxes-20261121-34).
+TEST(Hazard, AFlatCellInTheWallsPlaneIsAnswered) {
+  const auto scene = fuzz::generate(fuzz::Kind::axis_boxes, 20261121, 34);
+  const auto map = map_of(scene.mesh, exact::ConvexCell::from_doubles(scene.cell));
+  expect_no_contradiction(map);
+  EXPECT_GT(map.statistics.conservative_fallbacks, 0U);
+}
+
 }  // namespace
 }  // namespace clues::test

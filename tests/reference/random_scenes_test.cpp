@@ -8,6 +8,7 @@
 #include <iostream>
 #include <string>
 
+#include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
 #include "judges.h"
 
@@ -79,14 +80,54 @@ TEST(RandomScenesLong, NothingHiddenIsSeen) {
   judge_scenes(50, 20);
 }
 
+// A box with a mesh vertex on one of its faces, edges or corners, by turns.
+std::vector<scene::Point> touching_box(const fuzz::GeneratedScene& scene, std::uint64_t seed) {
+  fuzz::Random random(seed);
+  const scene::Point q =
+      scene.mesh.points[static_cast<std::size_t>(random.between(0, static_cast<int>(scene.mesh.points.size()) - 1))];
+  const int shared = random.between(1, 3);  // coordinates in which q is on the border of the box
+  scene::Point lo, hi;
+  for (std::size_t i = 0; i < 3; ++i) {
+    lo[i] = q[i] - random.between(1, 40) / 16.0;
+    hi[i] = static_cast<int>(i) < shared ? q[i] : q[i] + random.between(1, 40) / 16.0;
+  }
+  std::vector<scene::Point> corners;
+  for (unsigned i = 0; i < 8; ++i)
+    corners.push_back({i & 1 ? hi[0] : lo[0], i & 2 ? hi[1] : lo[1], i & 4 ? hi[2] : lo[2]});
+  return corners;
+}
+
+void judge_touching_cells(std::uint64_t per_kind, std::size_t points_per_region) {
+  std::uint64_t points = 0;
+  for (const fuzz::Kind kind : fuzz::all_kinds) {
+    for (std::uint64_t i = 0; i < per_kind; ++i) {
+      const fuzz::GeneratedScene scene = fuzz::generate(kind, kSeed, i);
+      SCOPED_TRACE(scene.name);
+      const auto map = map_of(scene.mesh, exact::ConvexCell::from_doubles(touching_box(scene, kSeed + i)));
+      const Contradictions c = contradictions(map, points_per_region, kSeed + i);
+      EXPECT_EQ(c.total(), 0U);
+      EXPECT_EQ(map.statistics.walk_disagreements, 0U);
+      points += c.points;
+    }
+  }
+  EXPECT_GT(points, 0U);
+}
+
+TEST(RandomScenes, ACellThatTouchesAMeshVertex) { judge_touching_cells(3, 4); }
+
+TEST(RandomScenesLong, ACellThatTouchesAMeshVertex) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  judge_touching_cells(40, 6);
+}
+
 TEST(RandomScenes, TheMapDoesNotDependOnThreadsOrTriangleOrder) {
-  for (const fuzz::Kind kind : {fuzz::Kind::loose_triangles, fuzz::Kind::axis_boxes, fuzz::Kind::interpenetrating}) {
+  for (const fuzz::Kind kind : fuzz::all_kinds) {
     const fuzz::GeneratedScene scene = fuzz::generate(kind, kSeed, 1);
     SCOPED_TRACE(scene.name);
     const auto cell = exact::ConvexCell::from_doubles(scene.cell);
     reference::Options one, two;
     one.threads = 1;
-    two.threads = 2;
+    two.threads = 4;
     const scene::CellSpec spec{"", scene.cell};
     const auto first = reference::first_order_visibility(scene.mesh, cell, one);
     EXPECT_EQ(scene::to_json_text(reference::to_result(first, spec, true)),

@@ -117,21 +117,5 @@ TEST(Judge, RandomScenesAgreeWithTheReference) {
   EXPECT_GT(hidden, 0U);
 }
 
-TEST(MeetsCell, EveryDimension) {
-  const Point3 a(0, 0, 0), b(4, 0, 0), c(0, 4, 0);
-  const auto cell = [](const std::vector<scene::Point>& points) { return ConvexCell::from_doubles(points); };
-  EXPECT_TRUE(meets_cell(a, b, c, cell({{1, 1, 0}})));
-  EXPECT_FALSE(meets_cell(a, b, c, cell({{1, 1, 0x1p-60}})));
-  EXPECT_TRUE(meets_cell(a, b, c, cell({{1, 1, -1}, {1, 1, 1}})));
-  EXPECT_FALSE(meets_cell(a, b, c, cell({{3, 3, -1}, {3, 3, 1}})));
-  EXPECT_TRUE(meets_cell(a, b, c, cell({{-1, 1, -1}, {9, 1, -1}, {1, 1, 5}})));
-  EXPECT_TRUE(meets_cell(a, b, c, cell(screen_cell)));  // touches at a corner
-  // The triangle pierces the box without a corner in it; the box holds the triangle; they are apart.
-  EXPECT_TRUE(meets_cell(Point3(-9, -9, 1), Point3(9, -9, 1), Point3(0, 9, 1),
-                         cell({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 3}})));
-  EXPECT_TRUE(meets_cell(a, b, c, cell({{-9, -9, -9}, {99, -9, -9}, {-9, 99, -9}, {-9, -9, 99}})));
-  EXPECT_FALSE(meets_cell(a, b, c, cell({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 3}})));
-}
-
 }  // namespace
 }  // namespace clues::validate
