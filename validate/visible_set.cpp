@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "exact/point_occlusion.h"
+#include "exact/scene_query.h"
 #include "exact/witness.h"
 #include "scene/error.h"
 #include "validate/sight_scene.h"
@@ -49,7 +50,7 @@ class Search {
     }
     const auto& [a, b, c] = mesh_.triangles[t];
     const auto corner = [&](std::uint32_t i) { return exact::to_exact(mesh_.points[i]); };
-    if (meets_cell(corner(a), corner(b), corner(c), cell_)) {
+    if (exact::meets_cell({corner(a), corner(b), corner(c)}, cell_)) {
       answer.sight = Sight::visible;
       answer.meets_cell = true;
       answer.proof = Proof::meets_cell;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "exact/point_occlusion.h"
+#include "exact/scene_query.h"
 #include "exact/witness.h"
 #include "reference/visibility/first_order.h"
 #include "scene/error.h"
@@ -58,10 +59,7 @@ class Facts {
   const std::vector<std::uint32_t>& degenerate() const { return degenerate_; }
   std::uint32_t triangles() const { return static_cast<std::uint32_t>(case_.mesh.triangles.size()); }
   bool in_omega(std::uint32_t t) const { return contains(map_.visible, t); }
-  bool touches_cell(std::uint32_t t) const {
-    const auto [a, b, c] = corners(t);
-    return meets_cell(a, b, c, cell_);
-  }
+  bool touches_cell(std::uint32_t t) const { return exact::meets_cell(corners(t), cell_); }
 
   exact::WitnessVerdict check(const Witness& w) const {
     if (case_.mode == CaseMode::solid && !w.front) return {false, "a back side does not count in solid mode"};
@@ -125,6 +123,7 @@ class Facts {
     reference::Options options;
     options.mode = mode(c);
     options.check_two_walks = true;
+    options.threads = 1;  // cases run side by side, in processes
     return options;
   }
   exact::TriangleCorners corners(std::uint32_t t) const {
