@@ -167,14 +167,13 @@ int MovingPlanes::sign_here(Polynomial& p) {
 }
 
 void MovingPlanes::remember(Polynomial& p, int sign) {
-  if (p.remembered_for == visit_) return;
+  if (p.remembered_for == visit_ || (forget_triples && p.planes[0] >= 0)) return;
   p.remembered_for = visit_;
   if (sign == 0) {
     const auto& c = exact_of(p);
     if (sgn(c[0]) != 0 || sgn(c[1]) != 0 || sgn(c[2]) != 0) on_event_ = true;
     return;
   }
-  if (forget_triples && p.planes[0] >= 0) return;
   remembered_.push_back(&p);
 }
 

@@ -63,7 +63,7 @@ bool cut_range(SightEdge& edge, const RVector& normal, const RVector& at) {
   return edge.low < edge.high;
 }
 
-SightScene::SightScene(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, bool solid, PlantedSightBug bug)
+SightScene::SightScene(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, bool solid)
     : cell_(cell), complex_(exact::build_complex(mesh)), shape_(cell), polygons_(mesh.triangles.size()) {
   if (solid) {
     if (const auto bad = exact::triangles_not_solid(complex_); !bad.empty()) {
@@ -88,7 +88,7 @@ SightScene::SightScene(const scene::TriangleMesh& mesh, const exact::ConvexCell&
     }
   }
   if (shape_.dimension >= 2) find_edges();
-  if (shape_.dimension == 3 && bug != PlantedSightBug::no_cut_edges) find_cut_edges();
+  if (shape_.dimension == 3) find_cut_edges();
   if (shape_.dimension == 1 || shape_.dimension == 2) find_cell_contacts();
 }
 

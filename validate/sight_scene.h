@@ -29,7 +29,7 @@ struct SightQuestion {
 class SightScene {
  public:
   // Keeps a reference to the cell. Throws Error not_solid for solid mode on a mesh that is not (D4).
-  SightScene(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, bool solid, PlantedSightBug bug);
+  SightScene(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, bool solid);
 
   const exact::Complex& complex() const { return complex_; }
   const CellShape& shape() const { return shape_; }

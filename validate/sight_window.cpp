@@ -51,7 +51,6 @@ CellShape::CellShape(const exact::ConvexCell& cell) : dimension(cell.dimension()
 SightWindow::SightWindow(const CellShape& cell, const SightTarget& target, const SightEdge& edge, Passage passage,
                          PlantedSightBug bug)
     : cell_(cell),
-      target_(target),
       edge_(edge),
       passage_(passage),
       bug_(bug),

@@ -67,7 +67,7 @@ struct Opening {
   RVector nudge;  // moved a little this way, the line passes all sheets at y; zero unless Passage::edge
 };
 
-enum class PlantedSightBug : int { none, forget_triples, block_behind_cell, no_cut_edges };
+enum class PlantedSightBug : int { none, forget_triples, block_behind_cell };
 
 class SightWindow {
  public:
@@ -114,7 +114,6 @@ class SightWindow {
   Answer search(std::vector<Cone> cones, int wedge);
 
   const CellShape& cell_;
-  const SightTarget& target_;
   const SightEdge& edge_;
   Passage passage_;
   PlantedSightBug bug_;

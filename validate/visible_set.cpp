@@ -19,10 +19,7 @@ using Proof = TriangleSight::Proof;
 class Search {
  public:
   Search(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const VisibleSetOptions& options)
-      : mesh_(mesh),
-        cell_(cell),
-        options_(options),
-        scene_(mesh, cell, options.mode == reference::Mode::solid, options.planted_bug) {}
+      : mesh_(mesh), cell_(cell), options_(options), scene_(mesh, cell, options.mode == reference::Mode::solid) {}
 
   VisibleSet run() {
     VisibleSet result;
@@ -56,11 +53,6 @@ class Search {
       answer.proof = Proof::meets_cell;
       return answer;
     }
-    if (!may_be_seen) {
-      answer.proof = Proof::first_order_map;
-      ++statistics_.hidden_by_map;
-      return answer;
-    }
     windows_ = 0;
     undecided_ = false;
     std::vector<SightQuestion> questions;
@@ -68,10 +60,18 @@ class Search {
       if (!front && options_.mode == reference::Mode::solid) continue;
       if (auto question = scene_.question(t, front)) questions.push_back(std::move(*question));
     }
+    // Points that are touched have no area and so no place on the map: they are looked at in any case.
+    for (const auto& question : questions) {
+      if (!answer.witness) answer.witness = ask(question, question.contacts);
+      if (!answer.witness) answer.witness = ask_viewpoints(question);
+      statistics_.found_by_point += answer.witness ? 1 : 0;
+      if (!answer.witness) answer.witness = sweep_grooves(question);
+    }
     for (const bool by_point : {options_.points_first, !options_.points_first}) {
+      if (!may_be_seen) break;
       for (const auto& question : questions) {
         if (answer.witness) break;
-        answer.witness = by_point ? ask_points(question) : sweep_edges(question);
+        answer.witness = by_point ? ask(question, question.samples) : sweep_edges(question);
         auto& found = by_point ? statistics_.found_by_point : statistics_.found_by_edge;
         found += answer.witness ? 1 : 0;
       }
@@ -79,6 +79,9 @@ class Search {
     answer.sight = answer.witness ? Sight::visible : undecided_ ? Sight::undecided : Sight::hidden;
     if (answer.witness) {
       answer.proof = Proof::witness;
+    } else if (!undecided_ && !may_be_seen) {
+      answer.proof = Proof::first_order_map;
+      ++statistics_.hidden_by_map;
     } else if (!undecided_) {
       answer.proof = Proof::exhaustive;
       ++statistics_.hidden_exhaustive;
@@ -91,17 +94,19 @@ class Search {
     return Witness{question.triangle, question.front, v, p};
   }
 
-  // One point in each part of the target, the points where pieces stand, and the same from a flat cell's side.
-  std::optional<Witness> ask_points(const SightQuestion& question) {
-    for (const auto* points : {&question.samples, &question.contacts}) {
-      for (const Point3& p : *points) {
-        ++statistics_.point_questions;
-        const auto answer = exact::point_occlusion(p, question.plane, cell_, question.soup);
-        if (answer.occluded) continue;
-        if (auto found = confirmed(question, *answer.witness, p)) return found;
-        throw scene::Error(scene::ErrorCode::internal, "visible_set: a free sight line from a point is refused");
-      }
+  std::optional<Witness> ask(const SightQuestion& question, const std::vector<Point3>& points) {
+    for (const Point3& p : points) {
+      ++statistics_.point_questions;
+      const auto answer = exact::point_occlusion(p, question.plane, cell_, question.soup);
+      if (answer.occluded) continue;
+      if (auto found = confirmed(question, *answer.witness, p)) return found;
+      throw scene::Error(scene::ErrorCode::internal, "visible_set: a free sight line from a point is refused");
     }
+    return std::nullopt;
+  }
+
+  // The same from points of the cell, the triangle being what is to be seen.
+  std::optional<Witness> ask_viewpoints(const SightQuestion& question) {
     std::vector<Point3> viewpoints = scene_.cell_contacts();
     if (cell_.dimension() == 0) viewpoints.push_back(cell_.center());
     if (viewpoints.empty()) return std::nullopt;
@@ -119,20 +124,24 @@ class Search {
   }
 
   std::optional<Witness> sweep_edges(const SightQuestion& question) {
-    const int dimension = cell_.dimension();
-    if (dimension == 0) return std::nullopt;
-    if (dimension == 1) {
+    if (cell_.dimension() == 1) {
       const RVector &a = scene_.shape().vertices[0], &b = scene_.shape().vertices[1];
-      if (auto found = sweep(question, {a, minus(b, a), 0, 1, {}}, Passage::on_cell)) return found;
-      undecided_ = undecided_ || !question.grooves.empty();
-      return std::nullopt;
+      return sweep(question, {a, minus(b, a), 0, 1, {}}, Passage::on_cell);
     }
     for (const SightEdge& edge : question.edges) {
       if (auto found = sweep(question, edge, Passage::edge)) return found;
     }
+    return std::nullopt;
+  }
+
+  std::optional<Witness> sweep_grooves(const SightQuestion& question) {
+    const int dimension = cell_.dimension();
     for (const SightEdge& edge : question.grooves) {
-      if (auto found = sweep(question, edge, Passage::on_target)) return found;
-      undecided_ = undecided_ || (dimension == 2 && (!scene_.cell_grooves().empty() || in_cell_plane(edge)));
+      if (dimension >= 2) {
+        if (auto found = sweep(question, edge, Passage::on_target)) return found;
+      }
+      undecided_ =
+          undecided_ || dimension == 1 || (dimension == 2 && (!scene_.cell_grooves().empty() || in_cell_plane(edge)));
     }
     for (const SightEdge& edge : scene_.cell_grooves()) {
       if (auto found = sweep(question, edge, Passage::on_cell)) return found;

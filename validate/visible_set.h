@@ -32,8 +32,9 @@ struct TriangleSight {
 struct VisibleSetOptions {
   reference::Mode mode = reference::Mode::sheet;
   std::uint64_t window_limit = 0;  // windows per triangle; 0: none
-  bool trust_map = true;           // false: hidden triangles are proved hidden without the first-order map
-  bool points_first = true;        // false: sweep the edges before asking single points; slower, for the tests
+  bool trust_map =
+      true;  // see docs/visible-set.md, section 5; false: hidden triangles are proved hidden without the first-order map
+  bool points_first = true;  // false: sweep the edges before asking single points; slower, for the tests
   PlantedSightBug planted_bug{};
 };
 
