@@ -1,12 +1,12 @@
 # The installable package: libraries, headers, the program and the files by which find_package(clues) finds them
-# (targets clues::scene, clues::exact, clues::reference, clues::validate, clues::fuzz).
+# (targets clues::scene, clues::exact, clues::fastpath, clues::reference, clues::validate, clues::fuzz).
 include(CMakePackageConfigHelpers)
 
-install(TARGETS clues_scene clues_exact clues_reference clues_validate clues_fuzz
+install(TARGETS clues_scene clues_exact clues_fastpath clues_reference clues_validate clues_fuzz
   EXPORT cluesTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS clues RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
-foreach(folder scene exact reference validate fuzz)
+foreach(folder scene exact fastpath reference validate fuzz)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/clues
     FILES_MATCHING PATTERN "*.h")
 endforeach()

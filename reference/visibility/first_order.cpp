@@ -3,6 +3,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cassert>
 #include <string>
 
 #include "exact/scene_query.h"
@@ -44,6 +45,7 @@ VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exac
     for (const ValidPiece& p : fixpoint.wedges.pieces()) map.wedges.push_back(p.wedge);
     make_regions(scene, fixpoint, options, map);
   });
+  assert(options.planted_bug != PlantedBug::none || map.statistics.walk_disagreements == 0);  // D14
 
   // D15: the PVS. D3: a triangle that meets the cell is visible.
   std::vector<bool> visible(mesh.triangles.size(), false);

@@ -30,8 +30,9 @@ struct Options {
   Mode mode = Mode::sheet;
   int generation_limit =
       16;           // D17: wedges of a later generation are not built; what they could show is labelled visible
-  int threads = 0;  // accepted, but one thread is used at present (see first_order.cpp)
-  bool check_two_walks = false;  // D14: walk twice, from two independent v, and count disagreements
+  int threads = 0;  // 0: as many as the machine has; the result does not depend on it
+  bool check_two_walks =
+      true;  // D14: walk twice, from two independent v, and count disagreements (a debug build stops at one)
   Progress progress;
   PlantedBug planted_bug = PlantedBug::none;
 };
@@ -61,7 +62,7 @@ struct Statistics {
   std::uint64_t parallel_edges = 0;  // contour edges whose supporting plane touches V along an edge or facet
   std::uint64_t refined_triangles = 0;
   std::uint64_t regions_visible = 0, regions_hidden = 0;
-  std::uint64_t walks = 0, walk_segments = 0;
+  std::uint64_t walks = 0;
   std::uint64_t walk_disagreements = 0;  // D14; must stay 0
   std::uint64_t rounds = 0;
   std::uint64_t conservative_fallbacks = 0;  // D17

@@ -471,6 +471,7 @@ class Search {
     for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
     statistics_.conservative_fallbacks += beyond_limit_.size();
     for (const Source& s : sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
+    for (const VertexSource& s : vertex_sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
   }
 
   struct CsvLess {

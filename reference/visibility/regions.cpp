@@ -129,11 +129,6 @@ class SideMapper {
         traces_[{w.blocker, front}].push_back({w.far0, w.far1});
       }
       add_radials(piece);
-      for (const std::uint32_t t : piece.on_wedge->coplanar_pieces) {
-        const bool front =
-            CGAL::is_positive(scene.complex().planes[t].orthogonal_vector() * w.plane.orthogonal_vector());
-        upon_[{t, front}].push_back(&piece);
-      }
     }
   }
 
@@ -145,6 +140,11 @@ class SideMapper {
 
   Output map_side(std::uint32_t t, bool front) const {
     Output out;
+    const auto faces = [&](const Point3& s) {
+      return scene_.complex().planes[t].oriented_side(s) == (front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE);
+    };
+    const std::vector<Point3>& cell = scene_.cell().vertices();
+    const bool seen_by_cell = std::any_of(cell.begin(), cell.end(), faces);
     const exact::Complex& complex = scene_.complex();
     const auto& corners = complex.pieces[t].corners;
     const exact::Plane3& plane = complex.planes[t];
@@ -264,10 +264,8 @@ class SideMapper {
     if (traces != traces_.end()) {
       for (const Segment3& s : traces->second) add(frame(s.first), frame(s.second));
     }
-    const auto upon = upon_.find(key);
-    if (upon == upon_.end()) return flat;
-    for (const ValidPiece* piece : upon->second) {  // the outline of a piece that lies on this side
-      const Wedge& w = piece->wedge;
+    for (const std::uint32_t i : fixpoint_.wedges.upon(key.first, key.second)) {  // the outline of a piece on this side
+      const Wedge& w = fixpoint_.wedges.pieces()[i].wedge;
       add(frame(w.near0), frame(w.near1));
       const auto side = [&](const Point3& near, const Point3& on_ray, const Point3& far) {
         if (!w.unbounded) {
@@ -297,7 +295,8 @@ class SideMapper {
         out.fallbacks += label.fallback;
         if (options_.check_two_walks) {
           ++out.walks;
-          out.disagreements += walker_.label(start, fixpoint_.wedges, kSecondSeed + which).visible != r.visible;
+          const Walker::Label second = walker_.label(start, fixpoint_.wedges, kSecondSeed + which);
+          out.disagreements += !label.fallback && !second.fallback && second.visible != label.visible;
         }
       } catch (const scene::Error&) {
         if (which < 8) continue;  // the sample itself lies in special position: take another
@@ -326,7 +325,6 @@ class SideMapper {
   const Options& options_;
   Walker walker_;
   std::map<SideKey, std::vector<Segment3>> traces_;
-  std::map<SideKey, std::vector<const ValidPiece*>> upon_;
 };
 
 }  // namespace

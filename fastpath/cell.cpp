@@ -1,0 +1,94 @@
+// D2, D3: the hull comes from exact/; what is kept are doubles, and rationals for the last resort.
+#include "fastpath/cell.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact/convex_cell.h"
+#include "fastpath/exact_cell.h"
+#include "scene/error.h"
+
+namespace clues::fastpath {
+namespace {
+
+// The parameters at which the segment is on the inner side (negative: the facets' normals point outward) of one facet's plane.
+void clip_at_facet(const Segment& s, const Corners& facet, Cell::Span& span) {
+  const FilteredSign at_a = orient3d_filtered(facet[0], facet[1], facet[2], s.a);
+  const FilteredSign at_b = orient3d_filtered(facet[0], facet[1], facet[2], s.b);
+  const auto inside = [](const FilteredSign& x) { return x.certain && x.sign == Sign::negative; };
+  const auto not_inside = [](const FilteredSign& x) { return x.certain && x.sign != Sign::negative; };
+  if (inside(at_a) && inside(at_b)) return;
+  if (not_inside(at_a) && not_inside(at_b)) {
+    span.outer = {1, 0};
+    span.inner = {1, 0};
+    return;
+  }
+  const Range crossing =
+      crossing_parameter(s, facet);  // [0,1] when unsure: it clips nothing from outer, all from inner
+  if (inside(at_a)) {
+    span.outer.high = std::min(span.outer.high, crossing.high);
+    span.inner.high = std::min(span.inner.high, crossing.low);
+  } else if (inside(at_b)) {
+    span.outer.low = std::max(span.outer.low, crossing.low);
+    span.inner.low = std::max(span.inner.low, crossing.high);
+  } else {
+    span.inner = {1, 0};
+  }
+}
+
+}  // namespace
+
+Cell::Cell(const std::vector<Point>& points) {
+  require_float_rules();
+  for (const Point& p : points) {
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) {
+      throw scene::Error(scene::ErrorCode::non_finite, "a point of the view cell is not finite");
+    }
+  }
+  const exact::ConvexCell hull = exact::ConvexCell::from_doubles(points);
+  dimension_ = hull.dimension();
+  for (const exact::Point3& p : hull.vertices()) {
+    vertices_.push_back(exact::to_double_estimate(p));
+    if (exact::to_exact(vertices_.back()) != p) {
+      throw scene::Error(scene::ErrorCode::internal, "a vertex of the view cell changed on its way through the hull");
+    }
+  }
+  low_ = high_ = vertices_.front();
+  for (const Point& p : vertices_) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low_[i] = std::min(low_[i], p[i]);
+      high_[i] = std::max(high_[i], p[i]);
+    }
+  }
+  std::vector<std::vector<Point>> polygons;
+  for (const exact::CellFacet& facet : hull.facets()) {
+    polygons.emplace_back();
+    for (const int corner : facet.corners) polygons.back().push_back(vertices_[static_cast<std::size_t>(corner)]);
+    if (dimension_ == 3) facets_.push_back({polygons.back()[0], polygons.back()[1], polygons.back()[2]});
+  }
+  exact_ = make_exact_cell(dimension_, vertices_, polygons);
+}
+
+Cell::Span Cell::span_of(const Segment& s) const {
+  Span span;
+  if (dimension_ == 3) {
+    span.inner = {0, 1};
+    for (const Corners& facet : facets_) clip_at_facet(s, facet, span);
+    return span;
+  }
+  // A flat cell has no inside that doubles could be sure of; beside its box there is none of it. A quotient of differences has
+  // three roundings; where one leaves the normal range nothing is clipped.
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::max(s.a[i], s.b[i]) < low_[i] || std::min(s.a[i], s.b[i]) > high_[i]) return {{1, 0}, {1, 0}};
+    const double along = s.b[i] - s.a[i];
+    if (!(std::fabs(along) >= kLeastDifference && std::fabs(along) <= kLargestDifference)) continue;
+    const double at_low = (low_[i] - s.a[i]) / along, at_high = (high_[i] - s.a[i]) / along;
+    const double enter = std::min(at_low, at_high), leave = std::max(at_low, at_high);
+    // In [0,1] a relative 2^-50 is at most an absolute 2^-50.
+    span.outer.low = std::max(span.outer.low, enter - 0x1p-50);
+    span.outer.high = std::min(span.outer.high, leave + 0x1p-50);
+  }
+  return span;
+}
+
+}  // namespace clues::fastpath

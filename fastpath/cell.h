@@ -1,0 +1,36 @@
+// D2, D3: the view cell as the segment queries need it. What a triangle has in int V does not occlude.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fastpath/filter.h"
+
+namespace clues::fastpath {
+
+struct ExactCell;  // rational half spaces; exact_segment.cpp
+
+class Cell {
+ public:
+  // The convex hull of finite points; at least one. Throws scene::Error.
+  explicit Cell(const std::vector<Point>& points);
+
+  const std::vector<Point>& vertices() const { return vertices_; }  // extreme points only
+
+  // Two ranges of parameters on the segment: int V is met within `outer` only, and all of `inner` is in int V. Empty when low > high.
+  struct Span {
+    Range outer{0, 1}, inner{1, 0};
+  };
+  Span span_of(const Segment& s) const;
+
+  const ExactCell& exact() const { return *exact_; }
+
+ private:
+  int dimension_ = 0;
+  std::vector<Point> vertices_;
+  std::vector<Corners> facets_;  // dimension 3: three corners of each facet, counter-clockwise seen from outside
+  Point low_{}, high_{};
+  std::shared_ptr<const ExactCell> exact_;
+};
+
+}  // namespace clues::fastpath
