@@ -8,9 +8,12 @@ install(TARGETS clues RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 
 foreach(folder scene exact fastpath reference validate fuzz)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/clues
-    FILES_MATCHING PATTERN "*.h")
+    FILES_MATCHING PATTERN "*.h" PATTERN "adapters" EXCLUDE PATTERN "clues_iut.h" EXCLUDE)
 endforeach()
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# For whoever is tested: the C header, the adapters to copy, and the suite, which `clues conform` finds beside itself.
+install(FILES validate/clues_iut.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY validate/adapters vectors DESTINATION ${CMAKE_INSTALL_DATADIR}/clues)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/clues)
 install(EXPORT cluesTargets NAMESPACE clues:: DESTINATION ${package_dir})

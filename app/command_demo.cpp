@@ -16,6 +16,7 @@
 #include "app/self_check.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/mesh_io.h"
 #include "scene/result.h"
 #include "validate/judge_report.h"
 
@@ -84,7 +85,7 @@ bool show(const DemoScene& demo, const DemoRequest& request) {
 
   const auto stem = fs::path(request.out) / demo.name;
   const auto file = [&](const char* suffix) { return fs::path(stem.string() + suffix); };
-  scene::write_file_atomically(file(".off"), to_off_text(demo.mesh));
+  scene::write_file_atomically(file(".off"), scene::to_off_text(demo.mesh));
   scene::write_file_atomically(file(".pvs"), scene::to_pvs_text(map.visible));
   scene::write_file_atomically(file(".ply"), to_ply_text(map));
   scene::write_file_atomically(file(".svg"), to_svg_text(map, demo.title));

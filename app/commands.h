@@ -10,6 +10,8 @@ enum ExitCode : int { fine = 0, findings = 1, bad_usage = 2, not_everything_ran 
 
 void add_map_command(CLI::App& program, int& status);
 void add_check_command(CLI::App& program, int& status);
+void add_conform_command(CLI::App& program, int& status);
+void add_iut_command(CLI::App& program, int& status);
 void add_lint_command(CLI::App& program, int& status);
 void add_demo_command(CLI::App& program, int& status);
 

@@ -140,12 +140,4 @@ std::string box_spec(const std::vector<Point>& corners) {
   return fmt::format("box:{},{},{},{},{},{}", lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]);
 }
 
-std::string to_off_text(const TriangleMesh& mesh) {
-  std::string text = fmt::format("OFF\n{} {} 0\n", mesh.points.size(), mesh.triangles.size());
-  // fmt writes the shortest decimal that reads back as the same double.
-  for (const auto& p : mesh.points) text += fmt::format("{} {} {}\n", p[0], p[1], p[2]);
-  for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("3 {} {} {}\n", a, b, c);
-  return text;
-}
-
 }  // namespace clues::app

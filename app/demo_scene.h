@@ -26,7 +26,4 @@ DemoScene city_scene(std::uint32_t triangles, std::uint64_t seed);
 // The corners' bounds as the user would write them: "box:x0,y0,z0,x1,y1,z1".
 std::string box_spec(const std::vector<scene::Point>& corners);
 
-// The scene as an OFF file; doubles survive bit for bit.
-std::string to_off_text(const scene::TriangleMesh& mesh);
-
 }  // namespace clues::app

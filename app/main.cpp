@@ -12,11 +12,12 @@ namespace {
 constexpr const char* footer = R"(EXAMPLES
   clues map town.obj --cell box:0,0,1,2,2,2 -o town.clues.json
   clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt
+  clues conform --impl 'python3 my_adapter.py'
   clues demo --out demo-out
 
 EXIT CODES
   0  fine
-  1  findings: the PVS that was checked is unsound, a vector is wrong
+  1  findings: the PVS that was checked is unsound, the implementation fails, or a vector is wrong
   2  bad usage or bad input; nothing was written
   3  not everything could be decided or run
   4  an oracle contradicted itself: a defect of clues, please report it
@@ -44,6 +45,8 @@ int main(int argc, char** argv) {
   int status = app::fine;
   app::add_map_command(program, status);
   app::add_check_command(program, status);
+  app::add_conform_command(program, status);
+  app::add_iut_command(program, status);
   app::add_lint_command(program, status);
   app::add_demo_command(program, status);
   try {

@@ -1,6 +1,8 @@
 // D1: a scene from a file; the format is chosen by the file's extension.
 #include "scene/mesh_io.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "scene/error.h"
@@ -40,6 +42,14 @@ TriangleMesh read_mesh(const std::filesystem::path& path) {
     throw Error(ErrorCode::malformed, path.string() + ": no triangles; a scene needs at least one face");
   }
   return mesh;
+}
+
+std::string to_off_text(const TriangleMesh& mesh) {
+  std::string text = fmt::format("OFF\n{} {} 0\n", mesh.points.size(), mesh.triangles.size());
+  // fmt writes the shortest decimal that reads back as the same double.
+  for (const auto& p : mesh.points) text += fmt::format("{} {} {}\n", p[0], p[1], p[2]);
+  for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("3 {} {} {}\n", a, b, c);
+  return text;
 }
 
 }  // namespace clues::scene

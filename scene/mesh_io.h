@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "scene/mesh.h"
 
@@ -14,5 +15,8 @@ namespace clues::scene {
 // than three corners), non_finite, index_out_of_range. The message names file and line (or face).
 // A file with zero triangles is malformed ("no triangles"). O(size of the file).
 TriangleMesh read_mesh(const std::filesystem::path& path);
+
+// The mesh as the text of an OFF file; read_mesh gets every double back, bit for bit. A mesh without triangles is a point list (a cell).
+std::string to_off_text(const TriangleMesh& mesh);
 
 }  // namespace clues::scene

@@ -1,0 +1,31 @@
+// The suite is not believed either: before a program is called unsound, the sight line that says so is checked once more.
+#include <string>
+
+#include "exact/convex_cell.h"
+#include "exact/scene_query.h"
+#include "exact/witness.h"
+#include "validate/conform/grade.h"
+
+namespace clues::validate {
+namespace {
+
+exact::Point3 point_of(const RationalPoint& p) {
+  const auto number = [](const std::string& text) { return exact::FT(exact::FT::ET(text)); };
+  return {number(p[0]), number(p[1]), number(p[2])};
+}
+
+}  // namespace
+
+std::string flaw_of_proof(const VectorCase& test, const MustBeVisible& proof) {
+  const auto cell = exact::ConvexCell::from_doubles(test.cell);
+  if (!proof.meets_cell) {
+    const auto verdict =
+        exact::check_witness(test.mesh, cell, proof.triangle, proof.front, point_of(proof.v), point_of(proof.p));
+    return verdict.valid ? "" : verdict.reason;
+  }
+  const auto& [a, b, c] = test.mesh.triangles[proof.triangle];
+  const auto corner = [&](std::uint32_t i) { return exact::to_exact(test.mesh.points[i]); };
+  return exact::meets_cell({corner(a), corner(b), corner(c)}, cell) ? "" : "it does not meet the cell";
+}
+
+}  // namespace clues::validate

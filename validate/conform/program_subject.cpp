@@ -1,0 +1,246 @@
+// One conversation is one process. A line that does not answer the question just put may be left over from the question before it: then the
+// same question, put to a fresh process, gets a proper answer, and the earlier one was answered twice.
+#include "validate/conform/program_subject.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <wordexp.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "scene/error.h"
+#include "validate/conform/child_process.h"
+
+namespace clues::validate {
+namespace {
+
+using Clock = ChildProcess::Clock;
+using Io = ChildProcess::Io;
+
+constexpr std::chrono::milliseconds least_time_to_start{10000};
+
+// FNV-1a: the same number for the same case in every run, and hardly ever the number of its neighbour.
+std::uint32_t sequence_number(const std::string& id) {
+  std::uint32_t hash = 2166136261U;
+  for (const char c : id) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  return hash;
+}
+
+std::size_t longest_reply(std::size_t triangles) { return (std::size_t{1} << 20) + 16 * triangles; }
+
+Answer refusal(AnswerKind kind, std::string message) {
+  Answer answer;
+  answer.kind = kind;
+  answer.message = std::move(message);
+  return answer;
+}
+
+// Whether a process that ended by itself did so for want of memory: killed from outside (as the kernel does), or under a limit of ours that it
+// reached or complained about.
+bool ran_out_of_memory(const ChildProcess::End& end, const std::string& errors, std::uint64_t limit) {
+  if (end.signal == SIGKILL) return true;
+  if (limit == 0) return false;
+  if (end.peak_memory_bytes >= limit / 4 * 3) return true;
+  const char* const complaints[] = {"bad_alloc", "MemoryError", "ut of memory", "annot allocate memory"};
+  return std::any_of(std::begin(complaints), std::end(complaints),
+                     [&](const char* words) { return errors.find(words) != std::string::npos; });
+}
+
+// A process that was told 'start'.
+class Conversation {
+ public:
+  Conversation(const std::vector<std::string>& words, const ProgramLimits& limits)
+      : limits_(limits), child_(words, limits.memory_bytes) {}
+
+  // What it says about itself, or why not.
+  Implementation start(Answer& failure) {
+    const auto deadline = Clock::now() + std::max(limits_.time, least_time_to_start);
+    std::string line;
+    auto io = child_.write_line(start_request(), deadline);
+    if (io == Io::ok || io == Io::closed) io = child_.read_line(line, deadline, longest_reply(0));
+    if (io != Io::ok) {
+      failure = failed(io, deadline);
+      return {};
+    }
+    try {
+      return parse_start_reply(line);
+    } catch (const ProtocolError& error) {
+      failure = refusal(AnswerKind::malformed_output, error.what());
+      child_.finish(Clock::now());
+      failure.stderr_tail = child_.stderr_tail();
+      return {};
+    }
+  }
+
+  Answer ask(const VectorCase& test) {
+    const auto seq = sequence_number(test.id);
+    const auto deadline = Clock::now() + limits_.time;
+    std::string line;
+    auto io = child_.write_line(run_request(seq, test), deadline);
+    // So busy writing that it does not read: what it says is no answer to this.
+    if (io == Io::late && child_.has_unread_output()) io = Io::too_long;
+    if (io == Io::ok || io == Io::closed)
+      io = child_.read_line(line, deadline, longest_reply(test.mesh.triangles.size()));
+    if (io != Io::ok) return failed(io, deadline);
+    auto answer = parse_reply(line, seq, test.mesh.triangles.size());
+    if (answer.kind == AnswerKind::malformed_output) child_.finish(Clock::now());
+    if (answer.kind == AnswerKind::malformed_output || answer.kind == AnswerKind::errored) {
+      answer.stderr_tail = child_.stderr_tail();
+    }
+    return answer;
+  }
+
+  // Says 'stop'. True: a line came that nobody had asked for.
+  bool stop_and_find_surplus() {
+    const auto deadline = Clock::now() + limits_.time;
+    std::string line;
+    if (child_.write_line(stop_request(), deadline) == Io::late) return false;
+    const auto io = child_.read_line(line, deadline, longest_reply(0));
+    child_.finish(io == Io::closed ? deadline : Clock::now());
+    return io == Io::ok || io == Io::too_long || (io == Io::closed && !line.empty());
+  }
+
+  std::string stderr_tail() const { return child_.stderr_tail(); }
+
+ private:
+  Answer failed(Io io, Clock::time_point deadline) {
+    Answer answer;
+    if (io == Io::too_long) {
+      child_.finish(Clock::now());
+      answer = refusal(AnswerKind::malformed_output, "wrote without end");
+    } else if (io == Io::late) {
+      child_.finish(Clock::now());
+      answer = refusal(AnswerKind::timeout, "no answer in time; killed");
+    } else {
+      const auto end = child_.finish(deadline);
+      const auto kind = end.killed_here                                                      ? AnswerKind::timeout
+                        : ran_out_of_memory(end, child_.stderr_tail(), limits_.memory_bytes) ? AnswerKind::resource
+                                                                                             : AnswerKind::crash;
+      answer = refusal(kind, (end.killed_here ? "closed its output, " : "") + describe(end));
+    }
+    answer.stderr_tail = child_.stderr_tail();
+    return answer;
+  }
+
+  ProgramLimits limits_;
+  ChildProcess child_;
+};
+
+bool leaves_process_usable(AnswerKind kind) {
+  return kind == AnswerKind::visible || kind == AnswerKind::skipped || kind == AnswerKind::rejected_input ||
+         kind == AnswerKind::errored;
+}
+
+// A block of cases, and the process that it was put to last.
+class Block {
+ public:
+  Block(const std::vector<std::string>& words, const ProgramLimits& limits) : words_(words), limits_(limits) {}
+
+  void put(Answer answer) { answers_.push_back(std::move(answer)); }
+
+  void ask(const VectorCase& test) {
+    const bool is_fresh = !conversation_;
+    auto answer = ask_once(test);
+    if (answer.kind == AnswerKind::malformed_output && !is_fresh) {
+      auto second = ask_once(test);
+      if (second.kind != AnswerKind::malformed_output) blame_for_surplus(answer.stderr_tail);
+      answer = std::move(second);
+    }
+    last_ = answers_.size();
+    put(std::move(answer));
+  }
+
+  const std::vector<Answer>& answers() const { return answers_; }
+
+  std::vector<Answer> take() {
+    if (conversation_ && conversation_->stop_and_find_surplus()) blame_for_surplus(conversation_->stderr_tail());
+    return std::move(answers_);
+  }
+
+ private:
+  Answer ask_once(const VectorCase& test) {
+    Answer answer;
+    if (!conversation_) {
+      conversation_ = std::make_unique<Conversation>(words_, limits_);
+      conversation_->start(answer);
+      if (answer.kind != AnswerKind::visible) {
+        conversation_.reset();
+        answer.message = "when it was started again: " + answer.message;
+        return answer;
+      }
+    }
+    answer = conversation_->ask(test);
+    if (!leaves_process_usable(answer.kind)) conversation_.reset();
+    return answer;
+  }
+
+  void blame_for_surplus(const std::string& stderr_tail) {
+    auto& answer = answers_[last_];
+    answer = refusal(AnswerKind::malformed_output, "more than one line in reply to one 'run'");
+    answer.stderr_tail = stderr_tail;
+  }
+
+  const std::vector<std::string>& words_;
+  ProgramLimits limits_;
+  std::vector<Answer> answers_;
+  std::size_t last_ = 0;                        // the answer of the process that is there now, or was last
+  std::unique_ptr<Conversation> conversation_;  // that may be asked on
+};
+
+}  // namespace
+
+ProgramSubject::ProgramSubject(std::vector<std::string> words, const ProgramLimits& limits)
+    : words_(std::move(words)), limits_(limits) {
+  Conversation conversation(words_, limits_);
+  Answer failure;
+  about_ = conversation.start(failure);
+  if (failure.kind != AnswerKind::visible) {
+    const auto said = failure.stderr_tail.empty() ? "" : "; it said: " + failure.stderr_tail;
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       fmt::format("{}: no proper reply to 'start': {}{}; see docs/protocol.md", fmt::join(words_, " "),
+                                   failure.message, said));
+  }
+  conversation.stop_and_find_surplus();
+}
+
+std::vector<Answer> ProgramSubject::answer(std::span<const VectorCase* const> cases, const GoOn& go_on) const {
+  Block block(words_, limits_);
+  for (const auto* test : cases) {
+    const bool solid = test->mode == CaseMode::solid;
+    if (solid ? !about_.solid : !about_.sheet) {
+      block.put(refusal(AnswerKind::unsupported, solid ? "mode solid" : "mode sheet"));
+    } else if (about_.float32 && !is_exact_in_float32(*test)) {
+      block.put(refusal(AnswerKind::skipped, "coordinates that are not single-precision numbers"));
+    } else {
+      block.ask(*test);
+    }
+    if (!go_on(block.answers().size() - 1, block.answers().back())) break;
+  }
+  return block.take();
+}
+
+std::vector<std::string> split_command(const std::string& command) {
+  wordexp_t expanded{};
+  const int status = wordexp(command.c_str(), &expanded, WRDE_NOCMD | WRDE_UNDEF);
+  std::vector<std::string> words;
+  if (status == 0) words.assign(expanded.we_wordv, expanded.we_wordv + expanded.we_wordc);
+  if (status == 0 || status == WRDE_NOSPACE) wordfree(&expanded);
+  if (words.empty()) {
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       "'" + command +
+                           "': not a command; give a program and its arguments, quoted as for the shell. "
+                           "Pipes, redirections and the like go into a script");
+  }
+  return words;
+}
+
+bool is_exact_in_float32(const VectorCase& test) {
+  const auto is_exact = [](const scene::Point& p) {
+    return std::all_of(p.begin(), p.end(), [](double x) { return static_cast<double>(static_cast<float>(x)) == x; });
+  };
+  return std::all_of(test.mesh.points.begin(), test.mesh.points.end(), is_exact) &&
+         std::all_of(test.cell.begin(), test.cell.end(), is_exact);
+}
+
+}  // namespace clues::validate
