@@ -299,6 +299,7 @@ class SideMapper {
       ++out.walks;
       try {
         const Walker::Label label = walker_.label(start, fixpoint_.wedges, kRegionSeed + which);
+        if (label.fallback && which < 4) continue;  // another point of the region may be easier to decide
         r.visible = label.visible;
         out.fallbacks += label.fallback;
         if (options_.check_two_walks) {

@@ -214,8 +214,7 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     int attempt = 0;
     do {
       if (attempt == kAttempts) {
-        // A flat cell in the supporting plane itself: every sight line runs in that plane, along the edges that lie in it.
-        if (!contour) throw scene::Error(scene::ErrorCode::internal, "walk: no sight line in general position");
+        // A flat cell, or a point, in a plane with what is before it: every sight line runs in that plane, along the edges that lie in it.
         walk.unresolved = true;
         return walk;
       }

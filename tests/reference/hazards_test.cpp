@@ -255,5 +255,19 @@ TEST(Hazard, AFlatCellInTheWallsPlaneIsAnswered) {
   EXPECT_GT(map.statistics.conservative_fallbacks, 0U);
 }
 
+// A cell without extent upon a triangle: all its sight lines along that triangle run in its plane. Found while the suite was written.
+TEST(Hazard, APointOrASquareUponATriangleIsAnswered) {
+  SceneBuilder s;
+  s.plate(-4, -4, 4, 4, 0);
+  s.plate(-1, -1, 1, 1, 2);
+  s.triangle({2, 2, 1}, {3, 2, 1}, {2, 3, 1});
+  for (const std::vector<scene::Point>& corners :
+       {std::vector<scene::Point>{{0, 0, 0}},
+        std::vector<scene::Point>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}}) {
+    const auto map = map_of(s.mesh(), exact::ConvexCell::from_doubles(corners));
+    EXPECT_EQ(map.visible.size(), s.mesh().triangles.size());
+  }
+}
+
 }  // namespace
 }  // namespace clues::test

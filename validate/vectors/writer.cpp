@@ -35,13 +35,16 @@ void print(const ordered_json& value, std::size_t indent, std::size_t column, st
   out += value.is_object() ? "{" : "[";
   bool first = true;
   for (const auto& [key, item] : value.items()) {
-    out += (first ? "\n" : ",\n") + margin;
+    out += first ? "\n" : ",\n";
+    out += margin;
     first = false;
     const std::string label = value.is_object() ? ordered_json(key).dump() + ": " : "";
     out += label;
     print(item, indent + 2, margin.size() + label.size(), out);
   }
-  out += "\n" + std::string(indent, ' ') + (value.is_object() ? "}" : "]");
+  out += '\n';
+  out.append(indent, ' ');
+  out += value.is_object() ? '}' : ']';
 }
 
 std::string text_of(const ordered_json& value) {
