@@ -39,7 +39,7 @@ class PointPool {
   std::vector<Point3> points_;
 };
 
-// An input triangle with area; identical ones share it.
+// An input triangle with area; identical ones share it. Without origins: a part of the cell's border, which cuts and is dropped.
 struct Sheet {
   Corners corners;
   std::vector<Origin> origins;
@@ -72,6 +72,7 @@ bool strictly_beside(const PointPool& pool, const Corners& a, const Corners& b) 
 void find_edges(Complex& complex) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> by_ends;
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
+    if (complex.in_cell[t]) continue;
     const Corners& c = complex.pieces[t].corners;
     for (std::size_t i = 0; i < 3; ++i) by_ends[std::minmax(c[i], c[(i + 1) % 3])].push_back(t);
   }
@@ -92,13 +93,32 @@ void find_edges(Complex& complex) {
     }
   }
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
+    if (complex.in_cell[t]) continue;
     for (const std::uint32_t c : complex.pieces[t].corners) complex.point_pieces[c].push_back(t);
+  }
+}
+
+// Drops points that no piece uses; the others keep their order.
+void compact(Complex& complex) {
+  std::vector<bool> used(complex.points.size(), false);
+  for (const Piece& p : complex.pieces) {
+    for (const std::uint32_t c : p.corners) used[c] = true;
+  }
+  std::vector<std::uint32_t> now(complex.points.size(), 0);
+  std::vector<Point3> kept;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    now[i] = static_cast<std::uint32_t>(kept.size());
+    if (used[i]) kept.push_back(complex.points[i]);
+  }
+  complex.points = std::move(kept);
+  for (Piece& p : complex.pieces) {
+    for (std::uint32_t& c : p.corners) c = now[c];
   }
 }
 
 }  // namespace
 
-Complex build_complex(const scene::TriangleMesh& mesh) {
+Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell) {
   Complex complex;
   complex.input_triangles = mesh.triangles.size();
 
@@ -127,6 +147,18 @@ Complex build_complex(const scene::TriangleMesh& mesh) {
     if (fresh) sheets.push_back({corners, {}});
     Sheet& sheet = sheets[it->second];
     sheet.origins.push_back({t, is_even_permutation(sheet.corners, corners)});
+  }
+
+  if (cell && cell->dimension() == 3) {
+    const auto corner = [&](int i) { return pool.id_of(cell->vertices()[static_cast<std::size_t>(i)]); };
+    for (const CellFacet& f : cell->facets()) {
+      for (std::size_t i = 2; i < f.corners.size(); ++i) {
+        const Corners corners{corner(f.corners[0]), corner(f.corners[i - 1]), corner(f.corners[i])};
+        Corners key = corners;
+        std::sort(key.begin(), key.end());
+        if (sheet_of.try_emplace(key, sheets.size()).second) sheets.push_back({corners, {}});
+      }
+    }
   }
 
   // Contacts that need a cut.
@@ -171,10 +203,12 @@ Complex build_complex(const scene::TriangleMesh& mesh) {
   // Cut each cluster; clusters in order of their first sheet, so that the result does not depend on union order.
   std::map<std::size_t, std::vector<std::size_t>> members;
   for (std::size_t i = 0; i < sheets.size(); ++i) members[root(i)].push_back(i);
-  std::vector<std::pair<std::vector<std::size_t>, bool>> work;
-  for (auto& [r, m] : members) work.emplace_back(m, false);
+  std::vector<std::vector<std::size_t>> work;
+  for (auto& [r, m] : members) {
+    if (std::any_of(m.begin(), m.end(), [&](std::size_t s) { return !sheets[s].origins.empty(); })) work.push_back(m);
+  }
   std::sort(work.begin(), work.end());
-  for (const auto& [sheet_ids, unused] : work) {
+  for (const auto& sheet_ids : work) {
     const Sheet& first = sheets[sheet_ids.front()];
     if (sheet_ids.size() == 1 && contacts[sheet_ids.front()].empty()) {
       complex.pieces.push_back({first.corners, first.origins});
@@ -195,6 +229,7 @@ Complex build_complex(const scene::TriangleMesh& mesh) {
         for (const Origin& o : sheets[sheet_ids[member]].origins)
           piece.origins.push_back({o.triangle, o.same_side == same_side});
       }
+      if (piece.origins.empty()) continue;
       std::sort(piece.origins.begin(), piece.origins.end(),
                 [](const Origin& x, const Origin& y) { return x.triangle < y.triangle; });
       complex.pieces.push_back(std::move(piece));
@@ -202,9 +237,12 @@ Complex build_complex(const scene::TriangleMesh& mesh) {
   }
 
   complex.points = pool.take();
+  compact(complex);
   for (const Piece& p : complex.pieces) {
-    complex.planes.emplace_back(complex.points[p.corners[0]], complex.points[p.corners[1]],
-                                complex.points[p.corners[2]]);
+    const Point3 &a = complex.points[p.corners[0]], &b = complex.points[p.corners[1]],
+                 &c = complex.points[p.corners[2]];
+    complex.planes.emplace_back(a, b, c);
+    complex.in_cell.push_back(cell && cell->dimension() == 3 && cell->interior_contains(CGAL::centroid(a, b, c)));
   }
   find_edges(complex);
   return complex;

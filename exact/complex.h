@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "exact/convex_cell.h"
 #include "exact/kernel.h"
 #include "scene/mesh.h"
 
@@ -31,6 +32,7 @@ struct Complex {
   std::vector<Point3> points;
   std::vector<Piece> pieces;
   std::vector<Plane3> planes;                             // per piece; positive side = front
+  std::vector<bool> in_cell;                              // per piece: in int V, so no occluder (D3)
   std::vector<Edge> edges;                                // ascending by (a, b)
   std::vector<std::array<std::uint32_t, 3>> piece_edges;  // per piece: edges (c0c1, c1c2, c2c0)
   std::vector<std::vector<std::uint32_t>> point_pieces;   // per point: incident pieces
@@ -40,11 +42,13 @@ struct Complex {
   std::uint64_t refined_triangles = 0;  // input triangles that had to be cut
 };
 
+// With a cell of dimension 3 the triangles are also cut along its border, so that what ends there (D3) ends in edges and points of the complex;
+// pieces in int V are in nothing but `pieces`, `planes` and `in_cell`: edges and points know occluders only.
 // O(n log n + k) box tests for k box contacts, then the exact cuts: quadratic where every triangle meets every other.
-Complex build_complex(const scene::TriangleMesh& mesh);
+Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell = nullptr);
 
 // D4: closed and consistently oriented: every edge has exactly two sides leaving it for each entering it. Returns the ids of
-// input triangles at offending edges (empty: solid mode is allowed).
+// input triangles at offending edges (empty: solid mode is allowed). For a complex that is not cut by a cell.
 std::vector<std::uint32_t> triangles_not_solid(const Complex& complex);
 
 }  // namespace clues::exact

@@ -48,7 +48,7 @@ SceneQuery::SceneQuery(const Complex& complex, const ConvexCell& cell) : complex
 
 SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_planes) const {
   SegmentAnswer answer;
-  for (const std::uint32_t t : tree_.candidates(SegmentBoxTest(v, p))) {
+  for (const std::uint32_t t : candidates(SegmentBoxTest(v, p))) {
     const auto& c = complex_->pieces[t].corners;
     const Point3 &a = complex_->points[c[0]], &b = complex_->points[c[1]], &d = complex_->points[c[2]];
     const CGAL::Orientation at_p = CGAL::orientation(a, b, d, p);
@@ -81,20 +81,9 @@ SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_p
   return answer;
 }
 
-std::vector<std::pair<Point3, Point3>> SceneQuery::outline_in_cell(std::uint32_t piece) const {
-  std::vector<std::pair<Point3, Point3>> outline;
-  if (!meets_cell_[piece] || cell_->dimension() < 3) return outline;
-  std::vector<Point3> part;
-  for (const std::uint32_t c : complex_->pieces[piece].corners) part.push_back(complex_->points[c]);
-  for (const CellFacet& f : cell_->facets()) part = clipped(part, f.plane.opposite());
-  for (std::size_t i = 0; part.size() >= 3 && i < part.size(); ++i)
-    outline.emplace_back(part[i], part[(i + 1) % part.size()]);
-  return outline;
-}
-
 bool SceneQuery::is_free(const Point3& v, const Point3& p) const {
   const Kernel::Segment_3 segment(v, p);
-  for (const std::uint32_t t : tree_.candidates(SegmentBoxTest(v, p))) {
+  for (const std::uint32_t t : candidates(SegmentBoxTest(v, p))) {
     const auto& c = complex_->pieces[t].corners;
     const Kernel::Triangle_3 triangle(complex_->points[c[0]], complex_->points[c[1]], complex_->points[c[2]]);
     if (!CGAL::do_intersect(segment, triangle)) continue;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "exact/box_tree.h"
@@ -41,16 +40,16 @@ class SceneQuery {
   // Whether the open segment (v,p) meets no closed piece outside int V (D5): exact for every position, never degenerate.
   bool is_free(const Point3& v, const Point3& p) const;
 
-  // Pieces whose boxes the test cannot exclude.
+  // Occluders whose boxes the test cannot exclude.
   template <class Test>
   std::vector<std::uint32_t> candidates(const Test& may_meet) const {
-    return tree_.candidates(may_meet);
+    std::vector<std::uint32_t> found = tree_.candidates(may_meet);
+    std::erase_if(found, [this](std::uint32_t t) { return complex_->in_cell[t]; });
+    return found;
   }
 
   // Whether piece t meets the closed cell (D3).
   bool meets_cell(std::uint32_t piece) const { return meets_cell_[piece]; }
-  // The outline of the part of piece t in a cell of dimension 3; empty if that part has no area.
-  std::vector<std::pair<Point3, Point3>> outline_in_cell(std::uint32_t piece) const;
   const CGAL::Bbox_3& bounds() const { return bounds_; }  // of scene and cell
   const Complex& complex() const { return *complex_; }
   const ConvexCell& cell() const { return *cell_; }

@@ -213,6 +213,16 @@ WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& 
   Cell own;
   if (std::string fault = read_cell(cell, own); !fault.empty()) return refuse(std::move(fault));
   if (!strictly_inside(own, v)) return refuse("v is not in the relative interior of the cell");
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const std::array<Vec, 3> t = corners(i);
+    const Vec n = normal_of(t);
+    bool touches = !is_zero(cross(n, normal)) && sgn(dot(n, p - t[0])) == 0;
+    for (std::size_t k = 0; k < 3; ++k) touches = touches && sgn(dot(cross(n, t[(k + 1) % 3] - t[k]), p - t[k])) >= 0;
+    if (touches) {
+      return refuse("triangle " + std::to_string(i) + " touches triangle " + std::to_string(triangle) +
+                    " at p, so that p may be seen with nothing beside it; choose another point");
+    }
+  }
   const std::optional<Outside> outside = outside_of(own, v, p);
   if (!outside) return {true, ""};  // all of (v,p) is in int V
 

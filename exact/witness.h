@@ -18,7 +18,8 @@ struct WitnessVerdict {
 };
 
 // p must lie in the relative interior of triangle t of the mesh, v in int V, and the open segment (v,p) must miss every
-// non-degenerate triangle's points outside int V (D3, D5: touching blocks). `front`: p is asked for on the front side (right-hand rule), else
+// non-degenerate triangle's points outside int V (D3, D5: touching blocks). No triangle of another plane may touch t at p: then free sight lines
+// near (v,p) reach points all around p, and t is visible with an area, not in a line or point between others that stand on it. `front`: p is asked for on the front side (right-hand rule), else
 // on the back; v must lie strictly on that side. A triangle that meets V needs no witness (D3). O(n).
 WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& cell, std::uint32_t triangle,
                              bool front, const Point3& v, const Point3& p);

@@ -279,10 +279,6 @@ void SightScene::find_places(SightQuestion& question) const {
     const auto& c = complex_.pieces[p].corners;
     return height(c[0]) == 0 && height(c[1]) == 0 && height(c[2]) == 0;
   };
-  const auto stands = [&](std::uint32_t p) {
-    const auto& c = complex_.pieces[p].corners;
-    return height(c[0]) > 0 || height(c[1]) > 0 || height(c[2]) > 0;
-  };
   std::vector<bool> own(complex_.pieces.size());
   std::vector<std::uint32_t> root(complex_.pieces.size());
   std::iota(root.begin(), root.end(), 0U);
@@ -299,30 +295,13 @@ void SightScene::find_places(SightQuestion& question) const {
     std::vector<std::uint32_t> mine;
     std::copy_if(e.pieces.begin(), e.pieces.end(), std::back_inserter(mine), [&](std::uint32_t p) { return own[p]; });
     if (mine.size() < 2) continue;
-    if (std::all_of(e.pieces.begin(), e.pieces.end(), flat)) {
-      root[find(mine[0])] = find(mine[1]);
-      continue;
-    }
-    SightEdge edge = edge_on_input(e);
-    std::size_t standing = 0;
-    for (const auto& sheet : sheets_at(e, edge.direction)) standing += sgn(dot(sheet.into, target.up)) > 0 ? 1 : 0;
-    if (standing >= 2) question.grooves.push_back(std::move(edge));
+    if (std::all_of(e.pieces.begin(), e.pieces.end(), flat)) root[find(mine[0])] = find(mine[1]);
   }
   for (std::uint32_t p = 0; p < complex_.pieces.size(); ++p) {
     if (!own[p] || find(p) != p) continue;
     const auto& c = complex_.pieces[p].corners;
     question.samples.push_back(
         exact::collapsed(CGAL::centroid(complex_.points[c[0]], complex_.points[c[1]], complex_.points[c[2]])));
-  }
-  for (std::uint32_t i = 0; i < points_.size(); ++i) {
-    const auto& pieces = complex_.point_pieces[i];
-    if (height(i) != 0 || std::count_if(pieces.begin(), pieces.end(), stands) < 3) continue;
-    bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const RVector &a = target.triangle[k], &b = target.triangle[(k + 1) % 3];
-      inside = inside && side_of(cross(target.up, minus(b, a)), a, points_[i]) > 0;
-    }
-    if (inside) question.contacts.push_back(complex_.points[i]);
   }
 }
 

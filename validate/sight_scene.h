@@ -21,9 +21,7 @@ struct SightQuestion {
   exact::Plane3 plane;           // positive side: the side asked for
   std::vector<SightEdge> edges;  // that can bound the free sight lines, cut to the part that matters
   std::vector<exact::TriangleCorners> soup;
-  std::vector<exact::Point3> samples;   // a point in each part of the target that no occluder touches
-  std::vector<exact::Point3> contacts;  // points of the target at which three pieces or more stand on this side
-  std::vector<SightEdge> grooves;       // lines of the target on which two pieces or more stand on this side
+  std::vector<exact::Point3> samples;  // a point in each part of the target that no occluder touches
 };
 
 class SightScene {

@@ -56,7 +56,6 @@ SightWindow::SightWindow(const CellShape& cell, const SightTarget& target, const
       bug_(bug),
       planes_(edge.origin, edge.direction),
       target_value_(planes_.add_value(target.up, target.triangle[0])),
-      target_plane_(planes_.add_constant(target.up)),
       target_lines_(add_lines(target.triangle)) {
   planes_.forget_triples = bug == PlantedSightBug::forget_triples;
   if (passage != Passage::on_cell) {
@@ -66,7 +65,7 @@ SightWindow::SightWindow(const CellShape& cell, const SightTarget& target, const
     }
   }
   for (const auto& sheet : edge.sheets) sheet_planes_.push_back(planes_.add_constant(sheet.normal));
-  if (passage != Passage::on_target) add_shadows(target.before, Shadow::Way::target);
+  add_shadows(target.before, Shadow::Way::target);
   if (passage == Passage::on_cell) return;
   add_shadows(target.outside, Shadow::Way::cell);
   add_shadows(target.above, Shadow::Way::cell_above);
@@ -213,19 +212,10 @@ bool SightWindow::is_before(Shadow& shadow, const IVector& d) {
   return shadow.before > 0;
 }
 
-// The directions from the target (or, with y on the target, to the facets of the cell that y sees). None: nothing to see from y.
+// The directions from the target. None: nothing to see from y.
 std::vector<SightWindow::Cone> SightWindow::start() {
-  std::vector<Cone> cones;
-  if (passage_ != Passage::on_target) {
-    if (planes_.value_sign(target_value_, true) > 0) cones.push_back(cone_of(target_lines_, true));
-    return cones;
-  }
-  for (const CellFacet& facet : facets_) {
-    const bool seen = cell_.dimension == 3 ? facet.side > 0 : facet.side != 0;
-    if (!seen) continue;
-    if (auto cone = clip(cone_of(facet.lines, facet.side < 0), {target_plane_, 1}, true)) cones.push_back(*cone);
-  }
-  return cones;
+  if (planes_.value_sign(target_value_, true) <= 0) return {};
+  return {cone_of(target_lines_, true)};
 }
 
 bool SightWindow::clip_to_cell(std::vector<Cone>& cones) {

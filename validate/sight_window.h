@@ -55,9 +55,8 @@ struct SightEdge {
 };
 
 enum class Passage {
-  edge,       // y on an edge of an occluder, the line passes it from the target to the cell
-  on_target,  // y on the target: only the way to the cell
-  on_cell,    // y in int V: only the way from the target
+  edge,     // y on an edge of an occluder, the line passes it from the target to the cell
+  on_cell,  // y in int V: only the way from the target
 };
 
 struct Opening {
@@ -118,7 +117,7 @@ class SightWindow {
   Passage passage_;
   PlantedSightBug bug_;
   MovingPlanes planes_;
-  int target_value_, target_plane_;
+  int target_value_;
   std::vector<int> target_lines_;
   struct CellFacet {
     int value, plane;

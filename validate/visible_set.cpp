@@ -60,12 +60,12 @@ class Search {
       if (!front && options_.mode == reference::Mode::solid) continue;
       if (auto question = scene_.question(t, front)) questions.push_back(std::move(*question));
     }
-    // Points that are touched have no area and so no place on the map: they are looked at in any case.
+    // Viewpoints between occluders that stand on a flat cell.
     for (const auto& question : questions) {
-      if (!answer.witness) answer.witness = ask(question, question.contacts);
-      if (!answer.witness) answer.witness = ask_viewpoints(question);
+      if (answer.witness || !may_be_seen) break;
+      answer.witness = ask_viewpoints(question);
       statistics_.found_by_point += answer.witness ? 1 : 0;
-      if (!answer.witness) answer.witness = sweep_grooves(question);
+      if (!answer.witness) answer.witness = sweep_cell_grooves(question);
     }
     for (const bool by_point : {options_.points_first, !options_.points_first}) {
       if (!may_be_seen) break;
@@ -134,25 +134,11 @@ class Search {
     return std::nullopt;
   }
 
-  std::optional<Witness> sweep_grooves(const SightQuestion& question) {
-    const int dimension = cell_.dimension();
-    for (const SightEdge& edge : question.grooves) {
-      if (dimension >= 2) {
-        if (auto found = sweep(question, edge, Passage::on_target)) return found;
-      }
-      undecided_ =
-          undecided_ || dimension == 1 || (dimension == 2 && (!scene_.cell_grooves().empty() || in_cell_plane(edge)));
-    }
+  std::optional<Witness> sweep_cell_grooves(const SightQuestion& question) {
     for (const SightEdge& edge : scene_.cell_grooves()) {
       if (auto found = sweep(question, edge, Passage::on_cell)) return found;
     }
     return std::nullopt;
-  }
-
-  bool in_cell_plane(const SightEdge& edge) const {
-    const auto& facet = scene_.shape().facets[0];
-    return sgn(dot(facet.normal, edge.direction)) == 0 &&
-           sgn(dot(facet.normal, minus(edge.origin, facet.corners[0]))) == 0;
   }
 
   // Windows along one line until every open range between critical places is decided.
@@ -219,7 +205,7 @@ class Search {
       return Rational(dot(normal, minus(at, y)) / dot(normal, d));
     };
     const auto point = [&](const Rational& s) { return sum(y, times(d, s)); };
-    const RVector p = passage == Passage::on_target ? y : point(reach(question.target.up, question.target.triangle[0]));
+    const RVector p = point(reach(question.target.up, question.target.triangle[0]));
     if (passage == Passage::on_cell) return std::pair(y, p);
     const auto& facets = scene_.shape().facets;
     if (cell_.dimension() == 2) return std::pair(point(reach(facets[0].normal, facets[0].corners[0])), p);

@@ -19,7 +19,7 @@ enum class Sight {
   visible,
   hidden,
   no_surface,  // a degenerate triangle
-  undecided,   // the window limit was reached, or occluders stand in grooves on both the triangle and a flat cell
+  undecided,   // the window limit was reached
 };
 
 struct TriangleSight {

@@ -58,6 +58,21 @@ bool Apex::spreads(const Probe& p, const ApexSector& s) const {
   return !on_edge_ || star_.spreads_around_edge(p.beside, s.inner, anticone_);
 }
 
+std::vector<Vector3> Apex::into_cell(const exact::ConvexCell& cell, const std::vector<Vector3>& known) const {
+  std::vector<Vector3> found;
+  if (sectors_.empty()) return found;
+  std::vector<std::vector<int>> faces;
+  for (const Vector3& d : known) faces.push_back(star_.face_of(d));
+  for (const Vector3& d : star_.into_cell(x_, cell)) {
+    const std::vector<int> face = star_.face_of(d);
+    if (std::find(faces.begin(), faces.end(), face) != faces.end()) continue;
+    faces.push_back(face);
+    if (std::any_of(sectors_.begin(), sectors_.end(), [&](const ApexSector& s) { return s.face == face; }))
+      found.push_back(d);
+  }
+  return found;
+}
+
 bool Apex::has_sector_facing(const Vector3& d) const {
   if (sectors_.empty()) return false;
   const std::vector<int> face = star_.face_of(d);

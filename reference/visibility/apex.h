@@ -47,6 +47,11 @@ class Apex {
     probes_.push_back(p);
     fresh_ = true;
   }
+  // Directions into int V, one in each local face from which V is seen, in which a sector starts and in which none of `known` is.
+  std::vector<exact::Vector3> into_cell(const exact::ConvexCell& cell, const std::vector<exact::Vector3>& known) const;
+  bool in_one_face(const exact::Vector3& d, const exact::Vector3& e) const {
+    return star_.face_of(d) == star_.face_of(e);
+  }
   // Whether a sector starts in the local face that contains d.
   bool has_sector_facing(const exact::Vector3& d) const;
   // The sectors that exist by the probes so far and were not given before in this round.

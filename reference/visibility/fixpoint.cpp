@@ -195,26 +195,46 @@ class Search {
     touched_.insert(apex);
   }
 
-  // Every mesh vertex, once for each sight line from near a cell vertex that arrives in a local face where a sector starts.
+  // Every mesh vertex, once for each sight line from near a cell vertex that arrives in a local face where a sector starts, and once for every
+  // other such face from which the cell is seen.
   void make_vertex_sources() {
     const std::vector<Point3>& cell = scene_.cell().vertices();
     for (std::uint32_t p = 0; p < complex_.points.size(); ++p) {
       const Apex* apex = corner(p);
+      const Point3& x = complex_.points[p];
+      std::vector<Vector3> directions;
       for (std::size_t i = 0; i < cell.size(); ++i) {
         std::vector<int> weights;
         for (std::size_t j = 0; j < cell.size(); ++j)
           weights.push_back(i == j ? 5003 : 3 + static_cast<int>((7 * j + 11 * i + p) % 13));
-        VertexSource s{p, complex_.points[p], scene_.cell().interior_point(weights), {}, {}, false};
-        const Vector3 d = s.v - s.x;
-        if (!apex->has_sector_facing(d)) continue;
-        s.probe = {{d, CGAL::NULL_VECTOR, CGAL::NULL_VECTOR}, d, CGAL::NULL_VECTOR};
-        vertex_sources_.push_back(std::move(s));
+        const Vector3 d = scene_.cell().interior_point(weights) - x;
+        if (apex->has_sector_facing(d)) directions.push_back(d);
       }
+      for (const Vector3& d : apex->into_cell(scene_.cell(), directions)) directions.push_back(d);
+      for (const Vector3& d : directions) add_vertex_source(p, *apex, d);
     }
     tbb::parallel_for(std::size_t{0}, vertex_sources_.size(), [&](std::size_t i) {
       vertex_sources_[i].walk = walker_.walk(start_of(vertex_sources_[i]), kSourceSeed);
     });
     statistics_.walks += vertex_sources_.size();
+  }
+
+  // x seen along d, or along a direction nearby in the same local face if that sight line is in special position.
+  void add_vertex_source(std::uint32_t point, const Apex& apex, const Vector3& d) {
+    constexpr int kAttempts = 12;
+    const Point3& x = complex_.points[point];
+    const std::size_t n = scene_.cell().vertices().size();
+    VertexSource s{point, x, x + d, {}, {}, false};
+    exact::FT pull(1);
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      if (!scene_.crossings(s.v, x).degenerate && apex.in_one_face(d, s.v - x)) break;
+      std::vector<int> weights;
+      for (std::size_t j = 0; j < n; ++j) weights.push_back(1 + (attempt * 7 + static_cast<int>(j) * 5) % 11);
+      pull = pull / exact::FT(8);
+      s.v = exact::collapsed(x + d + pull * (scene_.cell().interior_point(weights) - (x + d)));
+    }
+    s.probe = {{s.v - x, CGAL::NULL_VECTOR, CGAL::NULL_VECTOR}, s.v - x, CGAL::NULL_VECTOR};
+    vertex_sources_.push_back(std::move(s));
   }
 
   // Hidden sources that the pieces from index `first` on make visible.

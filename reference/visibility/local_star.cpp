@@ -260,6 +260,56 @@ Vector3 LocalStar::nudged(const Vector3& d, const Vector3& by, const Vector3& th
   throw scene::Error(scene::ErrorCode::internal, "local star: a direction cannot leave its arc");
 }
 
+std::vector<Vector3> LocalStar::into_cell(const exact::Point3& x, const exact::ConvexCell& cell) const {
+  std::vector<Vector3> found;
+  const std::vector<exact::Point3>& s = cell.vertices();
+  // From x to c, a point of the cell, and from there a little towards `to` and by much less towards the centre.
+  const auto add = [&](const exact::Point3& c, const Vector3& to) {
+    const Vector3 d = nudged(c - x, to / FT(4), (cell.center() - c) / FT(4));
+    if (cell.interior_contains(x + d)) found.push_back(d);
+  };
+  for (const exact::Point3& c : s) {
+    if (c != x) add(c, cell.center() - c);
+  }
+  for (const Arc& arc : arcs_) {
+    for (const auto& [i, j] : cell.edges()) {
+      const exact::Point3 &a = s[static_cast<std::size_t>(i)], &b = s[static_cast<std::size_t>(j)];
+      const FT at_a = arc.normal * (a - x), at_b = arc.normal * (b - x);
+      if (CGAL::sign(at_a) * CGAL::sign(at_b) > 0 || (CGAL::is_zero(at_a) && CGAL::is_zero(at_b))) continue;
+      const exact::Point3 c = exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a));
+      if (c == x) continue;
+      if (c != a) add(c, a - c);
+      if (c != b) add(c, b - c);
+    }
+    for (const int n : {arc.a, arc.b}) {
+      const Vector3& node = nodes_[static_cast<std::size_t>(n)];
+      // Some point of the ray along the edge inside V, if there is one: between where it enters and where it leaves.
+      FT enter(0);
+      std::optional<FT> leave;
+      bool misses = cell.dimension() < 3;
+      for (const exact::CellFacet& f : cell.facets()) {
+        const FT slope = f.plane.orthogonal_vector() * node, at_x = exact::value_at(f.plane, x);
+        if (CGAL::is_zero(slope)) {
+          misses |= !CGAL::is_negative(at_x);
+        } else if (CGAL::is_negative(slope)) {
+          enter = std::max(enter, FT(-at_x / slope));
+        } else {
+          const FT t = -at_x / slope;
+          if (!leave || t < *leave) leave = t;
+        }
+      }
+      if (misses || !leave || enter >= *leave) continue;
+      const exact::Point3 c = exact::collapsed(x + ((enter + *leave) / FT(2)) * node);
+      for (const Vector3& to : {arc.normal, -arc.normal}) {
+        FT scale(1);  // so small that c stays in V
+        while (!cell.interior_contains(c + scale * to)) scale = scale / FT(2);
+        add(c, scale * to);
+      }
+    }
+  }
+  return found;
+}
+
 std::vector<Vector3> LocalStar::traces(const Vector3& normal) const {
   std::vector<Vector3> found;
   for (const Arc& arc : arcs_) {

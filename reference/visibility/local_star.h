@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "exact/complex.h"
+#include "exact/convex_cell.h"
 #include "exact/kernel.h"
 
 namespace clues::reference {
@@ -43,6 +44,11 @@ class LocalStar {
   // d moved towards `by`, and by much less towards `then`, so little that no piece lies between.
   exact::Vector3 nudged(const exact::Vector3& d, const exact::Vector3& by,
                         const exact::Vector3& then = CGAL::NULL_VECTOR) const;
+
+  // Directions from x (outside the cell, or on its border) into int V such that every face that is met by the cone of V at x contains one. Such a part of
+  // a face has a corner: a vertex of V, a place where the plane of a piece crosses an edge of V, or the direction of an edge at x. One for each such
+  // place and each side of it.
+  std::vector<exact::Vector3> into_cell(const exact::Point3& x, const exact::ConvexCell& cell) const;
 
   // The directions of the plane through x with this normal in which a piece crosses or touches it.
   std::vector<exact::Vector3> traces(const exact::Vector3& normal) const;

@@ -140,11 +140,6 @@ class SideMapper {
 
   Output map_side(std::uint32_t t, bool front) const {
     Output out;
-    const auto faces = [&](const Point3& s) {
-      return scene_.complex().planes[t].oriented_side(s) == (front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE);
-    };
-    const std::vector<Point3>& cell = scene_.cell().vertices();
-    const bool seen_by_cell = std::any_of(cell.begin(), cell.end(), faces);
     const exact::Complex& complex = scene_.complex();
     const auto& corners = complex.pieces[t].corners;
     const exact::Plane3& plane = complex.planes[t];
@@ -157,6 +152,11 @@ class SideMapper {
       return exact::collapsed(p[2] + u * (p[0] - p[2]) + w * (p[1] - p[2]));
     };
 
+    if (complex.in_cell[t]) {  // D3
+      Region r{t, front, true, {{p[0], p[1], p[2]}}, FT(1), CGAL::centroid(p[0], p[1], p[2])};
+      out.regions.push_back(std::move(r));
+      return out;
+    }
     const Segments2 flat = without_overlaps(segments_on({t, front}, frame, triangle));
     if (flat.empty()) {
       Region r{t, front, false, {{p[0], p[1], p[2]}}, FT(1), {}};
@@ -258,8 +258,6 @@ class SideMapper {
         if (!on_border) flat.push_back(s);
       }
     };
-    for (const auto& [a, b] : scene_.outline_in_cell(key.first))
-      add(frame(a), frame(b));  // D3: inside V all is visible
     const auto traces = traces_.find(key);
     if (traces != traces_.end()) {
       for (const Segment3& s : traces->second) add(frame(s.first), frame(s.second));
@@ -285,6 +283,16 @@ class SideMapper {
 
   template <class Lift>
   void finish(Region& r, const std::vector<std::vector<Point2>>& rings, const Lift& lift, Output& out) const {
+    // A side that no point of V is strictly in front of is reached by no sight line and no continuation (D8), though the space beside it may be seen.
+    const auto in_front = [&](const Point3& s) {
+      return scene_.complex().planes[r.piece].oriented_side(s) ==
+             (r.front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE);
+    };
+    const std::vector<Point3>& cell = scene_.cell().vertices();
+    if (std::none_of(cell.begin(), cell.end(), in_front)) {
+      r.sample = lift(inner_point(rings, 0));
+      return;
+    }
     for (std::size_t which = 0;; ++which) {
       r.sample = lift(inner_point(rings, which));
       const Start start{r.sample, SurfaceSide{r.piece, r.front}, nullptr};

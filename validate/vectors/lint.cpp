@@ -157,8 +157,7 @@ class Linter {
       ++report_.proved;
       return;
     }
-    if (!c.expect)
-      complain(file.path.string(), c.id, "expect", "is missing" + (answer.why.empty() ? "" : ": " + answer.why));
+    if (!answer.why.empty()) why_missing_[c.id] = ": " + answer.why;
     for (const auto& f : answer.proofs.findings) {
       complain(file.path.string(), c.id, f.field, f.message,
                f.contradiction ? LintKind::contradiction : LintKind::wrong);
@@ -203,6 +202,7 @@ class Linter {
     std::map<std::string, std::string> where;
     for (const auto& file : files_) {
       for (const auto& c : file.content.cases) {
+        if (!c.expect) complain(file.path.string(), c.id, "expect", "is missing" + why_missing_[c.id]);
         const auto [other, is_new] = where.emplace(c.id, file.path.string());
         if (!is_new) complain(file.path.string(), c.id, "id", "is also in " + other->second);
         const auto entry = index_.cases.find(c.id);
@@ -244,6 +244,7 @@ class Linter {
   fs::path folder_;
   const LintOptions& options_;
   std::vector<File> files_;
+  std::map<std::string, std::string> why_missing_;  // by case id
   VectorIndex index_;
   std::string index_bytes_;
   bool unreadable_ = false;

@@ -13,6 +13,7 @@
 #include "validate/judge.h"
 #include "validate/judge_report.h"
 #include "validate/vectors/short_witness.h"
+#include "validate/visible_set.h"
 
 namespace clues::validate {
 namespace {
@@ -58,10 +59,7 @@ class Facts {
   const std::vector<std::uint32_t>& degenerate() const { return degenerate_; }
   std::uint32_t triangles() const { return static_cast<std::uint32_t>(case_.mesh.triangles.size()); }
   bool in_omega(std::uint32_t t) const { return contains(map_.visible, t); }
-  bool touches_cell(std::uint32_t t) const {
-    const auto [a, b, c] = corners(t);
-    return exact::meets_cell({a, b, c}, cell_);
-  }
+  bool touches_cell(std::uint32_t t) const { return exact::meets_cell(corners(t), cell_); }
 
   exact::WitnessVerdict check(const Witness& w) const {
     if (case_.mode == CaseMode::solid && !w.front) return {false, "a back side does not count in solid mode"};
@@ -106,11 +104,26 @@ class Facts {
     return found;
   }
 
+  // The visible set decided without the map, so that the two check each other. Computed when first asked for.
+  const TriangleSight& exhaustively(std::uint32_t t) const {
+    if (!visible_set_) {
+      VisibleSetOptions only_exhaustive;
+      only_exhaustive.mode = mode(case_);
+      only_exhaustive.trust_map = false;
+      visible_set_ = exact_visible_set(case_.mesh, cell_, only_exhaustive);
+    }
+    return visible_set_->triangles[t];
+  }
+
  private:
+  static reference::Mode mode(const VectorCase& c) {
+    return c.mode == CaseMode::solid ? reference::Mode::solid : reference::Mode::sheet;
+  }
   static reference::Options options(const VectorCase& c) {
     reference::Options options;
-    options.mode = c.mode == CaseMode::solid ? reference::Mode::solid : reference::Mode::sheet;
+    options.mode = mode(c);
     options.check_two_walks = true;
+    options.threads = 1;  // cases run side by side, in processes
     return options;
   }
   exact::TriangleCorners corners(std::uint32_t t) const {
@@ -124,6 +137,7 @@ class Facts {
   std::vector<std::uint32_t> degenerate_;
   reference::VisibilityMap map_;
   std::vector<exact::TriangleCorners> soup_;
+  mutable std::optional<VisibleSet> visible_set_;
 };
 
 std::string ids(const std::vector<std::uint32_t>& list) { return fmt::format("[{}]", fmt::join(list, ", ")); }
@@ -190,11 +204,16 @@ class Prover {
       return complain(field, by_map ? "is outside Omega: the proof is first_order_map"
                                     : "is inside Omega: first_order_map does not prove it hidden");
     }
+    const auto& sight = facts_.exhaustively(t);
+    if (sight.sight == Sight::visible) {
+      return complain(field, "is visible: " + (sight.witness ? words(*sight.witness) : "it meets the cell"), by_map);
+    }
+    if (sight.sight == Sight::hidden) ++proofs_.umbra_exhaustive;
     if (by_map) {
       ++proofs_.umbra_by_map;
-      return;
+    } else if (sight.sight != Sight::hidden) {
+      complain(field, "could not be decided exhaustively");
     }
-    complain(field, "cannot be proved exhaustively in this version");
   }
 
   void prove_first_order() {
@@ -246,8 +265,16 @@ std::optional<Expectation> derive_expectation(const VectorCase& c, std::string& 
       expect.must_be_visible.push_back({t, false, found->front, text_of(found->v), text_of(found->p)});
       continue;
     }
-    why = fmt::format("triangle {} is first-order visible, but no sight line was found", t);
-    return std::nullopt;
+    const auto& sight = facts.exhaustively(t);
+    if (sight.sight == Sight::visible && sight.witness) {
+      const Witness found = shortened(c.mesh, facts.cell(), *sight.witness);
+      expect.must_be_visible.push_back({t, false, found.front, text_of(found.v), text_of(found.p)});
+    } else if (sight.sight == Sight::hidden) {
+      expect.umbra.push_back({t, UmbraProof::exhaustive});
+    } else {
+      why = fmt::format("triangle {} is first-order visible, and could not be decided", t);
+      return std::nullopt;
+    }
   }
   return expect;
 }

@@ -1,5 +1,5 @@
 // Proves what one case of the suite says, with nothing taken on trust: witnesses by exact/witness.h, contacts with the cell exactly,
-// umbra by the first-order map (T1) or exhaustively, and each answer once more by the point-occlusion oracle (D18), which shares
+// umbra by the first-order map (T1) and by the exhaustive visible set, and each answer once more by the point-occlusion oracle (D18), which shares
 // no algorithm with them.
 #pragma once
 
@@ -20,7 +20,8 @@ struct CaseFinding {
 
 struct CaseProofs {
   std::vector<CaseFinding> findings;  // empty: all is proved
-  std::uint64_t cell_contacts = 0, witnesses = 0, umbra_by_map = 0, umbra_exhaustive = 0;
+  std::uint64_t cell_contacts = 0, witnesses = 0;
+  std::uint64_t umbra_by_map = 0, umbra_exhaustive = 0;  // the same triangle may count in both
   std::uint64_t oracle_points = 0;  // points of hidden triangles and ends of witnesses that the oracle was asked for
 };
 
