@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fuzz/generators/degenerate_scenes.h"
 #include "fuzz/generators/random_scenes.h"
 #include "scene/error.h"
 
@@ -36,6 +37,11 @@ std::vector<NamedGenerator> make_all() {
     const std::string name = name_of(kind);
     all.push_back({name, degeneracy_of(kind), [kind, name](std::uint64_t seed, std::uint64_t index) {
                      return to_case(name, seed, index, generate(kind, seed, index));
+                   }});
+  }
+  for (const DegenerateGenerator& g : degenerate_generators()) {
+    all.push_back({g.name, g.what, [g](std::uint64_t seed, std::uint64_t index) {
+                     return to_case(g.name, seed, index, g.make(seed, index));
                    }});
   }
   return all;

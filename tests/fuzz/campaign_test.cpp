@@ -11,6 +11,7 @@
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/finding_folder.h"
+#include "fuzz/generators/random_scenes.h"
 #include "planted_subjects.h"
 #include "scene/error.h"
 
@@ -63,6 +64,7 @@ CampaignOptions options_for(const fs::path& out, std::uint64_t cases) {
   options.seed = 7;
   options.cases = cases;
   options.out = out;
+  for (const Kind kind : all_kinds) options.generators.emplace_back(name_of(kind));
   options.shrink.time = std::chrono::seconds(600);  // the steps end it
   options.shrink.steps = 150;
   return options;
