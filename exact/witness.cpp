@@ -213,6 +213,15 @@ WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& 
   Cell own;
   if (std::string fault = read_cell(cell, own); !fault.empty()) return refuse(std::move(fault));
   if (!strictly_inside(own, v)) return refuse("v is not in the relative interior of the cell");
+  const std::optional<Outside> outside = outside_of(own, v, p);
+  if (outside) {  // else all of (v,p) is in int V
+    const SightLine line{v, p - v, cross(v, p), *outside};
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+      const std::array<Vec, 3> t = corners(i);
+      const Vec n = normal_of(t);
+      if (!is_zero(n) && blocked(line, t, n)) return refuse("triangle " + std::to_string(i) + " blocks the sight line");
+    }
+  }
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const std::array<Vec, 3> t = corners(i);
     const Vec n = normal_of(t);
@@ -222,15 +231,6 @@ WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& 
       return refuse("triangle " + std::to_string(i) + " touches triangle " + std::to_string(triangle) +
                     " at p, so that p may be seen with nothing beside it; choose another point");
     }
-  }
-  const std::optional<Outside> outside = outside_of(own, v, p);
-  if (!outside) return {true, ""};  // all of (v,p) is in int V
-
-  const SightLine line{v, p - v, cross(v, p), *outside};
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    const std::array<Vec, 3> t = corners(i);
-    const Vec n = normal_of(t);
-    if (!is_zero(n) && blocked(line, t, n)) return refuse("triangle " + std::to_string(i) + " blocks the sight line");
   }
   return {true, ""};
 }

@@ -242,7 +242,12 @@ bool LocalStar::spreads_around_edge(const Beside& d, const Vector3& inner, const
 }
 
 Vector3 LocalStar::nudged(const Vector3& d, const Vector3& by, const Vector3& then) const {
-  constexpr int kSteps = 2048;  // reached only if the way runs along an arc through d
+  if (const std::optional<Vector3> moved = nudged_if_possible(d, by, then)) return *moved;
+  throw scene::Error(scene::ErrorCode::internal, "local star: a direction cannot leave its arc");
+}
+
+std::optional<Vector3> LocalStar::nudged_if_possible(const Vector3& d, const Vector3& by, const Vector3& then) const {
+  constexpr int kSteps = 256;  // reached only if the way runs along an arc through d
   FT step(1);
   for (int i = 0; i < kSteps; ++i, step = step / FT(4)) {
     const Vector3 moved = d + step * by + step * step * then;
@@ -257,16 +262,27 @@ Vector3 LocalStar::nudged(const Vector3& d, const Vector3& by, const Vector3& th
     };
     if (free_between(d, moved) && std::none_of(arcs_.begin(), arcs_.end(), wrong)) return moved;
   }
-  throw scene::Error(scene::ErrorCode::internal, "local star: a direction cannot leave its arc");
+  return std::nullopt;
 }
 
 std::vector<Vector3> LocalStar::into_cell(const exact::Point3& x, const exact::ConvexCell& cell) const {
   std::vector<Vector3> found;
   const std::vector<exact::Point3>& s = cell.vertices();
-  // From x to c, a point of the cell, and from there a little towards `to` and by much less towards the centre.
+  // From x to c, a point of the cell, and from there a little towards `to` and by much less towards a point inside, which must be off the planes
+  // that hold both. (A flat cell may lie in such a plane as a whole; then there is none.)
+  std::vector<exact::Point3> inside{cell.center()};
+  for (int k = 1; k <= 3; ++k) {
+    std::vector<int> weights;
+    for (std::size_t i = 0; i < s.size(); ++i) weights.push_back(1 + (static_cast<int>(i) * k * k + 3 * k) % 17);
+    inside.push_back(cell.interior_point(weights));
+  }
   const auto add = [&](const exact::Point3& c, const Vector3& to) {
-    const Vector3 d = nudged(c - x, to / FT(4), (cell.center() - c) / FT(4));
-    if (cell.interior_contains(x + d)) found.push_back(d);
+    for (const exact::Point3& z : inside) {
+      const std::optional<Vector3> d = nudged_if_possible(c - x, to / FT(4), (z - c) / FT(4));
+      if (!d) continue;
+      if (cell.interior_contains(x + *d)) found.push_back(*d);
+      return;
+    }
   };
   for (const exact::Point3& c : s) {
     if (c != x) add(c, cell.center() - c);

@@ -60,6 +60,9 @@ class LocalStar {
   };
   void finish();  // joins the two sides of arcs into faces
   int root(int side) const;
+  // nudged(), or nullopt when no step is small enough: the way runs along an arc through d.
+  std::optional<exact::Vector3> nudged_if_possible(const exact::Vector3& d, const exact::Vector3& by,
+                                                   const exact::Vector3& then) const;
   // The arc side first met from d on the way to a point of an arc, within that arc's component; none if the way is not clean.
   std::optional<int> side_met(const exact::Vector3& d, std::size_t aim_arc, int aim = 0) const;
 

@@ -86,11 +86,18 @@ TEST_F(Witness, OnlyWhatLiesBetweenIntVAndPBlocks) {
   add({1.5, -1, -1}, {1.5, 1, -1}, {1.5, 0, 1});        // behind p
   add({-3, -1, -1}, {-3, 1, -1}, {-3, 0, 1});           // behind the cell
   add({-1.25, -1, -1}, {-1.25, 1, -1}, {-1.25, 0, 1});  // inside the cell, in front of v (D3)
-  add({1, 0, 0}, {1, 0, 1}, {3, 0, 0});                 // touches p only
   add({-1.5, 0, 0}, {-1.125, 0, 0}, {-1.25, 0, 0.5});   // in a plane with the line, inside the cell
   EXPECT_TRUE(check(v_, p_).valid) << check(v_, p_).reason;
   add({-1, -1, -1}, {-1, 1, -1}, {-1, 0, 1});  // on the cell's surface: not int V
-  EXPECT_TRUE(names(check(v_, p_), "triangle 6 blocks"));
+  EXPECT_TRUE(names(check(v_, p_), "triangle 5 blocks"));
+}
+
+// D6 with an area: nothing but p itself might be seen (docs/visible-set.md, section 5).
+TEST_F(Witness, APointWhereAnotherTriangleTouchesIsNoWitness) {
+  add({1, -1, 0}, {1, 1, 0}, {1, 0, 1});  // in the plane of the target: no matter
+  EXPECT_TRUE(check(v_, p_).valid) << check(v_, p_).reason;
+  add({1, 0, 0}, {1, 0, 1}, {3, 0, 0});
+  EXPECT_TRUE(names(check(v_, p_), "triangle 2 touches triangle 0 at p"));
 }
 
 TEST_F(Witness, AnEdgeThatReachesPAlongTheLineBlocks) {
