@@ -36,6 +36,13 @@ json witness_json(const Finding& f) {
   return out;
 }
 
+// As one word of a shell.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
 void write_case(const Finding& f, const fs::path& folder, json& sums) {
   fs::create_directory(folder);
   scene::write_file_atomically(folder / "scene.off", scene::to_off_text(f.where.mesh));
@@ -105,10 +112,10 @@ void save_finding(const SavedFinding& saved, const fs::path& folder) {
   scene::write_file_atomically(part / "finding.json", about.dump(2) + "\n");
   scene::write_file_atomically(
       part / "command.txt",
-      fmt::format(
-          "# verify this finding:\nclues replay {}\n# make the original again:\nclues fuzz --subject '{}' --seed {} "
-          "--generator {} --oracle {} --first {} --cases 1 --out again\n",
-          folder.filename().string(), saved.subject, f.where.seed, f.where.generator, f.oracle, f.where.index));
+      fmt::format("# verify this finding:\nclues replay {}\n# make the original again:\n"
+                  "clues fuzz --subject {} --seed {} --generator {} --first {} --cases 1{} --out again\n",
+                  folder.filename().string(), quoted(saved.subject), f.where.seed, f.where.generator, f.where.index,
+                  f.oracle == "subject" ? "" : " --oracle " + f.oracle));
   fs::remove_all(folder, error);
   fs::rename(part, folder, error);
   if (error) throw Error(ErrorCode::file_unwritable, folder.string() + ": cannot be made: " + error.message());

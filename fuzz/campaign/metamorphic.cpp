@@ -179,7 +179,13 @@ class Metamorphic : public Oracle {
   bool ask_again(Exam& exam, int relation, Random& random, const std::vector<Witness>& witnesses) const {
     const Changed changed = change(exam.scene(), relation, random);
     exam.count(std::string("relations: ") + relations[relation]);
-    const Answer answer = exam.subject().answer(changed.scene.mesh, changed.scene.cell);
+    Answer answer;
+    try {
+      answer = exam.subject().answer(changed.scene.mesh, changed.scene.cell);
+    } catch (const NoAnswer& error) {
+      exam.file(without_answer(changed.scene, error.what()));
+      return true;
+    }
     const auto lists = [&](std::uint32_t t) { return std::binary_search(answer.pvs.begin(), answer.pvs.end(), t); };
     const auto cell = exact::ConvexCell::from_doubles(changed.scene.cell);
     for (const Witness& w : witnesses) {

@@ -6,6 +6,7 @@
 #include "exact/scene_query.h"
 #include "fuzz/campaign/oracle.h"
 #include "scene/error.h"
+#include "validate/visible_set.h"
 
 namespace clues::fuzz {
 namespace {
@@ -79,11 +80,32 @@ class TwoWalks : public Oracle {
   }
 };
 
+// D6, decided completely on scenes that are small enough (docs/visible-set.md).
+class ExactVisibleSet : public Oracle {
+ public:
+  const char* name() const override { return "exact-visible-set"; }
+  const char* what() const override {
+    return "scenes of at most 10 triangles: everything that is visible, decided exactly";
+  }
+  void examine(Exam& exam) const override {
+    if (exam.scene().mesh.triangles.size() > 10) return;
+    exam.count("scenes decided completely");
+    validate::VisibleSetOptions options;
+    options.trust_map = false;
+    const auto set = validate::exact_visible_set(exam.scene().mesh, exam.cell(), options);
+    for (const auto& t : set.triangles) {
+      if (t.witness && exam.claim(name(), *t.witness, "the exact visible set has a triangle that is not listed"))
+        return;
+    }
+  }
+};
+
 std::vector<std::unique_ptr<Oracle>> make_all() {
   std::vector<std::unique_ptr<Oracle>> all;
   all.push_back(make_sight_lines());
   all.push_back(make_point_occlusion());
   all.push_back(std::make_unique<CellContact>());
+  all.push_back(std::make_unique<ExactVisibleSet>());
   all.push_back(make_metamorphic());
   all.push_back(std::make_unique<TwoWalks>());
   return all;
@@ -111,24 +133,26 @@ std::vector<const Oracle*> oracles_named(const std::vector<std::string>& names) 
   return chosen;
 }
 
+Finding without_answer(const Case& scene, const std::string& why) {
+  Finding f;
+  f.oracle = "subject";
+  f.verdict = "no-answer/answer";
+  f.where = scene;
+  f.explanation = why;
+  return f;
+}
+
 Outcome judge_case(const Case& scene, const Subject& subject, const std::vector<const Oracle*>& oracles) {
   Outcome outcome;
   outcome.counters["cases of " + scene.generator] = 1;
-  const auto without_answer = [&](const std::string& verdict, const std::string& what) {
-    Finding f;
-    f.oracle = "subject";
-    f.verdict = verdict;
-    f.where = scene;
-    f.explanation = what;
-    outcome.findings.push_back(std::move(f));
-  };
   try {
     Exam exam(scene, subject, outcome);
     for (const Oracle* oracle : oracles) oracle->examine(exam);
   } catch (const NoAnswer& error) {
-    without_answer("no-answer/answer", error.what());
-  } catch (const scene::Error& error) {
-    without_answer("error/answer", error.what());
+    outcome.findings.push_back(without_answer(scene, error.what()));
+  } catch (const scene::Error& error) {  // of an oracle, or of the reference as a guide
+    outcome.contradictions.push_back(
+        fmt::format("{} {} of seed {}: {}", scene.generator, scene.index, scene.seed, error.what()));
   }
   return outcome;
 }

@@ -38,7 +38,11 @@ class ReferenceSubject : public Subject {
 
   Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) const override {
     Answer out;
-    out.map = reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(cell), options_);
+    try {
+      out.map = reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(cell), options_);
+    } catch (const Error& error) {
+      throw NoAnswer(error.what());
+    }
     out.pvs = out.map->visible;
     return out;
   }
