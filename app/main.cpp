@@ -48,6 +48,7 @@ int main(int argc, char** argv) {
   app::add_conform_command(program, status);
   app::add_iut_command(program, status);
   app::add_lint_command(program, status);
+  app::add_fuzz_commands(program, status);
   app::add_demo_command(program, status);
   try {
     program.parse(argc, argv);

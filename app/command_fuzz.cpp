@@ -1,0 +1,204 @@
+// clues fuzz, clues shrink, clues replay: campaigns on random scenes, and what becomes of their findings.
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/commands.h"
+#include "app/progress.h"
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/finding_folder.h"
+#include "fuzz/campaign/generators.h"
+#include "fuzz/campaign/oracle.h"
+#include "scene/error.h"
+
+namespace clues::app {
+namespace {
+
+using scene::Error;
+using scene::ErrorCode;
+
+// The only way a signal handler has to tell.
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void on_interrupt(int) { interrupted.store(true); }
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  action.sa_flags = SA_RESETHAND;  // a second Ctrl-C ends the program at once; the store is safe all the same
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+struct FuzzRequest {
+  fuzz::CampaignOptions options;
+  std::string subject = "reference";
+  std::uint64_t cases = 0, seconds = 0;
+};
+
+int run_fuzz(FuzzRequest& request) {
+  auto& options = request.options;
+  if (request.cases > 0) options.cases = request.cases;
+  if (request.seconds > 0) options.time = std::chrono::seconds(request.seconds);
+  if (!options.cases && !options.time) options.time = std::chrono::seconds(60);
+  const auto subject = fuzz::make_subject(request.subject);
+  ProgressBar bar("clues fuzz");
+  const auto begin = std::chrono::steady_clock::now();
+  std::uint64_t first = UINT64_MAX;
+  options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
+    first = std::min(first, done);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    bar.show(fmt::format("{} ({:.1f}/s)", stage, static_cast<double>(done - first) / std::max(seconds, 0.001)), done,
+             total);
+  };
+  catch_interrupts();
+  options.stop = &interrupted;
+  const auto summary = fuzz::run_campaign(options, *subject);
+  bar.clear();
+  std::fputs(to_text(summary, options.out).c_str(), stdout);
+  std::fprintf(stderr, "clues fuzz: %.1f s, %.1f cases a second\n", summary.seconds_now,
+               static_cast<double>(summary.cases_now) / std::max(summary.seconds_now, 0.001));
+  return summary.exit_code();
+}
+
+struct FolderRequest {
+  std::string folder, subject;
+  std::uint64_t steps = fuzz::ShrinkLimits{}.steps, seconds = 60;
+};
+
+std::unique_ptr<fuzz::Subject> subject_of(const FolderRequest& request, const fuzz::SavedFinding& saved) {
+  return fuzz::make_subject(request.subject.empty() ? saved.subject : request.subject);
+}
+
+int run_replay(const FolderRequest& request) {
+  const auto saved = fuzz::load_finding(request.folder);
+  const auto subject = subject_of(request, saved);
+  const std::string flaw = fuzz::flaw_of(saved.finding, *subject);
+  if (!flaw.empty()) {
+    std::printf("not reproduced: %s\n", flaw.c_str());
+    return fine;
+  }
+  std::printf("reproduced: %s, %zu triangles\n  %s\n", saved.finding.signature().c_str(),
+              saved.finding.where.mesh.triangles.size(), saved.finding.explanation.c_str());
+  return findings;
+}
+
+int run_shrink(const FolderRequest& request) {
+  auto saved = fuzz::load_finding(request.folder);
+  const auto subject = subject_of(request, saved);
+  const std::string flaw = fuzz::flaw_of(saved.finding, *subject);
+  if (!flaw.empty()) throw Error(ErrorCode::bad_argument, request.folder + ": there is nothing to shrink: " + flaw);
+  const auto before = saved.finding.where.mesh.triangles.size();
+  const auto shrunk = fuzz::shrink(saved.finding, *subject, {request.steps, std::chrono::seconds(request.seconds)});
+  saved.finding = shrunk.finding;
+  saved.steps += shrunk.steps;
+  saved.subject = subject->name();
+  fuzz::save_finding(saved, request.folder);
+  std::printf("%zu -> %zu triangles in %llu steps\n", before, saved.finding.where.mesh.triangles.size(),
+              static_cast<unsigned long long>(shrunk.steps));
+  return fine;
+}
+
+std::string fuzz_footer() {
+  std::string text =
+      "DESCRIPTION\n"
+      "  Makes scenes, asks the subject what the cell sees, and looks for visible triangles that it denies. Every "
+      "finding has\n"
+      "  a witness: a sight line in fractions, confirmed by a checker that shares nothing with the search. Each is "
+      "shrunk,\n"
+      "  verified and saved in a folder of DIR; DIR/findings.sqlite remembers progress, counters and findings. The "
+      "same\n"
+      "  command goes on where the last run ended, however it ended; with more --cases it goes further.\n"
+      "  Case n is a pure function of the seed and n, so findings do not depend on --jobs.\n"
+      "\nSUBJECT\n"
+      "  reference      the exact first-order reference of clues (default)\n"
+      "  COMMAND LINE   a program, run once for each scene; {scene}, {cell} and {pvs} stand for an OFF file, an OBJ "
+      "file of\n"
+      "                 the cell's points, and the list of visible triangle ids that it has to write, one a line.\n"
+      "                 Without these words the three files are appended. It has 60 s, and must exit with 0.\n"
+      "\nGENERATORS\n";
+  for (const auto& g : fuzz::all_generators()) text += fmt::format("  {:<22} {}\n", g.name, g.degeneracy);
+  text += "\nORACLES\n";
+  for (const auto& o : fuzz::all_oracles()) text += fmt::format("  {:<22} {}\n", o->name(), o->what());
+  return text +
+         "\nEXAMPLES\n"
+         "  clues fuzz --time 600 --jobs 2 --out fuzz-out\n"
+         "  clues fuzz --subject './bake {scene} {cell} -o {pvs}' --seed 7 --cases 1000 --errors 5\n"
+         "  clues fuzz --generator axis_boxes --oracle sight-lines --cases 200\n"
+         "\nFILES\n"
+         "  DIR/findings.sqlite, and a folder for each finding (docs/fuzzing.md)\n"
+         "\nEXIT CODES\n"
+         "  0 no finding   1 findings   2 bad usage or input   3 interrupted, or vacuous: something that the campaign "
+         "must meet\n"
+         "  never occurred   4 an oracle contradicted itself";
+}
+
+void add_subject(CLI::App& command, std::string& subject, const char* help) {
+  command.add_option("--subject", subject, help)->type_name("SUBJECT");
+}
+
+}  // namespace
+
+void add_fuzz_commands(CLI::App& program, int& status) {
+  auto* fuzz = program.add_subcommand("fuzz", "Search for scenes in which something visible is called hidden");
+  auto request = std::make_shared<FuzzRequest>();
+  auto& options = request->options;
+  add_subject(*fuzz, request->subject, "What is tested: reference (default), or a command line, see below");
+  fuzz->add_option("--seed", options.seed, "Which scenes (default 1)")->type_name("N");
+  fuzz->add_option("--first", options.first, "Number of the first scene of each generator (default 0)")->type_name("N");
+  fuzz->add_option("--cases", request->cases, "Cases in all, those of earlier runs in DIR included")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  fuzz->add_option("--time", request->seconds,
+                   "Seconds for new cases (default 60 without --cases); shrinking comes on top")
+      ->type_name("T")
+      ->check(CLI::PositiveNumber);
+  fuzz->add_option("--jobs", options.jobs, "Processes that work at once (default 1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  fuzz->add_option("--generator", options.generators, "Only this generator; may be repeated")->type_name("NAME");
+  fuzz->add_option("--oracle", options.oracles, "Only this oracle; may be repeated")->type_name("NAME");
+  fuzz->add_option("--errors", options.errors, "Stop at this many different findings; 0: never (default)")
+      ->type_name("N");
+  fuzz->add_option("--out", options.out, "Folder of the campaign (default fuzz-out)")->type_name("DIR");
+  fuzz->footer(fuzz_footer());
+  fuzz->callback([request, &status] { status = run_fuzz(*request); });
+
+  auto folder = std::make_shared<FolderRequest>();
+  auto* replay = program.add_subcommand("replay", "Verify a finding of clues fuzz");
+  replay->add_option("FINDING", folder->folder, "Its folder")->required();
+  add_subject(*replay, folder->subject, "Ask this subject instead of the one that the finding names");
+  replay->footer(
+      "DESCRIPTION\n"
+      "  Refuses files that were changed after they were saved; checks the witness exactly; asks the subject again.\n"
+      "\nEXAMPLES\n"
+      "  clues replay fuzz-out/sight-lines-hidden-visible-axis_boxes\n"
+      "\nEXIT CODES\n"
+      "  0 the subject no longer fails   1 reproduced   2 bad usage or input, or the finding was changed");
+  replay->callback([folder, &status] { status = run_replay(*folder); });
+
+  auto* shrink = program.add_subcommand("shrink", "Make a finding of clues fuzz smaller");
+  shrink->add_option("FINDING", folder->folder, "Its folder; it is written again, with the original as it was")
+      ->required();
+  add_subject(*shrink, folder->subject, "Ask this subject instead of the one that the finding names");
+  shrink->add_option("--max-steps", folder->steps, "Scenes put to the subject at most (default 600)")->type_name("N");
+  shrink->add_option("--time", folder->seconds, "Seconds at most (default 60)")->type_name("T");
+  shrink->footer(
+      "DESCRIPTION\n"
+      "  Fewer triangles, fewer points of the cell, shorter coordinates; the same oracle and verdict throughout, with "
+      "a new\n"
+      "  witness at every step. Deterministic unless the time ends it.\n"
+      "\nEXAMPLES\n"
+      "  clues shrink fuzz-out/sight-lines-hidden-visible-axis_boxes --max-steps 2000 --time 600\n"
+      "\nEXIT CODES\n"
+      "  0 fine   2 bad usage or input, or the finding no longer shows itself");
+  shrink->callback([folder, &status] { status = run_shrink(*folder); });
+}
+
+}  // namespace clues::app

@@ -1,0 +1,224 @@
+#include "fuzz/campaign/campaign.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "fuzz/campaign/finding_folder.h"
+#include "fuzz/campaign/generators.h"
+#include "fuzz/campaign/oracle.h"
+#include "fuzz/campaign/workers.h"
+#include "scene/error.h"
+
+namespace clues::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds look_up{200};
+
+std::string plan_of(const CampaignOptions& options, const std::vector<NamedGenerator>& generators,
+                    const std::vector<const Oracle*>& oracles, const Subject& subject) {
+  json plan{{"seed", options.seed}, {"first", options.first}, {"subject", subject.name()}};
+  for (const auto& g : generators) plan["generators"].push_back(g.name);
+  for (const Oracle* o : oracles) plan["oracles"].push_back(o->name());
+  return plan.dump();
+}
+
+class Campaign {
+ public:
+  Campaign(const CampaignOptions& options, const Subject& subject)
+      : options_(options),
+        subject_(subject),
+        generators_(generators_named(options.generators)),
+        oracles_(oracles_named(options.oracles)),
+        store_(made(options.out) / "findings.sqlite", plan_of(options, generators_, oracles_, subject)) {}
+
+  CampaignSummary run() {
+    const auto begin = Clock::now();
+    const std::uint64_t before = store_.cases_done();
+    for (const auto& f : store_.findings()) signatures_.insert(f.finding.signature());
+    run_cases();
+    CampaignSummary summary;
+    summary.seconds_now = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (!stopped()) save_findings();
+    summary.interrupted = stopped();
+    summary.cases = store_.cases_done();
+    summary.cases_now = summary.cases - before;
+    summary.counters = store_.counters();
+    summary.findings = store_.findings();
+    summary.contradictions = store_.contradictions();
+    summary.never_occurred = never_occurred(summary.counters);
+    return summary;
+  }
+
+ private:
+  static const fs::path& made(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder))
+      throw scene::Error(scene::ErrorCode::file_unwritable, folder.string() + ": cannot make this folder");
+    return folder;
+  }
+
+  bool stopped() const { return options_.stop && options_.stop->load(); }
+  bool enough_errors() const { return options_.errors > 0 && signatures_.size() >= options_.errors; }
+
+  Case make(std::uint64_t number) const {
+    const auto& g = generators_[number % generators_.size()];
+    return g.make(options_.seed, options_.first + number / generators_.size());
+  }
+
+  void run_cases() {
+    std::uint64_t next = store_.cases_done();
+    const auto end = options_.time ? Clock::now() + *options_.time : Clock::time_point::max();
+    const std::uint64_t last = options_.cases.value_or(UINT64_MAX);
+    if (next >= last || enough_errors()) return;
+    Workers workers(
+        options_.jobs, [this](std::uint64_t job) { return to_json_text(judge_case(make(job), subject_, oracles_)); },
+        options_.time_for_one);
+    std::uint64_t expected = next;  // the case to go into the store next
+    std::map<std::uint64_t, Outcome> early;
+    std::vector<Outcome> block;
+    const auto commit = [&] {
+      if (!block.empty()) store_.commit(block);
+      block.clear();
+    };
+    while (true) {
+      while (workers.idle() && next < last && !stopped() && Clock::now() < end) workers.start(next++);
+      if (workers.empty()) break;
+      const auto reply = workers.wait(look_up);
+      if (!reply) continue;
+      early[reply->job] = reply->text ? outcome_from_json_text(*reply->text) : lost(reply->job, reply->failure);
+      for (auto at = early.find(expected); at != early.end(); at = early.find(++expected)) {
+        for (const Finding& f : at->second.findings) signatures_.insert(f.signature());
+        block.push_back(std::move(at->second));
+        early.erase(at);
+        if (enough_errors()) return commit();
+        if (block.size() >= options_.block) commit();
+      }
+      if (options_.progress)
+        options_.progress(fmt::format("cases, {} findings", signatures_.size()), expected, std::min(last, next));
+    }
+    commit();
+  }
+
+  Outcome lost(std::uint64_t number, const std::string& failure) const {
+    Outcome outcome;
+    Finding f;
+    f.oracle = "subject";
+    f.verdict = failure.starts_with("no end") ? "no-end/answer" : "crash/answer";
+    f.where = make(number);
+    f.explanation = "the process that worked on this case " + failure;
+    outcome.counters["cases of " + f.where.generator] = 1;
+    outcome.findings.push_back(std::move(f));
+    return outcome;
+  }
+
+  // Shrinks, verifies and saves what has no folder yet.
+  void save_findings() {
+    std::vector<StoredFinding> open = store_.findings();
+    std::erase_if(open, [](const StoredFinding& f) { return f.folder.has_value(); });
+    if (open.empty()) return;
+    Workers workers(
+        options_.jobs, [&](std::uint64_t job) { return shrunk_text(open[job].finding); },
+        2 * options_.shrink.time + options_.time_for_one);
+    std::map<std::uint64_t, WorkerReply> replies;
+    for (std::uint64_t next = 0; replies.size() < open.size() && !stopped();) {
+      while (workers.idle() && next < open.size()) workers.start(next++);
+      if (auto reply = workers.wait(look_up)) replies[reply->job] = std::move(*reply);
+      if (options_.progress) options_.progress("findings shrunk", replies.size(), open.size());
+    }
+    for (auto& [job, reply] : replies) save(open[job], reply);
+  }
+
+  std::string shrunk_text(const Finding& f) const {
+    json out;
+    Shrunk shrunk{f, 0};
+    const bool repeatable = f.verdict != "crash/answer" && f.verdict != "no-end/answer";
+    if (repeatable) shrunk = shrink(f, subject_, options_.shrink);
+    out["finding"] = to_json_text(shrunk.finding);
+    out["steps"] = shrunk.steps;
+    out["flaw"] = repeatable ? flaw_of(shrunk.finding, subject_) : "";
+    return out.dump();
+  }
+
+  void save(const StoredFinding& stored, const WorkerReply& reply) {
+    SavedFinding saved{stored.finding, stored.finding, subject_.name(), 0};
+    if (reply.text) {
+      const json in = json::parse(*reply.text);
+      saved.finding = finding_from_json_text(in.at("finding").get<std::string>());
+      saved.steps = in.at("steps").get<std::uint64_t>();
+      const auto flaw = in.at("flaw").get<std::string>();
+      if (!flaw.empty()) store_.contradict(stored.finding.signature() + ": does not replay: " + flaw);
+    }
+    const std::string name = folder_name(stored.finding);
+    save_finding(saved, options_.out / name);
+    store_.saved(stored.id, name);
+  }
+
+  // Anti-vacuity: what a campaign with these generators and oracles must have met.
+  std::vector<std::string> never_occurred(const Counters& counters) const {
+    std::vector<std::string> needed{
+        "triangles visible", "triangles hidden", "triangles partly visible",    "wedges SV-ME",
+        "wedges SE-ME",      "wedges SE-MV",     "compound silhouette vertices"};
+    for (const auto& g : generators_) needed.push_back("cases of " + g.name);
+    for (const Oracle* o : oracles_) {
+      for (const char* name : o->needs()) needed.emplace_back(name);
+    }
+    std::vector<std::string> missing;
+    for (const auto& name : needed) {
+      const auto at = counters.find(name);
+      if (at == counters.end() || at->second == 0) missing.push_back(name);
+    }
+    return missing;
+  }
+
+  const CampaignOptions& options_;
+  const Subject& subject_;
+  std::vector<NamedGenerator> generators_;
+  std::vector<const Oracle*> oracles_;
+  Store store_;
+  std::set<std::string> signatures_;
+};
+
+}  // namespace
+
+int CampaignSummary::exit_code() const {
+  if (!contradictions.empty()) return 4;
+  if (!findings.empty()) return 1;
+  return interrupted || !never_occurred.empty() ? 3 : 0;
+}
+
+CampaignSummary run_campaign(const CampaignOptions& options, const Subject& subject) {
+  return Campaign(options, subject).run();
+}
+
+std::string to_text(const CampaignSummary& s, const fs::path& out) {
+  std::string text;
+  for (const auto& f : s.findings) {
+    text += fmt::format("FINDING {} (case {}: {} {} of seed {}; {} times)\n  {}\n", f.finding.signature(),
+                        f.case_number, f.finding.where.generator, f.finding.where.index, f.finding.where.seed,
+                        f.occurrences, f.finding.explanation);
+    if (const auto& w = f.finding.witness) {
+      text += fmt::format("  triangle {} ({} side), witness ({}, {}, {}) - ({}, {}, {})\n", w->triangle,
+                          w->front ? "front" : "back", w->v[0], w->v[1], w->v[2], w->p[0], w->p[1], w->p[2]);
+    }
+    text += f.folder ? fmt::format("  repeat: clues replay {}\n", (out / *f.folder).string())
+                     : "  not shrunk yet: run the same command again\n";
+  }
+  for (const auto& c : s.contradictions) text += "CONTRADICTION " + c + "\n";
+  for (const auto& [name, value] : s.counters) text += fmt::format("{:>14}  {}\n", value, name);
+  for (const auto& name : s.never_occurred) text += "NEVER OCCURRED: " + name + "\n";
+  text += fmt::format("{} cases, {} of them in this run; {} different findings{}\n", s.cases, s.cases_now,
+                      s.findings.size(), s.interrupted ? "; interrupted: the same command goes on" : "");
+  if (!s.never_occurred.empty())
+    text += "The campaign is vacuous: it did not meet all that it is meant to test. Give it more cases.\n";
+  return text;
+}
+
+}  // namespace clues::fuzz

@@ -1,0 +1,52 @@
+// A campaign: cases of all generators by turns, put to a subject and judged by the oracles, in worker processes. Case number n is scene first + n / G of generator
+// n modulo G, a pure function of the seed; outcomes are committed in the order of the cases, so the findings do not depend on the number of jobs.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fuzz/campaign/shrink.h"
+#include "fuzz/campaign/store.h"
+
+namespace clues::fuzz {
+
+struct CampaignOptions {
+  std::uint64_t seed = 1, first = 0;
+  std::vector<std::string> generators, oracles;  // empty: all
+  std::optional<std::uint64_t> cases;            // in all, those of earlier runs included
+  std::optional<std::chrono::seconds> time;      // of this run, before shrinking
+  int jobs = 1;
+  std::uint64_t errors = 0;  // stop at so many different findings; 0: never
+  std::filesystem::path out = "fuzz-out";
+  ShrinkLimits shrink;
+  std::uint64_t block = 16;  // cases committed together
+  std::chrono::seconds time_for_one{300};
+  std::function<void(const std::string& stage, std::uint64_t done, std::uint64_t total)> progress;
+  const std::atomic<bool>* stop = nullptr;  // set by a signal: finish what is begun, commit, leave
+};
+
+struct CampaignSummary {
+  std::uint64_t cases = 0, cases_now = 0;  // in all; in this run
+  double seconds_now = 0;
+  bool interrupted = false;
+  Counters counters;
+  std::vector<StoredFinding> findings;
+  std::vector<std::string> contradictions;
+  std::vector<std::string> never_occurred;  // not empty: the campaign is vacuous
+
+  // 0 none, 1 findings, 3 vacuous or interrupted, 4 contradictions.
+  int exit_code() const;
+};
+
+// Continues the campaign in options.out, or begins one. Throws scene::Error for bad options and an unusable folder.
+CampaignSummary run_campaign(const CampaignOptions& options, const Subject& subject);
+
+std::string to_text(const CampaignSummary& summary, const std::filesystem::path& out);
+
+}  // namespace clues::fuzz

@@ -1,0 +1,134 @@
+// The reference as a subject, and programs that are given files.
+#include "fuzz/campaign/subject.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "fuzz/campaign/files.h"
+#include "scene/atomic_file.h"
+#include "scene/error.h"
+#include "scene/mesh_io.h"
+#include "scene/result.h"
+#include "validate/conform/child_process.h"
+#include "validate/conform/program_subject.h"
+
+namespace clues::fuzz {
+namespace {
+
+using reference::PlantedBug;
+using scene::Error;
+using scene::ErrorCode;
+
+const std::map<std::string, PlantedBug> planted_bugs{{"wrong_wedge_side", PlantedBug::wrong_wedge_side},
+                                                     {"retested_csv", PlantedBug::retested_csv},
+                                                     {"no_rule_3", PlantedBug::no_rule_3},
+                                                     {"rounded_comparison", PlantedBug::rounded_comparison}};
+
+class ReferenceSubject : public Subject {
+ public:
+  ReferenceSubject(std::string name, PlantedBug bug) : name_(std::move(name)) {
+    options_.threads = 1;
+    options_.planted_bug = bug;
+  }
+
+  Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) const override {
+    Answer out;
+    try {
+      out.map = reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(cell), options_);
+    } catch (const Error& error) {
+      throw NoAnswer(error.what());
+    }
+    out.pvs = out.map->visible;
+    return out;
+  }
+  std::string name() const override { return name_; }
+
+ private:
+  std::string name_;
+  reference::Options options_;
+};
+
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "clues-fuzz-XXXXXX").string();
+    if (!mkdtemp(pattern.data())) throw Error(ErrorCode::file_unwritable, pattern + ": cannot make a temporary folder");
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string file(const char* name) const { return (path_ / name).string(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+class CommandSubject : public Subject {
+ public:
+  explicit CommandSubject(std::string text) : text_(std::move(text)), words_(validate::split_command(text_)) {
+    if (words_.empty()) throw Error(ErrorCode::bad_argument, "--subject: no command");
+    const bool placed = std::any_of(words_.begin(), words_.end(), [](const std::string& w) {
+      return w.find("{scene}") != w.npos || w.find("{cell}") != w.npos || w.find("{pvs}") != w.npos;
+    });
+    if (!placed) words_.insert(words_.end(), {"{scene}", "{cell}", "{pvs}"});
+  }
+
+  Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) const override {
+    const TemporaryFolder folder;
+    const std::string pvs = folder.file("pvs.txt");
+    scene::write_file_atomically(folder.file("scene.off"), scene::to_off_text(mesh));
+    scene::write_file_atomically(folder.file("cell.obj"), points_as_obj(cell));
+    std::vector<std::string> words = words_;
+    for (std::string& word : words) {
+      replace(word, "{scene}", folder.file("scene.off"));
+      replace(word, "{cell}", folder.file("cell.obj"));
+      replace(word, "{pvs}", pvs);
+    }
+    validate::ChildProcess child(words, 0);
+    const auto end = child.finish(validate::ChildProcess::Clock::now() + time_limit);
+    if (end.killed_here) throw NoAnswer(fmt::format("no answer within {} s", time_limit.count()));
+    if (end.exit_code != 0) throw NoAnswer(validate::describe(end) + ": " + child.stderr_tail());
+    try {
+      return {scene::read_pvs(pvs, mesh.triangles.size()), std::nullopt};
+    } catch (const Error& error) {
+      throw NoAnswer(error.what());
+    }
+  }
+  std::string name() const override { return text_; }
+
+ private:
+  static constexpr std::chrono::seconds time_limit{60};
+
+  static void replace(std::string& word, const std::string& key, const std::string& value) {
+    for (auto at = word.find(key); at != word.npos; at = word.find(key, at + value.size()))
+      word.replace(at, key.size(), value);
+  }
+
+  std::string text_;
+  std::vector<std::string> words_;
+};
+
+}  // namespace
+
+std::unique_ptr<Subject> make_subject(const std::string& text) {
+  if (text == "reference") return std::make_unique<ReferenceSubject>(text, PlantedBug::none);
+  const std::string prefix = "reference:";
+  if (text.starts_with(prefix)) {
+    const auto bug = planted_bugs.find(text.substr(prefix.size()));
+    if (bug == planted_bugs.end())
+      throw Error(ErrorCode::bad_argument, "--subject " + text + ": no such subject; use reference or a command line");
+    return std::make_unique<ReferenceSubject>(text, bug->second);
+  }
+  return std::make_unique<CommandSubject>(text);
+}
+
+}  // namespace clues::fuzz

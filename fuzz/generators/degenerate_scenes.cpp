@@ -1,0 +1,257 @@
+#include "fuzz/generators/degenerate_scenes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/generators/grid_mesh.h"
+#include "fuzz/generators/random.h"
+
+namespace clues::fuzz {
+namespace {
+
+using scene::Point;
+
+Random random_of(std::uint64_t seed, std::uint64_t index, std::uint64_t salt) {
+  return Random(Random(Random(seed ^ (salt << 32)).next() ^ index).next());
+}
+
+Point& any(std::vector<Point>& points, Random& random) {
+  return points[static_cast<std::size_t>(random.between(0, static_cast<int>(points.size()) - 1))];
+}
+
+// One of the random scenes of at most 30 triangles, to be spoilt.
+GeneratedScene base_scene(Random& random) {
+  while (true) {
+    const auto kind = all_kinds[static_cast<std::size_t>(random.between(0, static_cast<int>(all_kinds.size()) - 1))];
+    GeneratedScene scene = generate(kind, random.next(), 0);
+    if (scene.mesh.triangles.size() <= 30) return scene;
+  }
+}
+
+void add(scene::TriangleMesh& mesh, const Point& a, const Point& b, const Point& c) {
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), {a, b, c});
+  mesh.face_of.push_back(static_cast<std::uint32_t>(mesh.face_of.size()));
+  mesh.triangles.push_back({first, first + 1, first + 2});
+}
+
+void add_quad(scene::TriangleMesh& mesh, const Point& a, const Point& b, const Point& c, const Point& d) {
+  add(mesh, a, b, c);
+  add(mesh, a, c, d);
+}
+
+std::vector<Point> box_of(const Point& lo, const Point& hi) {
+  std::vector<Point> corners;
+  for (unsigned i = 0; i < 8; ++i)
+    corners.push_back({i & 1 ? hi[0] : lo[0], i & 2 ? hi[1] : lo[1], i & 4 ? hi[2] : lo[2]});
+  return corners;
+}
+
+double off(Random& random, double x) {  // itself, an ulp away, or 2^-20 to 2^-40 away
+  switch (random.between(0, 4)) {
+    case 0:
+      return std::nextafter(x, -1e300);
+    case 1:
+      return std::nextafter(x, 1e300);
+    case 2:
+      return x + std::ldexp(random.one_in(2) ? 1 : -1, -random.between(20, 40));
+    default:
+      return x;
+  }
+}
+
+// A wall far behind, so that shadows fall on something.
+void add_receiver(scene::TriangleMesh& mesh, double x) {
+  add_quad(mesh, {x, -2, -2}, {x, -2, 10}, {x, 10, 10}, {x, 10, -2});
+}
+
+GeneratedScene slivers(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 1);
+  GeneratedScene scene = base_scene(random);
+  for (int n = random.between(2, 6); n > 0; --n) {
+    const Point a = any(scene.mesh.points, random), b = any(scene.mesh.points, random);
+    Point c;
+    for (std::size_t i = 0; i < 3; ++i) c[i] = off(random, a[i] / 2 + b[i] / 2);  // now and then without area
+    add(scene.mesh, a, b, c);
+  }
+  return scene;
+}
+
+GeneratedScene duplicates(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 2);
+  GeneratedScene scene = base_scene(random);
+  for (int n = random.between(1, 6); n > 0; --n) {
+    scene::Triangle t =
+        scene.mesh
+            .triangles[static_cast<std::size_t>(random.between(0, static_cast<int>(scene.mesh.triangles.size()) - 1))];
+    if (random.one_in(2)) std::swap(t[0], t[1]);
+    scene.mesh.triangles.push_back(t);
+    scene.mesh.face_of.push_back(static_cast<std::uint32_t>(scene.mesh.face_of.size()));
+  }
+  return scene;
+}
+
+GeneratedScene ulp_perturbed(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 3);
+  GeneratedScene scene = base_scene(random);
+  for (int n = random.between(1, 8); n > 0; --n) {
+    double& x =
+        any(random.one_in(4) ? scene.cell : scene.mesh.points, random)[static_cast<std::size_t>(random.between(0, 2))];
+    x = std::nextafter(x, random.one_in(2) ? 1e300 : -1e300);
+  }
+  return scene;
+}
+
+GeneratedScene scaled_and_moved(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 4);
+  GeneratedScene scene = base_scene(random);
+  const double factor = std::ldexp(1, random.between(-80, 80));
+  Point offset;  // in units of the scene; far away coordinates lose their last bits, and the scene is what is left
+  for (double& x : offset) x = random.one_in(2) ? 0 : std::ldexp(random.between(-9, 9), random.between(0, 44));
+  for (auto* points : {&scene.mesh.points, &scene.cell}) {
+    for (Point& p : *points) {
+      for (std::size_t i = 0; i < 3; ++i) p[i] = (p[i] + offset[i]) * factor;
+    }
+  }
+  return scene;
+}
+
+GeneratedScene cyclic_overlap(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 5);
+  GeneratedScene scene;
+  const int n = random.between(3, 8);
+  // Corners of a polygon around (4, 4), in sixteenths; bar i reaches from corner i, in front, past corner i + 1, behind.
+  std::vector<std::array<double, 2>> corners;
+  for (int i = 0; i < n; ++i) {
+    const double turn = 2 * 3.14159265358979 * i / n;
+    corners.push_back({4 + std::round(48 * std::cos(turn)) / 16, 4 + std::round(48 * std::sin(turn)) / 16});
+  }
+  const double width = random.between(2, 14) / 16.0, reach = random.between(1, 4) / 4.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    const double dy = b[0] - a[0], dz = b[1] - a[1];
+    const Point from{2, a[0] - reach * dy, a[1] - reach * dz}, to{3, b[0] + reach * dy, b[1] + reach * dz};
+    // Across the bar, towards the middle.
+    const double my = (4 - (a[0] + b[0]) / 2) * width, mz = (4 - (a[1] + b[1]) / 2) * width;
+    add_quad(scene.mesh, from, {from[0], from[1] + my, from[2] + mz}, {to[0], to[1] + my, to[2] + mz}, to);
+  }
+  add_receiver(scene.mesh, 5);
+  const double size = random.between(2, 24) / 16.0;
+  scene.cell = box_of({-2, 4 - size, 4 - size}, {-1, 4 + size, 4 + size});
+  return scene;
+}
+
+// Panels that tile a square as seen from the cell, each at its own depth, with borders that meet, overlap or gape by next to nothing.
+GeneratedScene nearly_closed(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 6);
+  GeneratedScene scene;
+  const int columns = random.between(2, 3), rows = random.between(1, 3);
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      const double x = random.one_in(2) ? 2 : off(random, 2 + random.between(0, 2) / 4.0);
+      const double y0 = off(random, 8.0 * i / columns), y1 = off(random, 8.0 * (i + 1) / columns);
+      const double z0 = off(random, 8.0 * j / rows), z1 = off(random, 8.0 * (j + 1) / rows);
+      add_quad(scene.mesh, {x, y0, z0}, {x, y0, z1}, {x, y1, z1}, {x, y1, z0});
+    }
+  }
+  add_quad(scene.mesh, {4, 2, 2}, {4, 2, 6}, {4, 6, 6}, {4, 6, 2});
+  const double size = random.one_in(3) ? 4 : random.between(1, 16) / 8.0;
+  scene.cell = box_of({-2, 4 - size, 4 - size}, {random.one_in(4) ? 1.5 : 0.0, 4 + size, 4 + size});
+  return scene;
+}
+
+GeneratedScene t_junctions(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 7);
+  GeneratedScene scene;
+  const bool crack = random.one_in(2);
+  for (int column = 0; column < 3; ++column) {
+    const int rows = random.between(1, 4);
+    const double bend = random.between(-8, 8) / 16.0;  // columns fold along their common lines
+    for (int row = 0; row < rows; ++row) {
+      if (random.one_in(6)) continue;
+      const double z0 = 8.0 * row / rows, z1 = 8.0 * (row + 1) / rows, y0 = 2.5 * column, y1 = 2.5 * (column + 1);
+      const auto x = [&](double at) { return crack ? off(random, at) : at; };
+      add_quad(scene.mesh, {x(2), y0, z0}, {x(2), y0, z1}, {x(column == 2 ? 2 + bend : 2), y1, z1},
+               {x(column == 2 ? 2 + bend : 2), y1, z0});
+    }
+  }
+  add_receiver(scene.mesh, 4);
+  const double y = random.between(0, 64) / 16.0, z = random.between(0, 64) / 16.0;
+  scene.cell = box_of({-2, y, z}, {-1, y + random.between(1, 48) / 16.0, z + random.between(1, 48) / 16.0});
+  return scene;
+}
+
+// Axis-aligned rectangles in a few common planes, overlapping each other, and a cell with faces in the same planes.
+GeneratedScene coplanar_walls(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 8);
+  GeneratedScene scene;
+  GridMesh mesh(1);
+  for (int n = random.between(3, 9); n > 0; --n) {
+    const auto axis = static_cast<std::size_t>(random.between(0, 2));
+    GridPoint a;
+    a[axis] = random.between(1, 3);
+    const std::size_t u = (axis + 1) % 3, w = (axis + 2) % 3;
+    a[u] = random.between(0, 4);
+    a[w] = random.between(0, 4);
+    GridPoint b = a, c = a, d = a;
+    const int du = random.between(1, 3), dw = random.between(1, 3);
+    b[u] += du;
+    c[u] += du;
+    c[w] += dw;
+    d[w] += dw;
+    if (random.one_in(2)) {
+      mesh.quad(a, b, c, d);
+    } else {
+      mesh.quad(d, c, b, a);
+    }
+  }
+  scene.mesh = std::move(mesh).take();
+  const Point lo{static_cast<double>(random.between(-2, 0)), static_cast<double>(random.between(0, 3)),
+                 static_cast<double>(random.between(0, 3))};
+  scene.cell = box_of(lo, {lo[0] + 1, lo[1] + random.between(1, 2), lo[2] + random.between(1, 2)});
+  return scene;
+}
+
+// A box with a mesh vertex on one of its faces, edges or corners; or around it.
+GeneratedScene touching_cells(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 9);
+  GeneratedScene scene = base_scene(random);
+  const Point q = any(scene.mesh.points, random);
+  const int shared = random.between(0, 3);  // coordinates in which q is on the border
+  Point lo, hi;
+  for (std::size_t i = 0; i < 3; ++i) {
+    lo[i] = q[i] - random.between(1, 40) / 16.0;
+    hi[i] = static_cast<int>(i) < shared ? q[i] : q[i] + random.between(1, 40) / 16.0;
+  }
+  scene.cell = box_of(lo, hi);
+  return scene;
+}
+
+// Cells of dimension 0, 1 and 2.
+GeneratedScene flat_cells(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 10);
+  GeneratedScene scene = base_scene(random);
+  while (scene.cell.size() > static_cast<std::size_t>(1 + index % 3)) {
+    scene.cell.erase(scene.cell.begin() + random.between(0, static_cast<int>(scene.cell.size()) - 1));
+  }
+  return scene;
+}
+
+}  // namespace
+
+const std::vector<DegenerateGenerator>& degenerate_generators() {
+  static const std::vector<DegenerateGenerator> all{
+      {"slivers", "triangles of next to no width between vertices of another scene; some without area", slivers},
+      {"duplicates", "triangles twice, also turned over", duplicates},
+      {"ulp_perturbed", "an exactly degenerate scene with a few coordinates one ulp off", ulp_perturbed},
+      {"scaled_and_moved", "scales from 2^-80 to 2^80, offsets up to 2^47 scene units", scaled_and_moved},
+      {"cyclic_overlap", "3 to 8 bars, each in front of the next", cyclic_overlap},
+      {"nearly_closed", "panels that meet, overlap or gape by one ulp to 2^-20", nearly_closed},
+      {"t_junctions", "walls whose columns are cut differently, with cracks of an ulp", t_junctions},
+      {"coplanar_walls", "grid-aligned rectangles in common planes, the cell's faces among them", coplanar_walls},
+      {"touching_cells", "cells that touch a vertex or have geometry inside", touching_cells},
+      {"flat_cells", "points, segments and polygons as cells", flat_cells}};
+  return all;
+}
+
+}  // namespace clues::fuzz

@@ -1,0 +1,294 @@
+// Tests of the fuzzer itself: each planted defect is found within a fixed number of cases and shrunk; a campaign that is interrupted, continued or run by more jobs finds
+// the same; what was saved is verified again, and refused when it was changed.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/finding_folder.h"
+#include "fuzz/generators/random_scenes.h"
+#include "planted_subjects.h"
+#include "scene/error.h"
+
+namespace clues::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "clues-fuzz-test-XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~Folder() { fs::remove_all(path_); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  fs::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  fs::path path_;
+};
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+// All that a campaign left: findings as stored, and every file of every finding.
+std::string left_by(const fs::path& out, const CampaignSummary& summary) {
+  std::string all = std::to_string(summary.cases);
+  for (const auto& [name, value] : summary.counters) all += "\n" + name + " " + std::to_string(value);
+  for (const auto& f : summary.findings) {
+    all += "\n" + std::to_string(f.id) + " " + std::to_string(f.case_number) + " " + std::to_string(f.occurrences) +
+           " " + to_json_text(f.finding) + " " + f.folder.value_or("none");
+  }
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(out)) {
+    if (entry.is_regular_file() && entry.path().extension() != ".sqlite") files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  for (const auto& file : files) all += "\n" + fs::relative(file, out).string() + "\n" + bytes_of(file);
+  return all;
+}
+
+CampaignOptions options_for(const fs::path& out, std::uint64_t cases) {
+  CampaignOptions options;
+  options.seed = 7;
+  options.cases = cases;
+  options.out = out;
+  for (const Kind kind : all_kinds) options.generators.emplace_back(name_of(kind));
+  options.shrink.time = std::chrono::seconds(600);  // the steps end it
+  options.shrink.steps = 150;
+  return options;
+}
+
+void is_found_and_shrunk(const Subject& subject, std::uint64_t within) {
+  const Folder folder;
+  auto options = options_for(folder / "out", within);
+  options.errors = 1;
+  const CampaignSummary summary = run_campaign(options, subject);
+  EXPECT_EQ(summary.exit_code(), 1);
+  EXPECT_TRUE(summary.contradictions.empty()) << summary.contradictions.front();
+  ASSERT_FALSE(summary.findings.empty());
+  for (const auto& f : summary.findings) {
+    ASSERT_TRUE(f.folder.has_value());
+    const SavedFinding saved = load_finding(options.out / *f.folder);
+    EXPECT_EQ(flaw_of(saved.finding, subject), "");
+    EXPECT_EQ(saved.finding.signature(), f.finding.signature());
+    EXPECT_LE(saved.finding.where.mesh.triangles.size(), 12U);
+    std::cout << subject.name() << ": case " << f.case_number << ", " << f.finding.signature() << ", "
+              << saved.original.where.mesh.triangles.size() << " -> " << saved.finding.where.mesh.triangles.size()
+              << " triangles in " << saved.steps << " steps\n";
+  }
+}
+
+TEST(PlantedSubject, EverythingHiddenIsFound) { is_found_and_shrunk(EverythingHidden(), 2); }
+TEST(PlantedSubject, OneHiddenTriangleIsFound) { is_found_and_shrunk(HidesOneTriangle(), 12); }
+TEST(PlantedSubject, FromTheCentreIsFound) { is_found_and_shrunk(FromTheCentre(), 12); }
+TEST(PlantedSubject, WrongWedgeSideIsFound) { is_found_and_shrunk(*make_subject("reference:wrong_wedge_side"), 48); }
+TEST(PlantedSubject, RetestedCsvIsFound) { is_found_and_shrunk(*make_subject("reference:retested_csv"), 48); }
+TEST(PlantedSubject, MissingRule3IsFound) { is_found_and_shrunk(*make_subject("reference:no_rule_3"), 48); }
+TEST(PlantedSubject, RoundedComparisonIsFound) {
+  is_found_and_shrunk(*make_subject("reference:rounded_comparison"), 48);
+}
+
+TEST(PlantedSubject, NothingIsFoundInASoundAnswer) {
+  const Folder folder;
+  auto options = options_for(folder / "out", 6);
+  const auto subject = make_subject("reference");
+  const CampaignSummary summary = run_campaign(options, *subject);
+  EXPECT_TRUE(summary.findings.empty());
+  EXPECT_TRUE(summary.contradictions.empty());
+}
+
+TEST(Campaign, OneJobAndTwoLeaveTheSame) {
+  const Folder folder;
+  std::string left[2];
+  for (int jobs = 1; jobs <= 2; ++jobs) {
+    auto options = options_for(folder / std::to_string(jobs), 14);
+    options.jobs = jobs;
+    options.shrink.steps = 30;
+    left[jobs - 1] = left_by(options.out, run_campaign(options, FromTheCentre()));
+  }
+  EXPECT_EQ(left[0], left[1]);
+  EXPECT_NE(left[0].find("finding.json"), std::string::npos);
+}
+
+// Kills the campaign (and with it its workers) the moment `progress` has been called `calls` times; no time is involved.
+void run_and_be_killed(CampaignOptions options, int calls) {
+  const pid_t pid = fork();
+  ASSERT_GE(pid, 0);
+  if (pid == 0) {
+    options.progress = [calls, n = 0](const std::string&, std::uint64_t, std::uint64_t) mutable {
+      if (++n == calls) raise(SIGKILL);
+    };
+    try {
+      run_campaign(options, FromTheCentre());
+    } catch (...) {
+    }
+    _exit(0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(pid, &status, 0), pid);
+  EXPECT_TRUE(WIFSIGNALED(status));
+}
+
+TEST(Campaign, GoesOnAfterKillAsIfNothingHadHappened) {
+  const Folder folder;
+  auto whole = options_for(folder / "whole", 14);
+  whole.block = 3;
+  whole.shrink.steps = 30;
+  const std::string expected = left_by(whole.out, run_campaign(whole, FromTheCentre()));
+  auto parts = whole;
+  parts.out = folder / "parts";
+  parts.jobs = 2;
+  run_and_be_killed(parts, 5);  // among the cases
+  run_and_be_killed(parts, 4);
+  run_and_be_killed(parts, 7);
+  EXPECT_EQ(left_by(parts.out, run_campaign(parts, FromTheCentre())), expected);
+}
+
+TEST(Campaign, StopsWhenAskedAndGoesOn) {
+  const Folder folder;
+  auto options = options_for(folder / "out", 12);
+  options.shrink.steps = 30;
+  std::atomic<bool> stop{false};
+  options.stop = &stop;
+  options.progress = [&](const std::string&, std::uint64_t, std::uint64_t) { stop = true; };
+  const CampaignSummary first = run_campaign(options, FromTheCentre());
+  EXPECT_TRUE(first.interrupted);
+  EXPECT_LT(first.cases, 12U);
+  options.stop = nullptr;
+  options.progress = nullptr;
+  const CampaignSummary second = run_campaign(options, FromTheCentre());
+  EXPECT_EQ(second.cases, 12U);
+  EXPECT_EQ(second.cases_now, 12U - first.cases);
+}
+
+TEST(Campaign, AnotherPlanIsRefused) {
+  const Folder folder;
+  auto options = options_for(folder / "out", 1);
+  options.generators = {"loose_triangles"};
+  run_campaign(options, HidesOneTriangle());
+  options.seed = 8;
+  EXPECT_THROW(run_campaign(options, HidesOneTriangle()), scene::Error);
+  options.generators = {"no_such_generator"};
+  EXPECT_THROW(run_campaign(options, HidesOneTriangle()), scene::Error);
+}
+
+TEST(Campaign, WhatNeverOccurredIsSaid) {
+  const Folder folder;
+  auto options = options_for(folder / "out", 1);  // five generators of six never come
+  const auto subject = make_subject("reference");
+  const CampaignSummary summary = run_campaign(options, *subject);
+  EXPECT_EQ(summary.exit_code(), 3);
+  EXPECT_FALSE(summary.never_occurred.empty());
+}
+
+class Crashes : public Subject {
+ public:
+  Answer answer(const scene::TriangleMesh&, const std::vector<scene::Point>&) const override {
+    raise(SIGKILL);
+    return {};
+  }
+  std::string name() const override { return "crashes"; }
+};
+
+TEST(Campaign, ACrashIsAFindingAndNotTheEnd) {
+  const Folder folder;
+  auto options = options_for(folder / "out", 4);
+  const CampaignSummary summary = run_campaign(options, Crashes());
+  EXPECT_EQ(summary.cases, 4U);
+  ASSERT_EQ(summary.findings.size(), 4U);
+  EXPECT_EQ(summary.findings[0].finding.verdict, "crash/answer");
+}
+
+// A program that writes an empty PVS is found out; one that fails gives no answer.
+TEST(Campaign, ProgramsAreAskedThroughFiles) {
+  const Folder folder;
+  auto options = options_for(folder / "hides", 1);
+  options.shrink.steps = 20;
+  const auto hides = make_subject("sh -c 'test -s {scene} && test -s {cell} && : > {pvs}'");
+  const CampaignSummary hidden = run_campaign(options, *hides);
+  ASSERT_FALSE(hidden.findings.empty());
+  EXPECT_EQ(hidden.findings[0].finding.verdict, "hidden/visible");
+  options.out = folder / "fails";
+  const auto fails = make_subject("false");
+  const CampaignSummary failed = run_campaign(options, *fails);
+  ASSERT_EQ(failed.findings.size(), 1U);
+  EXPECT_EQ(failed.findings[0].finding.verdict, "no-answer/answer");
+}
+
+class AFinding : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto options = options_for(folder_ / "out", 1);
+    options.errors = 1;
+    options.oracles = {"sight-lines"};
+    const CampaignSummary summary = run_campaign(options, EverythingHidden());
+    ASSERT_EQ(summary.findings.size(), 1U);
+    saved_ = options.out / summary.findings[0].folder.value();
+  }
+  void change(const fs::path& file, const std::string& from, const std::string& to) const {
+    std::string text = bytes_of(file);
+    const auto at = text.find(from);
+    ASSERT_NE(at, text.npos);
+    std::ofstream(file, std::ios::binary) << text.replace(at, from.size(), to);
+  }
+  Folder folder_;
+  fs::path saved_;
+};
+
+TEST_F(AFinding, IsRefusedWhenItsFilesWereChanged) {
+  for (const char* file : {"scene.off", "cell.obj", "witness.json", "original/scene.off", "original/witness.json"}) {
+    const std::string before = bytes_of(saved_ / file);
+    std::ofstream(saved_ / file, std::ios::binary) << before << "\n";
+    EXPECT_THROW(load_finding(saved_), scene::Error) << file;
+    std::ofstream(saved_ / file, std::ios::binary) << before;
+    EXPECT_EQ(flaw_of(load_finding(saved_).finding, EverythingHidden()), "");
+  }
+  change(saved_ / "finding.json", "\"format\": \"clues", "\"format\": \"blues");
+  EXPECT_THROW(load_finding(saved_), scene::Error);
+}
+
+TEST_F(AFinding, DoesNotReplayWithAWitnessThatIsNone) {
+  Finding f = load_finding(saved_).finding;
+  ASSERT_TRUE(f.witness.has_value());
+  std::swap(f.witness->v, f.witness->p);
+  EXPECT_NE(flaw_of(f, EverythingHidden()), "");
+}
+
+class EverythingVisible : public Subject {
+ public:
+  Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>&) const override {
+    Answer out;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) out.pvs.push_back(t);
+    return out;
+  }
+  std::string name() const override { return "everything-visible"; }
+};
+
+TEST_F(AFinding, DoesNotReplayOnASoundSubject) {
+  EXPECT_NE(flaw_of(load_finding(saved_).finding, EverythingVisible()), "");
+}
+
+TEST_F(AFinding, ShrinksToTheSameEveryTime) {
+  const SavedFinding saved = load_finding(saved_);
+  ShrinkLimits limits{80, std::chrono::seconds(600)};
+  const Shrunk once = shrink(saved.original, EverythingHidden(), limits),
+               twice = shrink(saved.original, EverythingHidden(), limits);
+  EXPECT_EQ(to_json_text(once.finding), to_json_text(twice.finding));
+  EXPECT_EQ(once.finding.signature(), saved.original.signature());
+  EXPECT_LE(once.steps, 80U);
+}
+
+}  // namespace
+}  // namespace clues::fuzz

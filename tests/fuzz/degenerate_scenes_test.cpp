@@ -1,0 +1,80 @@
+// The generators of named degeneracies: pure, within their bounds, and degenerate in the way that they say, counted exactly.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "exact/complex.h"
+#include "exact/scene_query.h"
+#include "fuzz/generators/degenerate_scenes.h"
+
+namespace clues::fuzz {
+namespace {
+
+constexpr std::uint64_t kSeed = 20261121, kScenes = 24;
+
+const DegenerateGenerator& named(const std::string& name) {
+  for (const auto& g : degenerate_generators()) {
+    if (g.name == name) return g;
+  }
+  throw std::runtime_error("no generator " + name);
+}
+
+TEST(DegenerateScenes, ArePureAndWithinBounds) {
+  for (const auto& g : degenerate_generators()) {
+    for (std::uint64_t i = 0; i < kScenes; ++i) {
+      SCOPED_TRACE(std::string(g.name) + " " + std::to_string(i));
+      const GeneratedScene scene = g.make(kSeed, i), again = g.make(kSeed, i);
+      EXPECT_EQ(scene.mesh.points, again.mesh.points);
+      EXPECT_EQ(scene.mesh.triangles, again.mesh.triangles);
+      EXPECT_EQ(scene.cell, again.cell);
+      EXPECT_EQ(scene.mesh.triangles.size(), scene.mesh.face_of.size());
+      EXPECT_GE(scene.mesh.triangles.size(), 1U);
+      EXPECT_LE(scene.mesh.triangles.size(), 80U);
+      EXPECT_FALSE(scene.cell.empty());
+      for (const auto& p : scene.mesh.points) {
+        for (const double x : p) EXPECT_TRUE(std::isfinite(x));
+      }
+    }
+  }
+}
+
+TEST(DegenerateScenes, SliversAndDuplicatesOccur) {
+  std::uint64_t without_area = 0, merged = 0;
+  for (std::uint64_t i = 0; i < kScenes; ++i) {
+    without_area += scene::degenerate_triangles(named("slivers").make(kSeed, i).mesh).size();
+    for (const auto& piece : exact::build_complex(named("duplicates").make(kSeed, i).mesh).pieces)
+      merged += piece.origins.size() > 1;
+  }
+  EXPECT_GT(without_area, 0U);
+  EXPECT_GT(merged, 0U);
+}
+
+TEST(DegenerateScenes, TJunctionsAndCoplanarWallsAreCut) {
+  for (const char* name : {"t_junctions", "coplanar_walls"}) {
+    std::uint64_t cut = 0;
+    for (std::uint64_t i = 0; i < kScenes; ++i)
+      cut += exact::build_complex(named(name).make(kSeed, i).mesh).refined_triangles;
+    EXPECT_GT(cut, 0U) << name;
+  }
+}
+
+TEST(DegenerateScenes, FlatCellsHaveAllDimensions) {
+  std::map<int, int> dimensions;
+  for (std::uint64_t i = 0; i < kScenes; ++i)
+    ++dimensions[exact::ConvexCell::from_doubles(named("flat_cells").make(kSeed, i).cell).dimension()];
+  for (int d = 0; d <= 2; ++d) EXPECT_GT(dimensions[d], 0) << d;
+}
+
+TEST(DegenerateScenes, TouchingCellsTouch) {
+  for (std::uint64_t i = 0; i < kScenes; ++i) {
+    const GeneratedScene scene = named("touching_cells").make(kSeed, i);
+    const auto cell = exact::ConvexCell::from_doubles(scene.cell);
+    bool touches = false;
+    for (const auto& p : scene.mesh.points) touches = touches || cell.contains(exact::to_exact(p));
+    EXPECT_TRUE(touches) << i;
+  }
+}
+
+}  // namespace
+}  // namespace clues::fuzz

@@ -1,0 +1,57 @@
+// Answers that hide something visible, as campaigns meet them.
+#pragma once
+
+#include "exact/scene_query.h"
+#include "fuzz/campaign/subject.h"
+
+namespace clues::fuzz {
+
+class EverythingHidden : public Subject {
+ public:
+  Answer answer(const scene::TriangleMesh&, const std::vector<scene::Point>&) const override { return {}; }
+  std::string name() const override { return "everything-hidden"; }
+};
+
+// All but one triangle, which one depends on the coordinates and not on the order.
+class HidesOneTriangle : public Subject {
+ public:
+  Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>&) const override {
+    Answer out;
+    std::uint32_t hidden = 0;
+    double most = -1e300;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      double sum = 0;
+      for (const auto c : mesh.triangles[t]) sum += mesh.points[c][1];
+      if (sum > most) hidden = t;
+      most = std::max(most, sum);
+    }
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (t != hidden) out.pvs.push_back(t);
+    }
+    return out;
+  }
+  std::string name() const override { return "hides-one-triangle"; }
+};
+
+// What the cell's centre sees of every triangle's centroid and three points near its corners.
+class FromTheCentre : public Subject {
+ public:
+  Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) const override {
+    Answer out;
+    const auto complex = exact::build_complex(mesh);
+    const auto hull = exact::ConvexCell::from_doubles(cell);
+    const exact::SceneQuery query(complex, hull);
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      std::array<exact::Point3, 3> c;
+      for (std::size_t i = 0; i < 3; ++i) c[i] = exact::to_exact(mesh.points[mesh.triangles[t][i]]);
+      const auto middle = CGAL::centroid(c[0], c[1], c[2]);
+      bool seen = exact::meets_cell(c, hull) || query.is_free(hull.center(), middle);
+      for (const auto& corner : c) seen = seen || query.is_free(hull.center(), corner + (middle - corner) / 8);
+      if (seen) out.pvs.push_back(t);
+    }
+    return out;
+  }
+  std::string name() const override { return "from-the-centre"; }
+};
+
+}  // namespace clues::fuzz
