@@ -79,8 +79,9 @@ void Workers::launch(Worker& worker) {
   const pid_t pid = fork();
   if (pid < 0) fail("fork");
   if (pid == 0) {
-    signal(SIGINT, SIG_IGN);  // Ctrl-C is for the campaign, which lets us finish
-    signal(SIGTERM, SIG_DFL);
+    // Ctrl-C and `timeout` are for the campaign, which lets us finish.
+    signal(SIGINT, SIG_IGN);
+    signal(SIGTERM, SIG_IGN);
     signal(SIGPIPE, SIG_DFL);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(1);
