@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""How many mutations of the reference does the conformance suite catch?
+
+usage: run.py SOURCE WORK [--only NAME,...] [--out FILE]
+
+SOURCE is a checkout, WORK a folder for a copy of it with its own build (kept, so that a second run is quick). For each mutation of mutations.py:
+change the copy, build `clues`, and put the mutated reference to the suite through its own door (`clues conform --impl 'clues iut --kernel exact'`).
+Caught: an unsound answer, a crash or a time-out - or an answer looser than the one of the unchanged reference. Survived: the same summary as without
+the mutation. A mutation that does not build, or whose text is not found, is an error: repair mutations.py.
+"""
+import argparse
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from mutations import MUTATIONS  # noqa: E402
+
+
+def sh(command, cwd, seconds):
+    return subprocess.run(command, cwd=cwd, timeout=seconds, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+
+
+def build(tree):
+    return sh(["cmake", "--build", "build/mutation", "--target", "clues", "-j2"], tree, 1200)
+
+
+def judge(tree):
+    """The grade of every case, or None when the suite could not be run to its end."""
+    program, report = tree / "build/mutation/bin/clues", tree / "build/mutation/report.json"
+    report.unlink(missing_ok=True)
+    sh([program, "conform", "--impl", f"{program} iut --kernel exact", "--suite", "vectors", "--time-limit", "10", "--jobs", "2", "--json", report],
+       tree, 1200)
+    if not report.exists():
+        return None
+    cases = json.loads(report.read_text())["cases"]
+    return {c["id"]: (c["outcome"], c.get("extra"), c.get("missed")) for c in cases}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("source", type=pathlib.Path)
+    parser.add_argument("work", type=pathlib.Path)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--out", type=pathlib.Path)
+    options = parser.parse_args()
+    tree = options.work.resolve() / "tree"
+    if not tree.exists():
+        shutil.copytree(options.source, tree, ignore=shutil.ignore_patterns("build", ".git"))
+        done = sh(["cmake", "-S", ".", "-B", "build/mutation", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCLUES_BUILD_TESTS=OFF",
+                   "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -DNDEBUG"], tree, 300)
+        if done.returncode != 0:
+            sys.exit(done.stdout)
+    if build(tree).returncode != 0:
+        sys.exit("the unchanged tree does not build")
+    sound = judge(tree)
+    if sound is None or any(grade[0] == "unsound" for grade in sound.values()):
+        sys.exit("the unchanged reference does not pass the suite")
+    names = [n for n in options.only.split(",") if n]
+    rows = []
+    for name, file, text, replacement in MUTATIONS:
+        if names and name not in names:
+            continue
+        path = tree / file
+        original = path.read_text()
+        if text not in original:
+            sys.exit(f"{name}: its text is not in {file}")
+        path.write_text(original.replace(text, replacement, 1))
+        try:
+            if build(tree).returncode != 0:
+                verdict, seen = "does not build", []
+            else:
+                grades = judge(tree)
+                seen = [] if grades is None else sorted(c for c in sound if grades.get(c) != sound[c])
+                unsound = [] if grades is None else [c for c in seen if grades.get(c, ("",))[0] != "conservative"]
+                verdict = "caught" if grades is None or unsound else "looser" if seen else "SURVIVED"
+        finally:
+            path.write_text(original)
+        rows.append((name, verdict, len(seen), seen[0] if seen else ""))
+        print(f"{name:45} {verdict:15} {len(seen):4} {seen[0] if seen else ''}", flush=True)
+    caught = sum(1 for r in rows if r[1] in ("caught", "looser"))
+    summary = f"{caught} of {len(rows)} caught"
+    print(summary)
+    if options.out:
+        lines = [f"| {n} | {v} | {k} | {c} |" for n, v, k, c in rows]
+        options.out.write_text("| mutation | verdict | cases | first |\n|---|---|---|---|\n" + "\n".join(lines) + f"\n\n{summary}\n")
+
+
+if __name__ == "__main__":
+    main()
