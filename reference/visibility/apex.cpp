@@ -67,17 +67,16 @@ std::vector<Vector3> Apex::into_cell(const exact::ConvexCell& cell, const std::v
     const std::vector<int> face = star_.face_of(d);
     if (std::find(faces.begin(), faces.end(), face) != faces.end()) continue;
     faces.push_back(face);
-    if (std::any_of(sectors_.begin(), sectors_.end(), [&](const ApexSector& s) { return s.face == face; }))
-      found.push_back(d);
+    if (has_sector_in(face)) found.push_back(d);
   }
   return found;
 }
 
-bool Apex::has_sector_facing(const Vector3& d) const {
-  if (sectors_.empty()) return false;
-  const std::vector<int> face = star_.face_of(d);
+bool Apex::has_sector_in(const std::vector<int>& face) const {
   return std::any_of(sectors_.begin(), sectors_.end(), [&](const ApexSector& s) { return s.face == face; });
 }
+
+bool Apex::has_sector_facing(const Vector3& d) const { return !sectors_.empty() && has_sector_in(star_.face_of(d)); }
 
 void Apex::start_round() {
   probes_.clear();

@@ -68,6 +68,7 @@ class Apex {
  private:
   Apex(const exact::ConvexCell& cell, const exact::Point3& x, LocalStar star);
 
+  bool has_sector_in(const std::vector<int>& face) const;
   // Whether the visible space of the probe, in the local face of the sector, reaches the sector's inside.
   bool spreads(const Probe& p, const ApexSector& s) const;
 

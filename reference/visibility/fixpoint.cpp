@@ -227,7 +227,7 @@ class Search {
     VertexSource s{point, x, x + d, {}, {}, false};
     exact::FT pull(1);
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      if (!scene_.crossings(s.v, x).degenerate && apex.in_one_face(d, s.v - x)) break;
+      if (!scene_.crossings(s.v, x).degenerate && (attempt == 0 || apex.in_one_face(d, s.v - x))) break;
       std::vector<int> weights;
       for (std::size_t j = 0; j < n; ++j) weights.push_back(1 + (attempt * 7 + static_cast<int>(j) * 5) % 11);
       pull = pull / exact::FT(8);
