@@ -70,16 +70,22 @@ bool SegmentQueries::blocks(const Query& query, std::uint32_t triangle, bool kno
   return blocks_exact(s, t, *query.cell);
 }
 
-bool SegmentQueries::any_of_block(const Query& query, const BlockTest& test, const TriangleBlock& block) {
+template <class Found>
+bool SegmentQueries::hits_of_block(const Query& query, const BlockTest& test, const TriangleBlock& block,
+                                   const Found& found) {
   ++counts_.blocks;
   const BlockAnswer answer = test(block);
   for (unsigned lanes = answer.hit | answer.unsure; lanes != 0; lanes &= lanes - 1) {
     const int lane = __builtin_ctz(lanes);
     if (query.ignores(block.id[lane])) continue;
     const bool hit = ((answer.hit >> lane) & 1U) != 0;
-    if ((hit && query.cell == nullptr) || blocks(query, block.id[lane], hit)) return true;
+    if (((hit && query.cell == nullptr) || blocks(query, block.id[lane], hit)) && found(block.id[lane])) return true;
   }
   return false;
+}
+
+bool SegmentQueries::any_of_block(const Query& query, const BlockTest& test, const TriangleBlock& block) {
+  return hits_of_block(query, test, block, [](std::uint32_t) { return true; });
 }
 
 bool SegmentQueries::any_hit(const Segment& s, const Except& except) {
@@ -150,15 +156,10 @@ std::vector<std::uint32_t> SegmentQueries::all_hits(const Segment& s, const Exce
   const Query query(s, except);
   const BlockTest test(local);
   traverse(*bvh_, local, [&](const TriangleBlock& block) {
-    ++counts_.blocks;
-    const BlockAnswer answer = test(block);
-    for (unsigned lanes = answer.hit | answer.unsure; lanes != 0; lanes &= lanes - 1) {
-      const int lane = __builtin_ctz(lanes);
-      if (query.ignores(block.id[lane])) continue;
-      const bool hit = ((answer.hit >> lane) & 1U) != 0;
-      if ((hit && query.cell == nullptr) || blocks(query, block.id[lane], hit)) found.push_back(block.id[lane]);
-    }
-    return false;
+    return hits_of_block(query, test, block, [&](std::uint32_t id) {
+      found.push_back(id);
+      return false;
+    });
   });
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());  // blocks of fewer than four repeat one
@@ -194,14 +195,10 @@ std::optional<std::uint32_t> SegmentQueries::first_hit(const Segment& s, const E
   traverse_ordered(
       *bvh_, local,
       [&](const TriangleBlock& block) {
-        ++counts_.blocks;
-        const BlockAnswer answer = test(block);
-        for (unsigned lanes = answer.hit | answer.unsure; lanes != 0; lanes &= lanes - 1) {
-          const int lane = __builtin_ctz(lanes);
-          if (query.ignores(block.id[lane])) continue;
-          const bool hit = ((answer.hit >> lane) & 1U) != 0;
-          if ((hit && query.cell == nullptr) || blocks(query, block.id[lane], hit)) offer(block.id[lane]);
-        }
+        hits_of_block(query, test, block, [&](std::uint32_t id) {
+          offer(id);
+          return false;
+        });
       },
       [&] { return limit; });
   return best;

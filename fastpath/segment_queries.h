@@ -56,6 +56,9 @@ class SegmentQueries {
  private:
   struct Query;
   bool blocks(const Query& query, std::uint32_t triangle, bool known_to_meet);
+  // Tells `found` the triangles of the block that block the segment, until it answers true.
+  template <class Found>
+  bool hits_of_block(const Query& query, const BlockTest& test, const TriangleBlock& block, const Found& found);
   bool any_of_block(const Query& query, const BlockTest& test, const TriangleBlock& block);
 
   const Bvh* bvh_;
