@@ -33,8 +33,8 @@ bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode
 
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                      const Options& options) {
-  if (options.mode == Mode::solid) require_solid(exact::build_complex(mesh));
   VisibilityMap map{exact::build_complex(mesh, &cell), cell, options.mode, {}, {}, {}, {}, {}};
+  if (options.mode == Mode::solid) require_solid(map.complex);
   if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
   map.statistics.refined_triangles = map.complex.refined_triangles;
 
