@@ -167,8 +167,9 @@ class Builder {
         keep_left(w.center, w.center - w.on_ray1);
         if (w.near0 != w.near1) keep_left(w.near0, w.near0 - w.near1);
       } else {
-        corners = {w.near0, w.far0, w.far1};
-        if (w.near0 != w.near1) corners.push_back(w.near1);
+        for (const Point3& p : {w.near0, w.far0, w.far1, w.near1}) {  // at a joint of edge and blocker two are one
+          if (std::find(corners.begin(), corners.end(), p) == corners.end()) corners.push_back(p);
+        }
       }
       add_sheet(UmbraFacetKind::wedge, 0, w.plane, std::move(corners));
     }
