@@ -196,13 +196,14 @@ class Builder {
     return false;
   }
 
-  // A short point off q on the side that n points to, with nothing between.
+  // A short point off q on the side that n points to, with nothing between. Not straight along n, so that the way there runs in no plane of the scene.
   Point3 beside(const Point3& q, const Plane3& plane, const Vector3& n, const std::vector<std::uint32_t>& own) const {
-    constexpr int kSteps = 200;
+    constexpr int kSteps = 48, kSlowly = 24;
     const CGAL::Sign wanted = CGAL::sign(plane.orthogonal_vector() * n);
+    const Vector3 skew = n + CGAL::cross_product(n, Vector3(FT(5) / FT(97), FT(7) / FT(89), FT(11) / FT(83)));
     FT step = FT(1) / FT(4);
-    for (int i = 0; i < kSteps; ++i, step = step / FT(4)) {
-      const Point3 exactly = q + step * n;
+    for (int i = 0; i < kSteps; ++i, step = i < kSlowly ? step / FT(4) : FT(step * step)) {
+      const Point3 exactly = q + step * skew;
       for (int level = 0; level <= exact::kSimpleLevels; ++level) {
         const Point3 p = level == exact::kSimpleLevels
                              ? exact::collapsed(exactly)
