@@ -7,9 +7,13 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "app/cell_folder.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/progress.h"
@@ -29,7 +33,7 @@ using scene::ErrorCode;
 
 struct MapRequest {
   std::string scene, cell, cells, out;
-  bool with_map = false, json = false;
+  bool with_map = false, json = false, resume = false;
   MethodOptions method;
 };
 
@@ -51,15 +55,6 @@ std::string table_line(const std::string& name, const reference::VisibilityMap& 
 
 bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" || out.extension() == ".txt"; }
 
-// "0,1,2" -> "cell-0-1-2.clues.json"
-fs::path file_of_cell(const fs::path& folder, std::string name) {
-  if (name.find_first_not_of("0123456789,") != std::string::npos) name = "0";
-  for (char& c : name) {
-    if (c == ',') c = '-';
-  }
-  return folder / ("cell-" + name + ".clues.json");
-}
-
 MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& spec,
                     const reference::Options& options, const MapRequest& request) {
   const auto cell = exact::ConvexCell::from_doubles(spec.points);
@@ -72,48 +67,88 @@ MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, 
           table_line(spec.name, map)};
 }
 
-std::vector<MappedCell> map_all(const scene::TriangleMesh& mesh, const std::string& sha256,
-                                const std::vector<scene::CellSpec>& cells, reference::Options options,
-                                const MapRequest& request) {
+MappedCell map_one(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& cell,
+                   reference::Options options, const MapRequest& request) {
   ProgressBar bar("clues map");
-  if (cells.size() == 1) {
-    options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
-      bar.show(stage, done, total);
-    };
-    return {map_cell(mesh, sha256, cells[0], options, request)};
-  }
-  // Many cells: one thread each, so that none waits for another.
-  std::vector<MappedCell> mapped(cells.size());
-  std::mutex bar_mutex;
-  std::size_t done = 0;
+  options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
+    bar.show(stage, done, total);
+  };
+  return map_cell(mesh, sha256, cell, options, request);
+}
+
+// Everything that the results depend on.
+std::string request_text(const MapRequest& request, const std::string& sha256) {
+  return nlohmann::json{{"format", "clues-cells/1"},       {"scene_sha256", sha256},
+                        {"cells", request.cells},          {"mode", request.method.mode},
+                        {"method", request.method.method}, {"kernel", request.method.kernel},
+                        {"map", request.with_map}}
+             .dump(2) +
+         "\n";
+}
+
+// Maps the cells, each by one thread so that none waits for another, and gives each result to `finished` at once, one at a time.
+template <class Finished>
+void map_many(const scene::TriangleMesh& mesh, const std::string& sha256, const std::vector<scene::CellSpec>& cells,
+              const std::vector<std::size_t>& wanted, reference::Options options, const MapRequest& request,
+              const Finished& finished) {
+  ProgressBar bar("clues map");
+  bar.show("cells", cells.size() - wanted.size(), cells.size());
+  std::mutex mutex;
+  std::size_t done = cells.size() - wanted.size();
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   options.threads = 1;
   arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
-      mapped[i] = map_cell(mesh, sha256, cells[i], options, request);
-      const std::lock_guard lock(bar_mutex);
+    tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
+      MappedCell mapped = map_cell(mesh, sha256, cells[wanted[i]], options, request);
+      const std::lock_guard lock(mutex);
+      finished(wanted[i], std::move(mapped));
       bar.show("cells", ++done, cells.size());
     });
   });
+}
+
+// With a folder to write to: results go there as they are finished, and what is there already is not made again.
+std::vector<MappedCell> map_into_folder(const scene::TriangleMesh& mesh, const std::string& sha256,
+                                        const std::vector<scene::CellSpec>& cells, const reference::Options& options,
+                                        const MapRequest& request) {
+  const CellFolder folder(request.out, request_text(request, sha256), request.resume);
+  std::vector<std::size_t> wanted;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!folder.has(cells[i].name)) wanted.push_back(i);
+  }
+  std::vector<MappedCell> mapped(cells.size());
+  std::size_t kept = cells.size() - wanted.size();
+  if (kept > 0)
+    std::fputs(fmt::format("clues map: {} of {} cells were there already\n", kept, cells.size()).c_str(), stderr);
+  try {
+    map_many(mesh, sha256, cells, wanted, options, request, [&](std::size_t i, MappedCell&& cell) {
+      folder.put(cell.name, cell.bytes);
+      ++kept;
+      mapped[i].summary = std::move(cell.summary);
+    });
+  } catch (...) {
+    if (kept > 0) {
+      std::fputs(fmt::format("clues map: {} of {} cells are finished; the same command with --resume goes on\n", kept,
+                             cells.size())
+                     .c_str(),
+                 stderr);
+    }
+    throw;
+  }
   return mapped;
 }
 
-// All files or none: what was written before a failure is taken away again.
-void write_cells(const fs::path& folder, const std::vector<MappedCell>& mapped) {
-  const bool made = make_folder(folder);
-  std::vector<fs::path> written;
-  try {
-    for (const auto& cell : mapped) {
-      const auto path = file_of_cell(folder, cell.name);
-      scene::write_file_atomically(path, cell.bytes);
-      written.push_back(path);
-    }
-  } catch (...) {
-    std::error_code ignored;
-    for (const auto& path : written) fs::remove(path, ignored);
-    if (made) fs::remove(folder, ignored);
-    throw;
-  }
+std::vector<MappedCell> map_cells(const scene::TriangleMesh& mesh, const std::string& sha256,
+                                  const std::vector<scene::CellSpec>& cells, const reference::Options& options,
+                                  const MapRequest& request) {
+  if (request.cells.empty()) return {map_one(mesh, sha256, cells[0], options, request)};
+  if (!request.out.empty()) return map_into_folder(mesh, sha256, cells, options, request);
+  std::vector<MappedCell> mapped(cells.size());
+  std::vector<std::size_t> all(cells.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  map_many(mesh, sha256, cells, all, options, request,
+           [&](std::size_t i, MappedCell&& cell) { mapped[i] = std::move(cell); });
+  return mapped;
 }
 
 int run_map(MapRequest request) {
@@ -123,6 +158,9 @@ int run_map(MapRequest request) {
     throw Error(ErrorCode::bad_argument, "give one of --cell and --cells (see `clues map --help`)");
   }
   const bool many = !request.cells.empty();
+  if (request.resume && (!many || request.out.empty())) {
+    throw Error(ErrorCode::bad_argument, "--resume goes on with a folder of results: it needs --cells and -o");
+  }
   if (!request.out.empty() && !(many && fs::is_directory(request.out))) require_writable_parent(request.out);
   if (request.with_map && !many && wants_plain_list(request.out)) {
     throw Error(ErrorCode::bad_argument,
@@ -130,14 +168,10 @@ int run_map(MapRequest request) {
   }
   const auto mesh = scene::read_mesh(request.scene);
   const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
-  const auto mapped = map_all(mesh, scene::sha256_of_file(request.scene), cells, options, request);
+  const auto mapped = map_cells(mesh, scene::sha256_of_file(request.scene), cells, options, request);
 
   if (!request.out.empty()) {
-    if (many) {
-      write_cells(request.out, mapped);
-    } else {
-      scene::write_file_atomically(request.out, mapped[0].bytes);
-    }
+    if (!many) scene::write_file_atomically(request.out, mapped[0].bytes);
   } else if (request.json) {
     std::string text = many ? "[\n" : "";
     for (std::size_t i = 0; i < mapped.size(); ++i) text += (i ? ",\n" : "") + mapped[i].bytes;
@@ -170,15 +204,19 @@ void add_map_command(CLI::App& program, int& status) {
           "Where the result goes: a file (*.pvs and *.txt: a plain list of ids), or with --cells a folder that\n"
           "gets one file per cell")
       ->type_name("OUT");
+  command->add_flag("--resume", request->resume,
+                    "With --cells and -o: go on with a run that was stopped; cells whose files are there are not made "
+                    "again");
   command->footer(
       std::string("DESCRIPTION\n"
                   "  Lists the triangles of which some point may be seen from some point of the cell. No visible "
                   "triangle is ever\n"
                   "  left out; the answer may hold some that only look visible to the method (first-order).\n"
                   "  A table counts the triangles whose sides facing the cell are seen wholly, partly, or not at all.\n"
-                  "  The same input gives the same bytes, whatever --threads says. An existing OUT is replaced as a "
-                  "whole, or,\n"
-                  "  when anything fails, not at all.\n\n") +
+                  "  The same input gives the same bytes, whatever --threads says. An existing file OUT is replaced "
+                  "as a whole, or,\n"
+                  "  when anything fails, not at all. With --cells the file of each cell is written when the cell is "
+                  "finished.\n\n") +
       cell_help +
       "\n  grid:NXxNYxNZ:box:...   (--cells) the box cut into NX*NY*NZ equal boxes\n\n"
       "EXAMPLES\n"

@@ -48,7 +48,8 @@ struct Complex {
 Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell = nullptr);
 
 // D4: closed and consistently oriented: every edge has exactly two sides leaving it for each entering it. Returns the ids of
-// input triangles at offending edges (empty: solid mode is allowed). For a complex that is not cut by a cell.
+// input triangles at offending edges (empty: solid mode is allowed). Whether a cell cut the complex does not matter to whether there are any: a cut
+// closed mesh is closed.
 std::vector<std::uint32_t> triangles_not_solid(const Complex& complex);
 
 }  // namespace clues::exact

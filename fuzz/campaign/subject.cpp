@@ -2,11 +2,8 @@
 #include "fuzz/campaign/subject.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 
 #include "fuzz/campaign/files.h"
@@ -14,6 +11,7 @@
 #include "scene/error.h"
 #include "scene/mesh_io.h"
 #include "scene/result.h"
+#include "scene/temporary_folder.h"
 #include "validate/conform/child_process.h"
 #include "validate/conform/program_subject.h"
 
@@ -53,25 +51,6 @@ class ReferenceSubject : public Subject {
   reference::Options options_;
 };
 
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "clues-fuzz-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw Error(ErrorCode::file_unwritable, pattern + ": cannot make a temporary folder");
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string file(const char* name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
-
 class CommandSubject : public Subject {
  public:
   explicit CommandSubject(std::string text) : text_(std::move(text)), words_(validate::split_command(text_)) {
@@ -83,7 +62,7 @@ class CommandSubject : public Subject {
   }
 
   Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) const override {
-    const TemporaryFolder folder;
+    const scene::TemporaryFolder folder;
     const std::string pvs = folder.file("pvs.txt");
     scene::write_file_atomically(folder.file("scene.off"), scene::to_off_text(mesh));
     scene::write_file_atomically(folder.file("cell.obj"), points_as_obj(cell));

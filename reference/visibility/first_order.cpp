@@ -33,9 +33,9 @@ bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode
 }  // namespace
 
 Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options) {
-  if (options.mode == Mode::solid) require_solid(exact::build_complex(mesh));
   map_.reset(new VisibilityMap{exact::build_complex(mesh, &cell), cell, options.mode, {}, {}, {}, {}, {}});
   VisibilityMap& map = *map_;
+  if (options.mode == Mode::solid) require_solid(map.complex);
   if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
   map.statistics.refined_triangles = map.complex.refined_triangles;
 

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.h"
@@ -83,6 +85,36 @@ TEST(Map, ManyCellsMakeOneFileEachAndTheSameBytes) {
     EXPECT_THAT(bytes, HasSubstr("clues-result/1"));
     EXPECT_EQ(bytes, read_all(folder.file("cells3/" + name + ".clues.json")));
   }
+}
+
+TEST(Map, AStoppedRunOverManyCellsGoesOn) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const std::vector<std::string> command{"map", "scene.off", "--cells", "grid:2x1x1:box:-1,-1,-1,1,1,0", "-o", "cells"};
+  auto resumed = command;
+  resumed.push_back("--resume");
+  ASSERT_EQ(run_clues(command, folder.path()).exit_code, 0);
+  const auto first = folder.file("cells/cell-0-0-0.clues.json"), second = folder.file("cells/cell-1-0-0.clues.json");
+  const auto whole = read_all(second);
+
+  // What a kill leaves behind: one cell of two. The finished one is not made again.
+  std::filesystem::remove(second);
+  std::ofstream(first) << "kept";
+  const auto ran = run_clues(resumed, folder.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("1 of 2 cells"));
+  EXPECT_EQ(read_all(first), "kept");
+  EXPECT_EQ(read_all(second), whole);
+
+  // Neither a new run nor another question may mix its answers with these.
+  const auto again = run_clues(command, folder.path());
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("--resume"));
+  resumed.push_back("--map");
+  const auto other = run_clues(resumed, folder.path());
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("cells.json"));
+  EXPECT_EQ(read_all(second), whole);
 }
 
 TEST(Check, OwnPvsIsSound) {

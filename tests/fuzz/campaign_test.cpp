@@ -14,26 +14,12 @@
 #include "fuzz/generators/random_scenes.h"
 #include "planted_subjects.h"
 #include "scene/error.h"
+#include "scene/temporary_folder.h"
 
 namespace clues::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "clues-fuzz-test-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -71,8 +57,8 @@ CampaignOptions options_for(const fs::path& out, std::uint64_t cases) {
 }
 
 void is_found_and_shrunk(const Subject& subject, std::uint64_t within) {
-  const Folder folder;
-  auto options = options_for(folder / "out", within);
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "out", within);
   options.errors = 1;
   const CampaignSummary summary = run_campaign(options, subject);
   EXPECT_EQ(summary.exit_code(), 1);
@@ -101,8 +87,8 @@ TEST(PlantedSubject, RoundedComparisonIsFound) {
 }
 
 TEST(PlantedSubject, NothingIsFoundInASoundAnswer) {
-  const Folder folder;
-  auto options = options_for(folder / "out", 6);
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "out", 6);
   const auto subject = make_subject("reference");
   const CampaignSummary summary = run_campaign(options, *subject);
   EXPECT_TRUE(summary.findings.empty());
@@ -110,10 +96,10 @@ TEST(PlantedSubject, NothingIsFoundInASoundAnswer) {
 }
 
 TEST(Campaign, OneJobAndTwoLeaveTheSame) {
-  const Folder folder;
+  const scene::TemporaryFolder folder;
   std::string left[2];
   for (int jobs = 1; jobs <= 2; ++jobs) {
-    auto options = options_for(folder / std::to_string(jobs), 14);
+    auto options = options_for(folder.path() / std::to_string(jobs), 14);
     options.jobs = jobs;
     options.shrink.steps = 30;
     left[jobs - 1] = left_by(options.out, run_campaign(options, FromTheCentre()));
@@ -142,13 +128,13 @@ void run_and_be_killed(CampaignOptions options, int calls) {
 }
 
 TEST(Campaign, GoesOnAfterKillAsIfNothingHadHappened) {
-  const Folder folder;
-  auto whole = options_for(folder / "whole", 14);
+  const scene::TemporaryFolder folder;
+  auto whole = options_for(folder.path() / "whole", 14);
   whole.block = 3;
   whole.shrink.steps = 30;
   const std::string expected = left_by(whole.out, run_campaign(whole, FromTheCentre()));
   auto parts = whole;
-  parts.out = folder / "parts";
+  parts.out = folder.path() / "parts";
   parts.jobs = 2;
   run_and_be_killed(parts, 5);  // among the cases
   run_and_be_killed(parts, 4);
@@ -157,8 +143,8 @@ TEST(Campaign, GoesOnAfterKillAsIfNothingHadHappened) {
 }
 
 TEST(Campaign, StopsWhenAskedAndGoesOn) {
-  const Folder folder;
-  auto options = options_for(folder / "out", 12);
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "out", 12);
   options.shrink.steps = 30;
   std::atomic<bool> stop{false};
   options.stop = &stop;
@@ -174,8 +160,8 @@ TEST(Campaign, StopsWhenAskedAndGoesOn) {
 }
 
 TEST(Campaign, AnotherPlanIsRefused) {
-  const Folder folder;
-  auto options = options_for(folder / "out", 1);
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "out", 1);
   options.generators = {"loose_triangles"};
   run_campaign(options, HidesOneTriangle());
   options.seed = 8;
@@ -185,8 +171,8 @@ TEST(Campaign, AnotherPlanIsRefused) {
 }
 
 TEST(Campaign, WhatNeverOccurredIsSaid) {
-  const Folder folder;
-  auto options = options_for(folder / "out", 1);  // five generators of six never come
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "out", 1);  // five generators of six never come
   const auto subject = make_subject("reference");
   const CampaignSummary summary = run_campaign(options, *subject);
   EXPECT_EQ(summary.exit_code(), 3);
@@ -203,8 +189,8 @@ class Crashes : public Subject {
 };
 
 TEST(Campaign, ACrashIsAFindingAndNotTheEnd) {
-  const Folder folder;
-  auto options = options_for(folder / "out", 4);
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "out", 4);
   const CampaignSummary summary = run_campaign(options, Crashes());
   EXPECT_EQ(summary.cases, 4U);
   ASSERT_EQ(summary.findings.size(), 4U);
@@ -213,14 +199,14 @@ TEST(Campaign, ACrashIsAFindingAndNotTheEnd) {
 
 // A program that writes an empty PVS is found out; one that fails gives no answer.
 TEST(Campaign, ProgramsAreAskedThroughFiles) {
-  const Folder folder;
-  auto options = options_for(folder / "hides", 1);
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "hides", 1);
   options.shrink.steps = 20;
   const auto hides = make_subject("sh -c 'test -s {scene} && test -s {cell} && : > {pvs}'");
   const CampaignSummary hidden = run_campaign(options, *hides);
   ASSERT_FALSE(hidden.findings.empty());
   EXPECT_EQ(hidden.findings[0].finding.verdict, "hidden/visible");
-  options.out = folder / "fails";
+  options.out = folder.path() / "fails";
   const auto fails = make_subject("false");
   const CampaignSummary failed = run_campaign(options, *fails);
   ASSERT_EQ(failed.findings.size(), 1U);
@@ -230,7 +216,7 @@ TEST(Campaign, ProgramsAreAskedThroughFiles) {
 class AFinding : public testing::Test {
  protected:
   void SetUp() override {
-    auto options = options_for(folder_ / "out", 1);
+    auto options = options_for(folder_.path() / "out", 1);
     options.errors = 1;
     options.oracles = {"sight-lines"};
     const CampaignSummary summary = run_campaign(options, EverythingHidden());
@@ -243,7 +229,7 @@ class AFinding : public testing::Test {
     ASSERT_NE(at, text.npos);
     std::ofstream(file, std::ios::binary) << text.replace(at, from.size(), to);
   }
-  Folder folder_;
+  scene::TemporaryFolder folder_;
   fs::path saved_;
 };
 
