@@ -8,6 +8,7 @@
 
 #include "exact/scene_query.h"
 #include "reference/visibility/fixpoint.h"
+#include "reference/visibility/omega.h"
 #include "reference/visibility/regions.h"
 #include "scene/error.h"
 
@@ -31,19 +32,20 @@ bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode
 
 }  // namespace
 
-VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
-                                     const Options& options) {
-  VisibilityMap map{exact::build_complex(mesh, &cell), cell, options.mode, {}, {}, {}, {}, {}};
+Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options) {
+  map_.reset(new VisibilityMap{exact::build_complex(mesh, &cell), cell, options.mode, {}, {}, {}, {}, {}});
+  VisibilityMap& map = *map_;
   if (options.mode == Mode::solid) require_solid(map.complex);
   if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
   map.statistics.refined_triangles = map.complex.refined_triangles;
 
-  const exact::SceneQuery scene(map.complex, map.cell);
+  scene_ = std::make_unique<exact::SceneQuery>(map.complex, map.cell);
+  const exact::SceneQuery& scene = *scene_;
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   arena.execute([&] {
-    const Fixpoint fixpoint = find_wedges(scene, options, map.statistics);
-    for (const ValidPiece& p : fixpoint.wedges.pieces()) map.wedges.push_back(p.wedge);
-    make_regions(scene, fixpoint, options, map);
+    fixpoint_ = std::make_unique<Fixpoint>(find_wedges(scene, options, map.statistics));
+    for (const ValidPiece& p : fixpoint_->wedges.pieces()) map.wedges.push_back(p.wedge);
+    make_regions(scene, *fixpoint_, options, map);
   });
   assert(options.planted_bug != PlantedBug::none || map.statistics.walk_disagreements == 0);  // D14
 
@@ -62,7 +64,11 @@ VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exac
   for (std::uint32_t t = 0; t < visible.size(); ++t) {
     if (visible[t]) map.visible.push_back(t);
   }
-  return map;
+}
+
+VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
+                                     const Options& options) {
+  return Omega(mesh, cell, options).take_map();
 }
 
 std::vector<std::uint8_t> VisibilityMap::triangle_state() const {

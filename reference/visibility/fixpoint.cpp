@@ -263,6 +263,16 @@ class Search {
     return batch;
   }
 
+  // Where the ray through `on_ray` starts: on the sector's near bound.
+  static Point3 near_point(const Sector& sector, const OnWedge& on, const Spot& on_ray) {
+    if (sector.from_apex()) return sector.center;
+    if (on_ray.p == sector.near0 || on_ray.p == sector.near1) return on_ray.p;
+    const exact::Point2 a = on.frame(sector.near0), b = on.frame(sector.near1);
+    const exact::Vector2 d = on_ray.q - on.center;
+    const exact::FT at_a = CGAL::determinant(d, a - on.center), at_b = CGAL::determinant(d, b - on.center);
+    return exact::collapsed(sector.near0 + (at_a / (at_a - at_b)) * (sector.near1 - sector.near0));
+  }
+
   std::vector<ValidPiece> pieces_of(const Job& job) const {
     const Sector sector = sector_of(job);
     const std::shared_ptr<const OnWedge>& on = *job.slot;
@@ -283,8 +293,8 @@ class Search {
       w.generation = job.touching < 0 ? job.apex->generation : 0;
       w.plane = sector.plane;
       w.center = sector.center;
-      w.near0 = sector.near0;
-      w.near1 = sector.near1;
+      w.near0 = near_point(sector, *on, strip.on_ray0);
+      w.near1 = near_point(sector, *on, strip.on_ray1);
       w.on_ray0 = strip.on_ray0.p;
       w.on_ray1 = strip.on_ray1.p;
       w.unbounded = !strip.blocker;
