@@ -9,6 +9,7 @@
 #include "exact/scene_query.h"
 #include "reference/visibility/fixpoint.h"
 #include "reference/visibility/regions.h"
+#include "reference/visibility/traversal/traversal.h"
 #include "scene/error.h"
 
 namespace clues::reference {
@@ -33,17 +34,24 @@ bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode
 
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                      const Options& options) {
-  VisibilityMap map{exact::build_complex(mesh, &cell), cell, options.mode, {}, {}, {}, {}, {}};
+  VisibilityMap map{exact::build_complex(mesh, &cell), cell, options.mode, options.formulation, {}, {}, {}, {}, {}};
   if (options.mode == Mode::solid) require_solid(map.complex);
   if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
   map.statistics.refined_triangles = map.complex.refined_triangles;
 
   const exact::SceneQuery scene(map.complex, map.cell);
+  const auto finish = [&](const exact::SceneQuery& in, const Fixpoint& fixpoint, const std::vector<bool>& visited) {
+    for (const ValidPiece& p : fixpoint.wedges.pieces()) map.wedges.push_back(p.wedge);
+    make_regions(in, fixpoint, visited, options, map);
+  };
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   arena.execute([&] {
-    const Fixpoint fixpoint = find_wedges(scene, options, map.statistics);
-    for (const ValidPiece& p : fixpoint.wedges.pieces()) map.wedges.push_back(p.wedge);
-    make_regions(scene, fixpoint, options, map);
+    if (options.formulation == Formulation::traversal) {
+      const Traversal t = traverse(scene, options, map.statistics);
+      finish(*t.scene, t.fixpoint, t.visited);
+    } else {
+      finish(scene, find_wedges(scene, options, map.statistics), {});
+    }
   });
   assert(options.planted_bug != PlantedBug::none || map.statistics.walk_disagreements == 0);  // D14
 
@@ -102,6 +110,15 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   put("sv_me", s.sv_me);
   put("walk_disagreements", s.walk_disagreements);
   put("walks", s.walks);
+  if (map.formulation == Formulation::traversal) {
+    put("traversal_clusters", s.clusters);
+    put("traversal_passes", s.passes);
+    put("traversal_shaft_tests", s.shaft_tests);
+    put("traversal_sight_lines", s.sight_lines);
+    put("traversal_surfaces_seen", s.surfaces_seen);
+    put("traversal_surfaces_visited", s.surfaces_visited);
+    put("traversal_wedges_built", s.wedges_built);
+  }
   if (!with_map) return result;
 
   result.has_map = true;
