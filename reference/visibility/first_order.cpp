@@ -10,6 +10,7 @@
 #include "reference/visibility/fixpoint.h"
 #include "reference/visibility/omega.h"
 #include "reference/visibility/regions.h"
+#include "reference/visibility/traversal/traversal.h"
 #include "scene/error.h"
 
 namespace clues::reference {
@@ -33,19 +34,28 @@ bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode
 }  // namespace
 
 Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options) {
-  map_.reset(new VisibilityMap{exact::build_complex(mesh, &cell), cell, options.mode, {}, {}, {}, {}, {}});
+  map_.reset(new VisibilityMap{
+      exact::build_complex(mesh, &cell), cell, options.mode, options.formulation, {}, {}, {}, {}, {}});
   VisibilityMap& map = *map_;
   if (options.mode == Mode::solid) require_solid(map.complex);
   if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
   map.statistics.refined_triangles = map.complex.refined_triangles;
 
   scene_ = std::make_unique<exact::SceneQuery>(map.complex, map.cell);
-  const exact::SceneQuery& scene = *scene_;
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   arena.execute([&] {
-    fixpoint_ = std::make_unique<Fixpoint>(find_wedges(scene, options, map.statistics));
+    std::vector<bool> visited;
+    if (options.formulation == Formulation::traversal) {
+      Traversal t = traverse(*scene_, options, map.statistics);
+      part_ = std::move(t.part);
+      scene_ = std::move(t.scene);
+      fixpoint_ = std::make_unique<Fixpoint>(std::move(t.fixpoint));
+      visited = std::move(t.visited);
+    } else {
+      fixpoint_ = std::make_unique<Fixpoint>(find_wedges(*scene_, options, map.statistics));
+    }
     for (const ValidPiece& p : fixpoint_->wedges.pieces()) map.wedges.push_back(p.wedge);
-    make_regions(scene, *fixpoint_, options, map);
+    make_regions(*scene_, *fixpoint_, visited, options, map);
   });
   assert(options.planted_bug != PlantedBug::none || map.statistics.walk_disagreements == 0);  // D14
 
@@ -58,7 +68,7 @@ Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, con
     }
   }
   for (std::uint32_t t = 0; t < map.complex.pieces.size(); ++t) {
-    if (!scene.meets_cell(t)) continue;
+    if (!scene_->meets_cell(t)) continue;
     for (const exact::Origin& o : map.complex.pieces[t].origins) visible[o.triangle] = true;
   }
   for (std::uint32_t t = 0; t < visible.size(); ++t) {
@@ -108,6 +118,15 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   put("sv_me", s.sv_me);
   put("walk_disagreements", s.walk_disagreements);
   put("walks", s.walks);
+  if (map.formulation == Formulation::traversal) {
+    put("traversal_clusters", s.clusters);
+    put("traversal_passes", s.passes);
+    put("traversal_shaft_tests", s.shaft_tests);
+    put("traversal_sight_lines", s.sight_lines);
+    put("traversal_surfaces_seen", s.surfaces_seen);
+    put("traversal_surfaces_visited", s.surfaces_visited);
+    put("traversal_wedges_built", s.wedges_built);
+  }
   if (!with_map) return result;
 
   result.has_map = true;

@@ -18,6 +18,7 @@ class Omega {
   Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options);
 
   const VisibilityMap& map() const { return *map_; }
+  // What wedges and labels refer to: all surfaces, or those that the traversal visited.
   const exact::SceneQuery& scene() const { return *scene_; }
   const Fixpoint& fixpoint() const { return *fixpoint_; }
 
@@ -25,6 +26,7 @@ class Omega {
 
  private:
   std::unique_ptr<VisibilityMap> map_;
+  std::unique_ptr<exact::Complex> part_;  // the traversal's
   std::unique_ptr<exact::SceneQuery> scene_;
   std::unique_ptr<Fixpoint> fixpoint_;
 };

@@ -7,7 +7,9 @@
 
 namespace clues::reference {
 
-// Fills map.regions, map.segments and the counters of regions and walks. Sides that do not count in the mode are left out.
-void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options, VisibilityMap& map);
+// Fills map.regions, map.segments and the counters of regions and walks. Sides that do not count in the mode are left out. `visited`, if not empty,
+// says which pieces may have a visible region; the others get one hidden region on each side.
+void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const std::vector<bool>& visited,
+                  const Options& options, VisibilityMap& map);
 
 }  // namespace clues::reference
