@@ -34,7 +34,12 @@ bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                      const Options& options) {
   if (options.mode == Mode::solid) require_solid(exact::build_complex(mesh));
-  VisibilityMap map{exact::build_complex(mesh, &cell), cell, options.mode, {}, {}, {}, {}, {}};
+  return first_order_visibility_in(exact::build_complex(mesh, &cell), cell, options);
+}
+
+VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exact::ConvexCell& cell,
+                                        const Options& options, const std::vector<bool>& wanted) {
+  VisibilityMap map{complex, cell, options.mode, {}, {}, {}, {}, {}};
   if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
   map.statistics.refined_triangles = map.complex.refined_triangles;
 
@@ -43,12 +48,16 @@ VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exac
   arena.execute([&] {
     const Fixpoint fixpoint = find_wedges(scene, options, map.statistics);
     for (const ValidPiece& p : fixpoint.wedges.pieces()) map.wedges.push_back(p.wedge);
-    make_regions(scene, fixpoint, options, map);
+    make_regions(scene, fixpoint, options, wanted, map);
   });
   assert(options.planted_bug != PlantedBug::none || map.statistics.walk_disagreements == 0);  // D14
 
-  // D15: the PVS. D3: a triangle that meets the cell is visible.
-  std::vector<bool> visible(mesh.triangles.size(), false);
+  find_visible(scene, map);
+  return map;
+}
+
+void find_visible(const exact::SceneQuery& scene, VisibilityMap& map) {
+  std::vector<bool> visible(map.complex.input_triangles, false);
   for (const Region& r : map.regions) {
     if (!r.visible) continue;
     for (const exact::Origin& o : map.complex.pieces[r.piece].origins) {
@@ -59,10 +68,10 @@ VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exac
     if (!scene.meets_cell(t)) continue;
     for (const exact::Origin& o : map.complex.pieces[t].origins) visible[o.triangle] = true;
   }
+  map.visible.clear();
   for (std::uint32_t t = 0; t < visible.size(); ++t) {
     if (visible[t]) map.visible.push_back(t);
   }
-  return map;
 }
 
 std::vector<std::uint8_t> VisibilityMap::triangle_state() const {
@@ -81,6 +90,7 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   scene::Result result;
   result.scene_triangles = map.complex.input_triangles;
   result.cell = cell.points;
+  result.method = map.method;
   result.mode = map.mode == Mode::solid ? "solid" : "sheet";
   result.visible = map.visible;
   const Statistics& s = map.statistics;

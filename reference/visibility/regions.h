@@ -7,7 +7,9 @@
 
 namespace clues::reference {
 
-// Fills map.regions, map.segments and the counters of regions and walks. Sides that do not count in the mode are left out.
-void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options, VisibilityMap& map);
+// Fills map.regions, map.segments and the counters of regions and walks. Sides that do not count in the mode are left out, and
+// so are those that are not `wanted` (per side_index; empty: all are).
+void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options,
+                  const std::vector<bool>& wanted, VisibilityMap& map);
 
 }  // namespace clues::reference
