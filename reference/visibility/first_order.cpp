@@ -29,15 +29,23 @@ void require_solid(const exact::Complex& complex) {
                          " in all) have an edge that is open or turned over; close the mesh, or use sheet mode");
 }
 
+exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, Mode mode) {
+  exact::Complex complex = exact::build_complex(mesh, &cell);
+  if (mode == Mode::solid) require_solid(complex);
+  return complex;
+}
+
 bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode::sheet || o.same_side == front; }
 
 }  // namespace
 
-Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options) {
-  map_.reset(new VisibilityMap{
-      exact::build_complex(mesh, &cell), cell, options.mode, options.formulation, {}, {}, {}, {}, {}});
+Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options)
+    : Omega(complex_for(mesh, cell, options.mode), cell, options, {}) {}
+
+Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Options& options,
+             const std::vector<bool>& wanted) {
+  map_.reset(new VisibilityMap{std::move(complex), cell, options.mode, options.formulation, {}, {}, {}, {}, {}});
   VisibilityMap& map = *map_;
-  if (options.mode == Mode::solid) require_solid(map.complex);
   if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
   map.statistics.refined_triangles = map.complex.refined_triangles;
 
@@ -55,12 +63,24 @@ Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, con
       fixpoint_ = std::make_unique<Fixpoint>(find_wedges(*scene_, options, map.statistics));
     }
     for (const ValidPiece& p : fixpoint_->wedges.pieces()) map.wedges.push_back(p.wedge);
-    make_regions(*scene_, *fixpoint_, visited, options, map);
+    make_regions(*scene_, *fixpoint_, {visited, wanted}, options, map);
   });
   assert(options.planted_bug != PlantedBug::none || map.statistics.walk_disagreements == 0);  // D14
+  find_visible(*scene_, map);
+}
 
-  // D15: the PVS. D3: a triangle that meets the cell is visible.
-  std::vector<bool> visible(mesh.triangles.size(), false);
+VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
+                                     const Options& options) {
+  return Omega(mesh, cell, options).take_map();
+}
+
+VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exact::ConvexCell& cell,
+                                        const Options& options, const std::vector<bool>& wanted) {
+  return Omega(complex, cell, options, wanted).take_map();
+}
+
+void find_visible(const exact::SceneQuery& scene, VisibilityMap& map) {
+  std::vector<bool> visible(map.complex.input_triangles, false);
   for (const Region& r : map.regions) {
     if (!r.visible) continue;
     for (const exact::Origin& o : map.complex.pieces[r.piece].origins) {
@@ -68,17 +88,13 @@ Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, con
     }
   }
   for (std::uint32_t t = 0; t < map.complex.pieces.size(); ++t) {
-    if (!scene_->meets_cell(t)) continue;
+    if (!scene.meets_cell(t)) continue;
     for (const exact::Origin& o : map.complex.pieces[t].origins) visible[o.triangle] = true;
   }
+  map.visible.clear();
   for (std::uint32_t t = 0; t < visible.size(); ++t) {
     if (visible[t]) map.visible.push_back(t);
   }
-}
-
-VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
-                                     const Options& options) {
-  return Omega(mesh, cell, options).take_map();
 }
 
 std::vector<std::uint8_t> VisibilityMap::triangle_state() const {
@@ -97,6 +113,7 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   scene::Result result;
   result.scene_triangles = map.complex.input_triangles;
   result.cell = cell.points;
+  result.method = map.method;
   result.mode = map.mode == Mode::solid ? "solid" : "sheet";
   result.visible = map.visible;
   const Statistics& s = map.statistics;

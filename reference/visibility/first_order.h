@@ -11,6 +11,7 @@
 #include "exact/complex.h"
 #include "exact/convex_cell.h"
 #include "exact/kernel.h"
+#include "exact/scene_query.h"
 #include "reference/visibility/wedge.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh.h"
@@ -91,6 +92,7 @@ struct VisibilityMap {
   std::vector<Region> regions;         // by piece, front before back
   std::vector<std::uint32_t> visible;  // the PVS: input triangle ids, ascending
   Statistics statistics;
+  std::string method = "first-order";  // or how it was refined (D20, D21)
 
   // Whether any visible region / any hidden region of input triangle t exists (partly visible: both), on sides that count in
   // the mode.
@@ -100,6 +102,17 @@ struct VisibilityMap {
 // Throws scene::Error not_solid when mode is solid and the mesh is not closed and consistently oriented.
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                      const Options& options);
+
+// The sides of the pieces of a complex, numbered.
+inline std::size_t side_index(std::uint32_t piece, bool front) { return 2 * std::size_t{piece} + (front ? 0 : 1); }
+
+// The map of a cell, or of a part of it, in a complex that was cut for the whole cell: what lies in the whole cell does not occlude,
+// also where it is outside the part (D21). Regions only of the sides wanted (per side_index; empty: all); the mode is not checked against the mesh.
+VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exact::ConvexCell& cell,
+                                        const Options& options, const std::vector<bool>& wanted = {});
+
+// D15: the PVS by the map's regions. D3: a triangle that meets the cell is visible.
+void find_visible(const exact::SceneQuery& scene, VisibilityMap& map);
 
 // The result file's contents; scene_file and scene_sha256 are left to the caller. with_map adds regions, segments and wedges.
 scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map);

@@ -16,6 +16,8 @@ class Omega {
  public:
   // As first_order_visibility.
   Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options);
+  // As first_order_visibility_in.
+  Omega(exact::Complex complex, const exact::ConvexCell& cell, const Options& options, const std::vector<bool>& wanted);
 
   const VisibilityMap& map() const { return *map_; }
   // What wedges and labels refer to: all surfaces, or those that the traversal visited.

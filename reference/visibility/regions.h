@@ -7,9 +7,15 @@
 
 namespace clues::reference {
 
-// Fills map.regions, map.segments and the counters of regions and walks. Sides that do not count in the mode are left out. `visited`, if not empty,
-// says which pieces may have a visible region; the others get one hidden region on each side.
-void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const std::vector<bool>& visited,
+// Which regions are asked for.
+struct RegionScope {
+  const std::vector<bool>&
+      visited;  // per piece; the others have no visible region and get one hidden region on each side. Empty: all
+  const std::vector<bool>& wanted;  // per side_index; the others get no region. Empty: all
+};
+
+// Fills map.regions, map.segments and the counters of regions and walks. Sides that do not count in the mode are left out.
+void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const RegionScope& scope,
                   const Options& options, VisibilityMap& map);
 
 }  // namespace clues::reference
