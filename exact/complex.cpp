@@ -13,10 +13,12 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "exact/complex_internal.h"
 #include "exact/kernel.h"
+#include "scene/error.h"
 
 namespace clues::exact {
 namespace {
@@ -274,6 +276,18 @@ std::vector<std::uint32_t> triangles_not_solid(const Complex& complex) {
   std::sort(bad.begin(), bad.end());
   bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
   return bad;
+}
+
+void require_solid(const Complex& complex) {
+  const std::vector<std::uint32_t> bad = triangles_not_solid(complex);
+  if (bad.empty()) return;
+  std::string list;
+  for (std::size_t i = 0; i < bad.size() && i < 5; ++i) list += (i ? ", " : "") + std::to_string(bad[i]);
+  throw scene::Error(scene::ErrorCode::not_solid,
+                     "solid mode needs a closed, consistently oriented mesh, but triangle" +
+                         std::string(bad.size() > 1 ? "s " : " ") + list + (bad.size() > 5 ? ", ..." : "") + " (" +
+                         std::to_string(bad.size()) +
+                         " in all) have an edge that is open or turned over; close the mesh, or use sheet mode");
 }
 
 }  // namespace clues::exact

@@ -52,4 +52,7 @@ Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell = 
 // closed mesh is closed.
 std::vector<std::uint32_t> triangles_not_solid(const Complex& complex);
 
+// Throws scene::Error not_solid, which names some of these triangles, if there are any.
+void require_solid(const Complex& complex);
+
 }  // namespace clues::exact

@@ -11,27 +11,14 @@
 #include "reference/visibility/omega.h"
 #include "reference/visibility/regions.h"
 #include "reference/visibility/traversal/traversal.h"
-#include "scene/error.h"
 
 namespace clues::reference {
 
 namespace {
 
-void require_solid(const exact::Complex& complex) {
-  const std::vector<std::uint32_t> bad = exact::triangles_not_solid(complex);
-  if (bad.empty()) return;
-  std::string list;
-  for (std::size_t i = 0; i < bad.size() && i < 5; ++i) list += (i ? ", " : "") + std::to_string(bad[i]);
-  throw scene::Error(scene::ErrorCode::not_solid,
-                     "solid mode needs a closed, consistently oriented mesh, but triangle" +
-                         std::string(bad.size() > 1 ? "s " : " ") + list + (bad.size() > 5 ? ", ..." : "") + " (" +
-                         std::to_string(bad.size()) +
-                         " in all) have an edge that is open or turned over; close the mesh, or use sheet mode");
-}
-
 exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, Mode mode) {
   exact::Complex complex = exact::build_complex(mesh, &cell);
-  if (mode == Mode::solid) require_solid(complex);
+  if (mode == Mode::solid) exact::require_solid(complex);
   return complex;
 }
 
