@@ -86,11 +86,13 @@ void require_solid(const scene::TriangleMesh& mesh) {
       ways.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
     }
   }
-  std::sort(ways.begin(), ways.end(), [](const Way& x, const Way& y) { return std::tie(x.low, x.high) < std::tie(y.low, y.high); });
+  std::sort(ways.begin(), ways.end(),
+            [](const Way& x, const Way& y) { return std::tie(x.low, x.high) < std::tie(y.low, y.high); });
   for (std::size_t i = 0; i < ways.size();) {
     int balance = 0;
     const std::size_t first = i;
-    for (; i < ways.size() && ways[i].low == ways[first].low && ways[i].high == ways[first].high; ++i) balance += ways[i].balance;
+    for (; i < ways.size() && ways[i].low == ways[first].low && ways[i].high == ways[first].high; ++i)
+      balance += ways[i].balance;
     if (balance != 0) return exact::require_solid(exact::build_complex(mesh));
   }
 }

@@ -15,11 +15,11 @@ namespace {
 constexpr std::uint64_t kSideSeed = 0x1d, kLabelSeed = 0x7a3;
 constexpr auto kNothing = [](const Plane&) { return false; };
 
-IntervalBox to_box(const WorldBox& b) {
+IntervalBox to_box(const Box& b) {
   return {Interval(b.low[0], b.high[0]), Interval(b.low[1], b.high[1]), Interval(b.low[2], b.high[2])};
 }
 
-IntervalBox bounds_of(const LocalScene& scene, const WorldBox* outside) {
+IntervalBox bounds_of(const LocalScene& scene, const Box* outside) {
   return outside ? hull(scene.bounds, to_box(*outside)) : scene.bounds;
 }
 
@@ -54,8 +54,7 @@ PieceBounds bounds_of(const ValidPiece& piece) {
 
 class LocalMap::Parts {
  public:
-  Parts(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& o,
-        const WorldBox* outside)
+  Parts(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& o, const Box* outside)
       : options(o),
         scene(mesh, cell),
         bounds(fastpath::bounds_of(scene, outside)),
@@ -259,7 +258,7 @@ LocalMap::Label LocalMap::label(const Point& p) const {
   return l == Walker::Label::hidden ? Label::hidden : Label::visible;
 }
 
-bool LocalMap::piece_may_touch(const WorldBox& given) const {
+bool LocalMap::piece_may_touch(const Box& given) const {
   const RoundedUp rounded_up;
   const IntervalBox box = to_box(given);
   return parts_->piece_tree.any([&](const IntervalBox& b) { return overlap(b, box); },
@@ -299,7 +298,7 @@ bool LocalMap::piece_may_touch(const Corners& triangle) const {
 }
 
 LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& options,
-                        const WorldBox* outside) {
+                        const Box* outside) {
   for (const Point& p : mesh.points) {
     for (const double x : p) {
       if (!std::isfinite(x))

@@ -11,6 +11,7 @@
 
 #include "exact/convex_cell.h"
 #include "fastpath/filter.h"
+#include "fastpath/visibility/box.h"
 #include "scene/mesh.h"
 
 namespace clues::fastpath {
@@ -21,11 +22,6 @@ struct LocalMapOptions {
   SideMode mode = SideMode::sheet;  // solid: only fronts count. That the mesh is closed is for the caller to know.
   int generation_limit = 16;        // D17
   bool regions = false;             // also make LocalMap::regions()
-};
-
-// A closed box in doubles.
-struct WorldBox {
-  Point low{}, high{};
 };
 
 enum class PieceKind : std::uint8_t { sv_me, se_me, se_mv };  // D10, D11, D12
@@ -39,7 +35,7 @@ struct WedgePiece {
   std::vector<Point>
       outline_estimate{};  // near end 0, near end 1 (SE-MV: once), far end 1, far end 0; far ends clipped to the bounds
   bool unbounded = false;  // nothing ends it within the scene
-  WorldBox box;
+  Box box;
 };
 
 // A region of one label on one side of a triangle (D15).
@@ -74,7 +70,7 @@ class LocalMap {
   std::uint64_t conservative_labels() const;
 
   // False only if no valid piece meets the closed box (the closed triangle).
-  bool piece_may_touch(const WorldBox& box) const;
+  bool piece_may_touch(const Box& box) const;
   bool piece_may_touch(const Corners& triangle) const;
 
   const LocalMapCounts& counts() const;
@@ -90,6 +86,6 @@ class LocalMap {
 // `outside` widens the bounds to which unbounded pieces are clipped in boxes; questions about boxes, triangles and points must stay within
 // the hull of mesh, cell and `outside`.
 LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& options,
-                        const WorldBox* outside = nullptr);
+                        const Box* outside = nullptr);
 
 }  // namespace clues::fastpath
