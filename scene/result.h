@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/mesh.h"
@@ -59,6 +60,9 @@ std::string to_json_text(const Result& result);
 // Sorted and unique. Throws Error: file errors, malformed (file and line), index_out_of_range when an id is
 // >= triangles.
 std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, std::uint64_t triangles);
+// The same from bytes; `file` is for messages only.
+std::vector<std::uint32_t> parse_pvs_list(std::string_view bytes, const std::string& file, std::uint64_t triangles);
+std::vector<std::uint32_t> parse_result_pvs(std::string_view bytes, const std::string& file, std::uint64_t triangles);
 std::string to_pvs_text(const std::vector<std::uint32_t>& visible);
 
 // Lower-case hex SHA-256 of a file's bytes.
