@@ -13,7 +13,6 @@ namespace clues::fastpath {
 namespace {
 
 constexpr std::uint64_t kSideSeed = 0x1d, kLabelSeed = 0x7a3;
-constexpr auto kNothing = [](const Plane&) { return false; };
 
 IntervalBox to_box(const Box& b) {
   return {Interval(b.low[0], b.high[0]), Interval(b.low[1], b.high[1]), Interval(b.low[2], b.high[2])};
@@ -156,6 +155,11 @@ class LocalMap::Parts {
     const auto& s = scene.cell.vertices;
     if (std::none_of(s.begin(), s.end(), [&](const ExactPoint& v) { return h.side(v) == side; })) return false;
     if (is_cut) return true;
+    // A wedge piece in the plane of the piece lies on its back, as V has points in front.
+    const auto behind_the_piece = [&](const Plane& wedge) {
+      return wedge.side(scene.corner(t, 0)) == 0 && wedge.side(scene.corner(t, 1)) == 0 &&
+             wedge.side(scene.corner(t, 2)) == 0;
+    };
     const Point a = scene.corner(t, 0).estimate(), b = scene.corner(t, 1).estimate(), c = scene.corner(t, 2).estimate();
     const Vec3<Interval>& n = h.normal_approximate();
     const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
@@ -182,7 +186,7 @@ class LocalMap::Parts {
         const bool blocked = scene.tree.any(SegmentTest(p, q), [&](std::uint32_t i) {
           return scene.occluders[i] != t && scene.crosses(p, q, scene.occluders[i]) != Crossing::no;
         });
-        if (blocked || search.pieces().may_meet(p, q, 0, kNothing)) continue;
+        if (blocked || search.pieces().may_meet(p, q, 0, behind_the_piece)) continue;
         Pool pool;
         ++counts.walks;
         const Walker::Label l = label(&p, pool, kSideSeed);
