@@ -140,7 +140,7 @@ std::optional<Outside> outside_of(const Cell& cell, const Vec& v, const Vec& p) 
   return part;
 }
 
-struct SightLine {
+struct Line {
   Vec v, direction, moment;  // Pluecker coordinates of the line from v to p
   Outside part;
 
@@ -150,7 +150,7 @@ struct SightLine {
   Rational side(const Vec& a, const Vec& b) const { return dot(direction, cross(a, b)) + dot(moment, b - a); }
 };
 
-bool blocked_in_plane(const SightLine& line, const std::array<Vec, 3>& t, const Vec& normal) {
+bool blocked_in_plane(const Line& line, const std::array<Vec, 3>& t, const Vec& normal) {
   Rational low = line.part.begin, high = 1;
   bool low_in = line.part.closed, high_in = false;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -170,7 +170,7 @@ bool blocked_in_plane(const SightLine& line, const std::array<Vec, 3>& t, const 
   return low < high || (low == high && low_in && high_in);
 }
 
-bool blocked(const SightLine& line, const std::array<Vec, 3>& t, const Vec& normal) {
+bool blocked(const Line& line, const std::array<Vec, 3>& t, const Vec& normal) {
   bool left = false, right = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const int s = sgn(line.side(t[i], t[(i + 1) % 3]));
@@ -183,6 +183,30 @@ bool blocked(const SightLine& line, const std::array<Vec, 3>& t, const Vec& norm
   return line.holds(dot(normal, t[0] - line.v) / dot(normal, line.direction));
 }
 
+std::array<Vec, 3> corners_of(const scene::TriangleMesh& mesh, std::uint32_t i) {
+  const scene::Triangle& t = mesh.triangles[i];
+  return {read(mesh.points.at(t[0])), read(mesh.points.at(t[1])), read(mesh.points.at(t[2]))};
+}
+
+Vec normal_of(const std::array<Vec, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+
+// The triangles that meet the open segment (v,p) outside int V; or just the first.
+std::vector<std::uint32_t> blockers_of(const scene::TriangleMesh& mesh, const Cell& cell, const Vec& v, const Vec& p,
+                                       bool one) {
+  std::vector<std::uint32_t> blockers;
+  const std::optional<Outside> outside = outside_of(cell, v, p);
+  if (!outside) return blockers;  // all of (v,p) is in int V
+  const Line line{v, p - v, cross(v, p), *outside};
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const std::array<Vec, 3> t = corners_of(mesh, i);
+    const Vec n = normal_of(t);
+    if (is_zero(n) || !blocked(line, t, n)) continue;
+    blockers.push_back(i);
+    if (one) break;
+  }
+  return blockers;
+}
+
 WitnessVerdict refuse(std::string reason) { return {false, std::move(reason)}; }
 
 }  // namespace
@@ -190,11 +214,7 @@ WitnessVerdict refuse(std::string reason) { return {false, std::move(reason)}; }
 WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& cell, std::uint32_t triangle,
                              bool front, const Point3& v_point, const Point3& p_point) {
   if (triangle >= mesh.triangles.size()) return refuse("there is no triangle " + std::to_string(triangle));
-  const auto corners = [&](std::uint32_t i) {
-    const scene::Triangle& t = mesh.triangles[i];
-    return std::array<Vec, 3>{read(mesh.points.at(t[0])), read(mesh.points.at(t[1])), read(mesh.points.at(t[2]))};
-  };
-  const auto normal_of = [](const std::array<Vec, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); };
+  const auto corners = [&](std::uint32_t i) { return corners_of(mesh, i); };
   const Vec v = read(v_point), p = read(p_point);
 
   const std::array<Vec, 3> target = corners(triangle);
@@ -213,15 +233,8 @@ WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& 
   Cell own;
   if (std::string fault = read_cell(cell, own); !fault.empty()) return refuse(std::move(fault));
   if (!strictly_inside(own, v)) return refuse("v is not in the relative interior of the cell");
-  const std::optional<Outside> outside = outside_of(own, v, p);
-  if (outside) {  // else all of (v,p) is in int V
-    const SightLine line{v, p - v, cross(v, p), *outside};
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-      const std::array<Vec, 3> t = corners(i);
-      const Vec n = normal_of(t);
-      if (!is_zero(n) && blocked(line, t, n)) return refuse("triangle " + std::to_string(i) + " blocks the sight line");
-    }
-  }
+  const std::vector<std::uint32_t> blockers = blockers_of(mesh, own, v, p, true);
+  if (!blockers.empty()) return refuse("triangle " + std::to_string(blockers[0]) + " blocks the sight line");
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const std::array<Vec, 3> t = corners(i);
     const Vec n = normal_of(t);
@@ -233,6 +246,17 @@ WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& 
     }
   }
   return {true, ""};
+}
+
+SightLine check_sight_line(const scene::TriangleMesh& mesh, const ConvexCell& cell, const Point3& v_point,
+                           const Point3& p_point) {
+  SightLine out;
+  const Vec v = read(v_point), p = read(p_point);
+  Cell own;
+  if (!read_cell(cell, own).empty() || !strictly_inside(own, v) || is_zero(p - v)) return out;
+  out.valid = true;
+  out.blockers = blockers_of(mesh, own, v, p, false);
+  return out;
 }
 
 }  // namespace clues::exact
