@@ -34,7 +34,7 @@ using scene::ErrorCode;
 
 struct MapRequest {
   std::string scene, cell, cells, out;
-  bool with_map = false, json = false, resume = false;
+  bool with_map = false, with_states = false, json = false, resume = false;
   MethodOptions method;
   UmbraRequest umbra;
 };
@@ -60,7 +60,7 @@ bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" ||
 
 MappedCell to_mapped_cell(const reference::VisibilityMap& map, const std::string& sha256, const scene::CellSpec& spec,
                           const MapRequest& request) {
-  auto result = reference::to_result(map, spec, request.with_map);
+  auto result = reference::to_result(map, spec, request.with_map, request.with_states);
   result.scene_file = fs::path(request.scene).filename().string();
   result.scene_sha256 = sha256;
   const bool plain = request.cells.empty() && wants_plain_list(request.out);
@@ -95,7 +95,7 @@ std::string request_text(const MapRequest& request, const std::string& sha256) {
   return nlohmann::json{{"format", "clues-cells/1"},       {"scene_sha256", sha256},
                         {"cells", request.cells},          {"mode", request.method.mode},
                         {"method", request.method.method}, {"kernel", request.method.kernel},
-                        {"map", request.with_map}}
+                        {"map", request.with_map},         {"render_states", request.with_states}}
              .dump(2) +
          "\n";
 }
@@ -175,6 +175,8 @@ int run_map(MapRequest request) {
   if (request.resume && (!many || request.out.empty())) {
     throw Error(ErrorCode::bad_argument, "--resume goes on with a folder of results: it needs --cells and -o");
   }
+  if (request.with_states && !request.with_map)
+    throw Error(ErrorCode::bad_argument, "--render-states are put into the regions of --map; give that too");
   require_good(request.umbra, many);
   if (!request.out.empty() && !(many && fs::is_directory(request.out))) require_writable_parent(request.out);
   if (request.with_map && !many && wants_plain_list(request.out)) {
@@ -213,6 +215,8 @@ void add_map_command(CLI::App& program, int& status) {
   request->method.add_to(*command);
   command->add_flag("--map", request->with_map,
                     "Put the regions, segments and wedges into the result too, in exact coordinates");
+  command->add_flag("--render-states", request->with_states,
+                    "With --map: say of each visible region which tests a renderer may leave out (docs/formats.md)");
   command->add_flag("--json", request->json, "Without -o: print the result itself instead of a table");
   command
       ->add_option(
