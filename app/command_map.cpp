@@ -17,6 +17,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/progress.h"
+#include "app/umbra_output.h"
 #include "reference/visibility/first_order.h"
 #include "scene/atomic_file.h"
 #include "scene/cell_spec.h"
@@ -33,14 +34,16 @@ using scene::ErrorCode;
 
 struct MapRequest {
   std::string scene, cell, cells, out;
-  bool with_map = false, json = false, resume = false;
+  bool with_map = false, with_states = false, json = false, resume = false;
   MethodOptions method;
+  UmbraRequest umbra;
 };
 
 struct MappedCell {
   std::string name;
   std::string bytes;    // what goes into the file
   std::string summary;  // one line of the table
+  std::string umbra_bytes, umbra_summary;
 };
 
 constexpr const char* table_head = "triangles  wholly  partly  hidden  visible area  fallbacks  cell\n";
@@ -55,16 +58,20 @@ std::string table_line(const std::string& name, const reference::VisibilityMap& 
 
 bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" || out.extension() == ".txt"; }
 
-MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& spec,
-                    const reference::Options& options, const MapRequest& request) {
-  const auto cell = exact::ConvexCell::from_doubles(spec.points);
-  const auto map = reference::first_order_visibility(mesh, cell, options);
-  auto result = reference::to_result(map, spec, request.with_map);
+MappedCell to_mapped_cell(const reference::VisibilityMap& map, const std::string& sha256, const scene::CellSpec& spec,
+                          const MapRequest& request) {
+  auto result = reference::to_result(map, spec, request.with_map, request.with_states);
   result.scene_file = fs::path(request.scene).filename().string();
   result.scene_sha256 = sha256;
   const bool plain = request.cells.empty() && wants_plain_list(request.out);
   return {spec.name, plain ? scene::to_pvs_text(result.visible) : scene::to_json_text(result),
-          table_line(spec.name, map)};
+          table_line(spec.name, map), "", ""};
+}
+
+MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& spec,
+                    const reference::Options& options, const MapRequest& request) {
+  const auto cell = exact::ConvexCell::from_doubles(spec.points);
+  return to_mapped_cell(reference::first_order_visibility(mesh, cell, options), sha256, spec, request);
 }
 
 MappedCell map_one(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& cell,
@@ -73,7 +80,14 @@ MappedCell map_one(const scene::TriangleMesh& mesh, const std::string& sha256, c
   options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
     bar.show(stage, done, total);
   };
-  return map_cell(mesh, sha256, cell, options, request);
+  if (request.umbra.file.empty()) return map_cell(mesh, sha256, cell, options, request);
+  const reference::Omega omega(mesh, exact::ConvexCell::from_doubles(cell.points), options);
+  bar.show("umbra", 0, 1);
+  MappedCell mapped = to_mapped_cell(omega.map(), sha256, cell, request);
+  UmbraOutput umbra = make_umbra(omega, mesh, cell, request.scene, sha256, request.umbra, options.threads);
+  mapped.umbra_bytes = std::move(umbra.bytes);
+  mapped.umbra_summary = std::move(umbra.summary);
+  return mapped;
 }
 
 // Everything that the results depend on.
@@ -81,7 +95,7 @@ std::string request_text(const MapRequest& request, const std::string& sha256) {
   return nlohmann::json{{"format", "clues-cells/1"},       {"scene_sha256", sha256},
                         {"cells", request.cells},          {"mode", request.method.mode},
                         {"method", request.method.method}, {"kernel", request.method.kernel},
-                        {"map", request.with_map}}
+                        {"map", request.with_map},         {"render_states", request.with_states}}
              .dump(2) +
          "\n";
 }
@@ -161,6 +175,9 @@ int run_map(MapRequest request) {
   if (request.resume && (!many || request.out.empty())) {
     throw Error(ErrorCode::bad_argument, "--resume goes on with a folder of results: it needs --cells and -o");
   }
+  if (request.with_states && !request.with_map)
+    throw Error(ErrorCode::bad_argument, "--render-states are put into the regions of --map; give that too");
+  require_good(request.umbra, many);
   if (!request.out.empty() && !(many && fs::is_directory(request.out))) require_writable_parent(request.out);
   if (request.with_map && !many && wants_plain_list(request.out)) {
     throw Error(ErrorCode::bad_argument,
@@ -170,6 +187,7 @@ int run_map(MapRequest request) {
   const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
   const auto mapped = map_cells(mesh, scene::sha256_of_file(request.scene), cells, options, request);
 
+  if (!request.umbra.file.empty()) scene::write_file_atomically(request.umbra.file, mapped[0].umbra_bytes);
   if (!request.out.empty()) {
     if (!many) scene::write_file_atomically(request.out, mapped[0].bytes);
   } else if (request.json) {
@@ -179,7 +197,7 @@ int run_map(MapRequest request) {
     return fine;
   }
   std::string table = table_head;
-  for (const auto& cell : mapped) table += cell.summary;
+  for (const auto& cell : mapped) table += cell.summary + cell.umbra_summary;
   std::fputs(table.c_str(), request.json ? stderr : stdout);
   return fine;
 }
@@ -197,6 +215,8 @@ void add_map_command(CLI::App& program, int& status) {
   request->method.add_to(*command);
   command->add_flag("--map", request->with_map,
                     "Put the regions, segments and wedges into the result too, in exact coordinates");
+  command->add_flag("--render-states", request->with_states,
+                    "With --map: say of each visible region which tests a renderer may leave out (docs/formats.md)");
   command->add_flag("--json", request->json, "Without -o: print the result itself instead of a table");
   command
       ->add_option(
@@ -204,6 +224,7 @@ void add_map_command(CLI::App& program, int& status) {
           "Where the result goes: a file (*.pvs and *.txt: a plain list of ids), or with --cells a folder that\n"
           "gets one file per cell")
       ->type_name("OUT");
+  request->umbra.add_to(*command);
   command->add_flag("--resume", request->resume,
                     "With --cells and -o: go on with a run that was stopped; cells whose files are there are not made "
                     "again");
@@ -222,9 +243,12 @@ void add_map_command(CLI::App& program, int& status) {
       "EXAMPLES\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --map -o town.clues.json\n"
+      "  clues map town.obj --cell box:0,0,1,2,2,2 --umbra town.umbra.json\n"
       "  clues map town.obj --cells grid:4x4x1:box:0,0,1,8,8,2 -o cells/\n\n"
       "EXIT CODES\n"
-      "  0 fine   2 bad usage or input   4 an oracle contradicted itself");
+      "  0 fine   2 bad usage or input   3 the umbra is not closed where a limit was reached   4 an oracle "
+      "contradicted "
+      "itself");
   command->callback([request, &status] { status = run_map(*request); });
 }
 

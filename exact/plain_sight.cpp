@@ -176,14 +176,32 @@ std::array<Vec, 3> Scene::corners(std::uint32_t triangle) const {
   return {read(mesh_->points.at(t[0])), read(mesh_->points.at(t[1])), read(mesh_->points.at(t[2]))};
 }
 
-std::optional<std::uint32_t> Scene::blocker(const Vec& v, const Vec& p, const Cell::Outside& part) const {
+template <class Found>
+void Scene::each_blocker(const Vec& v, const Vec& p, const Cell::Outside& part, const Found& found) const {
   const SightLine line{v, p - v, cross(v, p), part};
   for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) {
     const std::array<Vec, 3> t = corners(i);
     const Vec n = normal_of(t);
-    if (!is_zero(n) && blocked(line, t, n)) return i;
+    if (!is_zero(n) && blocked(line, t, n) && found(i)) return;
   }
-  return std::nullopt;
+}
+
+std::optional<std::uint32_t> Scene::blocker(const Vec& v, const Vec& p, const Cell::Outside& part) const {
+  std::optional<std::uint32_t> first;
+  each_blocker(v, p, part, [&](std::uint32_t t) {
+    first = t;
+    return true;
+  });
+  return first;
+}
+
+std::vector<std::uint32_t> Scene::blockers(const Vec& v, const Vec& p, const Cell::Outside& part) const {
+  std::vector<std::uint32_t> all;
+  each_blocker(v, p, part, [&](std::uint32_t t) {
+    all.push_back(t);
+    return false;
+  });
+  return all;
 }
 
 std::string Scene::flaw_of_target(std::uint32_t triangle, bool front, const Vec& p, const Vec& before,

@@ -62,6 +62,8 @@ class Scene {
 
   // The first triangle with area that meets v + s (p - v) for some s < 1 that is at least (closed) or above (not closed) part.begin.
   std::optional<std::uint32_t> blocker(const Vec& v, const Vec& p, const Cell::Outside& part) const;
+  // All that do, ascending.
+  std::vector<std::uint32_t> blockers(const Vec& v, const Vec& p, const Cell::Outside& part) const;
 
   // Why a sight line that arrives from `before` does not end on that side of the triangle, at a point p of its relative interior; empty when it does.
   std::string flaw_of_target(std::uint32_t triangle, bool front, const Vec& p, const Vec& before,
@@ -72,6 +74,9 @@ class Scene {
 
  private:
   std::array<Vec, 3> corners(std::uint32_t triangle) const;
+  // Tells `found` of each until it answers true.
+  template <class Found>
+  void each_blocker(const Vec& v, const Vec& p, const Cell::Outside& part, const Found& found) const;
   const scene::TriangleMesh* mesh_;
 };
 

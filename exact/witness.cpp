@@ -29,4 +29,15 @@ WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& 
   return {true, ""};
 }
 
+SightLine check_sight_line(const scene::TriangleMesh& mesh, const ConvexCell& cell, const Point3& v_point,
+                           const Point3& p_point) {
+  SightLine out;
+  const plain::Vec v = plain::read(v_point), p = plain::read(p_point);
+  const plain::Cell own(cell);
+  if (!own.fault().empty() || !own.interior_contains(v) || v == p) return out;
+  out.valid = true;
+  if (const auto outside = own.outside_of(v, p)) out.blockers = plain::Scene(mesh).blockers(v, p, *outside);
+  return out;
+}
+
 }  // namespace clues::exact

@@ -20,6 +20,23 @@ struct MapRegion {
   std::string area_fraction;                                         // exact part of the triangle's area, "p/q"
   std::vector<std::vector<std::array<std::string, 3>>> rings_exact;  // outer ring first, then holes
   std::vector<std::vector<Point>> rings;
+  std::vector<std::string> render_states;  // "NO_BACKFACE_CULL", "NO_Z_COMPARE", "NO_Z_WRITE", as far as they hold
+};
+
+// The regions as a mesh: shared vertices, and edges that know the faces on both sides.
+struct MapMesh {
+  std::vector<std::array<std::string, 3>> vertices_exact;
+  struct Face {
+    std::vector<std::uint64_t> regions;  // indices into Result::regions; several where input triangles coincide
+    std::vector<std::vector<std::uint64_t>> rings;
+  };
+  std::vector<Face> faces;
+  struct Edge {
+    std::string kind;  // "border" (of the triangle, or of a part of it), "dm", "ob" (D15)
+    std::array<std::uint64_t, 2> ends{};
+    std::vector<std::uint64_t> faces;  // left of the edge, then right; a border has one
+  };
+  std::vector<Edge> edges;
 };
 
 struct MapSegment {  // a DM segment; boundary: also an OB segment (D15)
@@ -48,7 +65,9 @@ struct Result {
   std::vector<std::uint32_t> visible;         // sorted, unique
   std::map<std::string, std::int64_t> stats;  // always holds "conservative_fallbacks"
   bool has_map = false;
+  bool has_render_states = false;
   std::vector<MapRegion> regions;
+  MapMesh mesh;
   std::vector<MapSegment> segments;
   std::vector<MapWedge> wedges;
 };

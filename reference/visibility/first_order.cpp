@@ -7,9 +7,11 @@
 #include <string>
 
 #include "exact/scene_query.h"
+#include "reference/visibility/discontinuity_mesh.h"
 #include "reference/visibility/fixpoint.h"
 #include "reference/visibility/omega.h"
 #include "reference/visibility/regions.h"
+#include "reference/visibility/render_states.h"
 #include "reference/visibility/traversal/traversal.h"
 
 namespace clues::reference {
@@ -96,7 +98,7 @@ std::vector<std::uint8_t> VisibilityMap::triangle_state() const {
   return state;
 }
 
-scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map) {
+scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map, bool with_render_states) {
   scene::Result result;
   result.scene_triangles = map.complex.input_triangles;
   result.cell = cell.points;
@@ -138,9 +140,15 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
     return std::array<std::string, 3>{exact::to_string_exact(p.x()), exact::to_string_exact(p.y()),
                                       exact::to_string_exact(p.z())};
   };
+  std::vector<RenderState> states;
+  if (with_render_states) states = render_states(map);
+  result.has_render_states = with_render_states;
+  std::vector<std::vector<std::uint64_t>> places;  // per region of the map: its places in the result
   for (const Region& r : map.regions) {
     scene::MapRegion out;
     out.visible = r.visible;
+    if (with_render_states) out.render_states = names_of(states[places.size()]);
+    places.emplace_back();
     for (const auto& ring : r.rings) {
       out.rings_exact.emplace_back();
       out.rings.emplace_back();
@@ -153,8 +161,18 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
     for (const exact::Origin& o : map.complex.pieces[r.piece].origins) {
       out.triangle = o.triangle;
       out.front = o.same_side == r.front;
-      if (counts(map.mode, o, r.front)) result.regions.push_back(out);
+      if (!counts(map.mode, o, r.front)) continue;
+      places.back().push_back(result.regions.size());
+      result.regions.push_back(out);
     }
+  }
+  const DiscontinuityMesh mesh = discontinuity_mesh(map);
+  for (const exact::Point3& p : mesh.vertices) result.mesh.vertices_exact.push_back(text(p));
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) result.mesh.faces.push_back({places[i], mesh.faces[i]});
+  for (const DiscontinuityMesh::Edge& e : mesh.edges) {
+    scene::MapMesh::Edge out{e.right ? e.boundary ? "ob" : "dm" : "border", {e.a, e.b}, {e.left}};
+    if (e.right) out.faces.push_back(*e.right);
+    result.mesh.edges.push_back(std::move(out));
   }
   for (const DmSegment& d : map.segments) {
     for (const exact::Origin& o : map.complex.pieces[d.piece].origins) {

@@ -115,6 +115,8 @@ VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exa
 void find_visible(const exact::SceneQuery& scene, VisibilityMap& map);
 
 // The result file's contents; scene_file and scene_sha256 are left to the caller. with_map adds regions, segments and wedges.
-scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map);
+// With render_states its regions carry those too (render_states.h).
+scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map,
+                        bool with_render_states = false);
 
 }  // namespace clues::reference

@@ -262,8 +262,11 @@ class Builder {
         if (!nowhere) hidden[front] = is_hidden(beside(c.inner, plane, off, own), out);
       }
       if (hidden[0] == hidden[1]) continue;
-      const auto index = static_cast<int>(best - sheets_.data());
-      classes.back() = 2 * index + (hidden[0] ? 0 : 1);
+      // Sheets of one kind and triangle are one: the seams between them bound nothing.
+      const auto same = std::find_if(own.begin(), own.end(), [&](std::uint32_t i) {
+        return sheets_[i].kind == best->kind && sheets_[i].triangle == best->triangle;
+      });
+      classes.back() = 2 * static_cast<int>(*same) + (hidden[0] ? 0 : 1);
     }
     for (PlaneCut::Facet& f : cut.facets(classes)) {
       const Sheet& s = sheets_[static_cast<std::size_t>(f.of / 2)];

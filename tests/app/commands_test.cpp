@@ -17,8 +17,12 @@ using testing::HasSubstr;
 
 TEST(Help, EveryCommandHasDescriptionExamplesAndExitCodes) {
   const TestFolder folder;
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"map", "--help"}, {"check", "--help"}, {"demo", "--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
+                                                    {"map", "--help"},
+                                                    {"check", "--help"},
+                                                    {"query", "--help"},
+                                                    {"verify", "--help"},
+                                                    {"demo", "--help"}}) {
     const auto ran = run_clues(arguments, folder.path());
     EXPECT_EQ(ran.exit_code, 0);
     EXPECT_EQ(ran.err, "");
