@@ -13,7 +13,9 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/progress.h"
+#include "exact/scene_query.h"
 #include "reference/visibility/first_order.h"
+#include "reference/visibility/traversal/overlap.h"
 #include "scene/atomic_file.h"
 #include "scene/cell_spec.h"
 #include "scene/error.h"
@@ -28,15 +30,16 @@ using scene::Error;
 using scene::ErrorCode;
 
 struct MapRequest {
-  std::string scene, cell, cells, out;
+  std::string scene, cell, cells, out, overlap_graph;
   bool with_map = false, json = false;
   MethodOptions method;
 };
 
 struct MappedCell {
   std::string name;
-  std::string bytes;    // what goes into the file
-  std::string summary;  // one line of the table
+  std::string overlap_graph;  // GraphViz, where it was asked for
+  std::string bytes;          // what goes into the file
+  std::string summary;        // one line of the table
 };
 
 constexpr const char* table_head = "triangles  wholly  partly  hidden  visible area  fallbacks  cell\n";
@@ -60,6 +63,11 @@ fs::path file_of_cell(const fs::path& folder, std::string name) {
   return folder / ("cell-" + name + ".clues.json");
 }
 
+std::string overlap_graph_of(const reference::VisibilityMap& map) {
+  const exact::SceneQuery scene(map.complex, map.cell);
+  return reference::to_graphviz(reference::overlap_of_occluders(scene), map.complex);
+}
+
 MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& spec,
                     const reference::Options& options, const MapRequest& request) {
   const auto cell = exact::ConvexCell::from_doubles(spec.points);
@@ -68,8 +76,8 @@ MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, 
   result.scene_file = fs::path(request.scene).filename().string();
   result.scene_sha256 = sha256;
   const bool plain = request.cells.empty() && wants_plain_list(request.out);
-  return {spec.name, plain ? scene::to_pvs_text(result.visible) : scene::to_json_text(result),
-          table_line(spec.name, map)};
+  return {spec.name, request.overlap_graph.empty() ? "" : overlap_graph_of(map),
+          plain ? scene::to_pvs_text(result.visible) : scene::to_json_text(result), table_line(spec.name, map)};
 }
 
 std::vector<MappedCell> map_all(const scene::TriangleMesh& mesh, const std::string& sha256,
@@ -128,10 +136,15 @@ int run_map(MapRequest request) {
     throw Error(ErrorCode::bad_argument,
                 request.out + ": a plain list cannot hold --map; name the output *.clues.json");
   }
+  if (!request.overlap_graph.empty()) {
+    if (many) throw Error(ErrorCode::bad_argument, "--overlap-graph is for one cell; use --cell");
+    require_writable_parent(request.overlap_graph);
+  }
   const auto mesh = scene::read_mesh(request.scene);
   const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
   const auto mapped = map_all(mesh, scene::sha256_of_file(request.scene), cells, options, request);
 
+  if (!request.overlap_graph.empty()) scene::write_file_atomically(request.overlap_graph, mapped[0].overlap_graph);
   if (!request.out.empty()) {
     if (many) {
       write_cells(request.out, mapped);
@@ -161,6 +174,10 @@ void add_map_command(CLI::App& program, int& status) {
   command->add_option("--cells", request->cells, "Many view cells: grid:NXxNYxNZ:box:x0,y0,z0,x1,y1,z1")
       ->type_name("SPEC");
   request->method.add_to(*command);
+  command
+      ->add_option("--overlap-graph", request->overlap_graph,
+                   "Write here, for GraphViz, which occluders overlap which as the cell sees them, and the cycles")
+      ->type_name("FILE.dot");
   command->add_flag("--map", request->with_map,
                     "Put the regions, segments and wedges into the result too, in exact coordinates");
   command->add_flag("--json", request->json, "Without -o: print the result itself instead of a table");
@@ -184,6 +201,7 @@ void add_map_command(CLI::App& program, int& status) {
       "EXAMPLES\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --map -o town.clues.json\n"
+      "  clues map town.obj --cell box:0,0,1,2,2,2 --formulation traversal --overlap-graph town.dot\n"
       "  clues map town.obj --cells grid:4x4x1:box:0,0,1,8,8,2 -o cells/\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   4 an oracle contradicted itself");
