@@ -18,7 +18,9 @@
 #include "app/common.h"
 #include "app/progress.h"
 #include "app/umbra_output.h"
+#include "exact/scene_query.h"
 #include "reference/visibility/first_order.h"
+#include "reference/visibility/traversal/overlap.h"
 #include "scene/atomic_file.h"
 #include "scene/cell_spec.h"
 #include "scene/error.h"
@@ -33,7 +35,7 @@ using scene::Error;
 using scene::ErrorCode;
 
 struct MapRequest {
-  std::string scene, cell, cells, out;
+  std::string scene, cell, cells, out, overlap_graph;
   bool with_map = false, with_states = false, json = false, resume = false;
   MethodOptions method;
   UmbraRequest umbra;
@@ -41,8 +43,9 @@ struct MapRequest {
 
 struct MappedCell {
   std::string name;
-  std::string bytes;    // what goes into the file
-  std::string summary;  // one line of the table
+  std::string bytes;          // what goes into the file
+  std::string summary;        // one line of the table
+  std::string overlap_graph;  // GraphViz, where it was asked for
   std::string umbra_bytes, umbra_summary;
 };
 
@@ -58,14 +61,23 @@ std::string table_line(const std::string& name, const reference::VisibilityMap& 
 
 bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" || out.extension() == ".txt"; }
 
+std::string overlap_graph_of(const reference::VisibilityMap& map) {
+  const exact::SceneQuery scene(map.complex, map.cell);
+  return reference::to_graphviz(reference::overlap_of_occluders(scene), map.complex);
+}
+
 MappedCell to_mapped_cell(const reference::VisibilityMap& map, const std::string& sha256, const scene::CellSpec& spec,
                           const MapRequest& request) {
   auto result = reference::to_result(map, spec, request.with_map, request.with_states);
   result.scene_file = fs::path(request.scene).filename().string();
   result.scene_sha256 = sha256;
   const bool plain = request.cells.empty() && wants_plain_list(request.out);
-  return {spec.name, plain ? scene::to_pvs_text(result.visible) : scene::to_json_text(result),
-          table_line(spec.name, map), "", ""};
+  return {spec.name,
+          plain ? scene::to_pvs_text(result.visible) : scene::to_json_text(result),
+          table_line(spec.name, map),
+          request.overlap_graph.empty() ? "" : overlap_graph_of(map),
+          "",
+          ""};
 }
 
 MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& spec,
@@ -92,10 +104,15 @@ MappedCell map_one(const scene::TriangleMesh& mesh, const std::string& sha256, c
 
 // Everything that the results depend on.
 std::string request_text(const MapRequest& request, const std::string& sha256) {
-  return nlohmann::json{{"format", "clues-cells/1"},       {"scene_sha256", sha256},
-                        {"cells", request.cells},          {"mode", request.method.mode},
-                        {"method", request.method.method}, {"kernel", request.method.kernel},
-                        {"map", request.with_map},         {"render_states", request.with_states}}
+  return nlohmann::json{{"format", "clues-cells/1"},
+                        {"scene_sha256", sha256},
+                        {"cells", request.cells},
+                        {"mode", request.method.mode},
+                        {"method", request.method.method},
+                        {"kernel", request.method.kernel},
+                        {"map", request.with_map},
+                        {"render_states", request.with_states},
+                        {"formulation", request.method.formulation}}
              .dump(2) +
          "\n";
 }
@@ -183,11 +200,16 @@ int run_map(MapRequest request) {
     throw Error(ErrorCode::bad_argument,
                 request.out + ": a plain list cannot hold --map; name the output *.clues.json");
   }
+  if (!request.overlap_graph.empty()) {
+    if (many) throw Error(ErrorCode::bad_argument, "--overlap-graph is for one cell; use --cell");
+    require_writable_parent(request.overlap_graph);
+  }
   const auto mesh = scene::read_mesh(request.scene);
   const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
   const auto mapped = map_cells(mesh, scene::sha256_of_file(request.scene), cells, options, request);
 
   if (!request.umbra.file.empty()) scene::write_file_atomically(request.umbra.file, mapped[0].umbra_bytes);
+  if (!request.overlap_graph.empty()) scene::write_file_atomically(request.overlap_graph, mapped[0].overlap_graph);
   if (!request.out.empty()) {
     if (!many) scene::write_file_atomically(request.out, mapped[0].bytes);
   } else if (request.json) {
@@ -213,6 +235,10 @@ void add_map_command(CLI::App& program, int& status) {
   command->add_option("--cells", request->cells, "Many view cells: grid:NXxNYxNZ:box:x0,y0,z0,x1,y1,z1")
       ->type_name("SPEC");
   request->method.add_to(*command);
+  command
+      ->add_option("--overlap-graph", request->overlap_graph,
+                   "Write here, for GraphViz, which occluders overlap which as the cell sees them, and the cycles")
+      ->type_name("FILE.dot");
   command->add_flag("--map", request->with_map,
                     "Put the regions, segments and wedges into the result too, in exact coordinates");
   command->add_flag("--render-states", request->with_states,
@@ -244,6 +270,7 @@ void add_map_command(CLI::App& program, int& status) {
       "  clues map town.obj --cell box:0,0,1,2,2,2\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --map -o town.clues.json\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --umbra town.umbra.json\n"
+      "  clues map town.obj --cell box:0,0,1,2,2,2 --formulation traversal --overlap-graph town.dot\n"
       "  clues map town.obj --cells grid:4x4x1:box:0,0,1,8,8,2 -o cells/\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   3 the umbra is not closed where a limit was reached   4 an oracle "

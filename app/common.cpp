@@ -30,6 +30,12 @@ void MethodOptions::add_to(CLI::App& command) {
       ->type_name("sheet|solid");
   command.add_option("--method", method, "first-order (default, and the only one in this version)")->type_name("NAME");
   command.add_option("--kernel", kernel, "exact (default, and the only one in this version)")->type_name("NAME");
+  command
+      .add_option("--formulation", formulation,
+                  "plain (default): all of the scene at once. traversal: outward from what is visible, without a look "
+                  "at what is\n"
+                  "hidden behind it. Two ways to one map")
+      ->type_name("plain|traversal");
   command.add_option("--threads", threads, "How many threads may work; 0: all cores (default). The answer is the same")
       ->type_name("N");
 }
@@ -52,6 +58,11 @@ reference::Options MethodOptions::to_reference() const {
   if (threads < 0 || threads > 4096) {
     throw Error(ErrorCode::bad_argument, fmt::format("--threads {}: use 0 (all cores) to 4096", threads));
   }
+  if (formulation != "plain" && formulation != "traversal") {
+    throw Error(ErrorCode::bad_argument,
+                "--formulation " + formulation + ": no such formulation; use plain or traversal");
+  }
+  options.formulation = formulation == "traversal" ? reference::Formulation::traversal : reference::Formulation::plain;
   options.mode = mode == "solid" ? reference::Mode::solid : reference::Mode::sheet;
   options.threads = threads;
   return options;

@@ -16,6 +16,7 @@ struct MethodOptions {
   std::string mode = "sheet";
   std::string method = "first-order";
   std::string kernel = "exact";
+  std::string formulation = "plain";
   int threads = 0;
 
   void add_to(CLI::App& command);

@@ -45,8 +45,7 @@ void cities() {
     const clues::fastpath::Bvh bvh(mesh);
     const double tree = std::chrono::duration<double>(Clock::now() - start).count();
     clues::fastpath::FirstOrder fast;
-    const double time =
-        median_seconds(5, [&] { fast = clues::fastpath::first_order_visibility(bvh, cell, {}); });
+    const double time = median_seconds(5, [&] { fast = clues::fastpath::first_order_visibility(bvh, cell, {}); });
     double exact = 0;
     if (size <= 3000) {
       clues::reference::Options options;
@@ -56,15 +55,17 @@ void cities() {
       exact = median_seconds(size <= 1000 ? 3 : 1, [&] {
         visible = clues::reference::first_order_visibility(mesh, exact_cell, options).visible;
       });
-      if (visible != fast.visible) fmt::print("the two do not agree: {} and {} visible\n", visible.size(), fast.visible.size());
+      if (visible != fast.visible)
+        fmt::print("the two do not agree: {} and {} visible\n", visible.size(), fast.visible.size());
     }
     const auto n = static_cast<double>(mesh.triangles.size());
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     fmt::print("{:>10} {:>8.2f} {:>9.3f} {:>8} {:>8} {:>7} {:>7} {:>7} {:>9} {:>9} {:>10} {:>9.0f} {:>8}\n", n, tree,
-               time, last_size > 0 ? fmt::format("n^{:.2f}", std::log(time / last_time) / std::log(n / last_size)) : "-",
-               fast.visible.size(), fast.part.size(), fast.closure.passes, fast.closure.boxes_opened, fast.counts.wedges,
-               fast.counts.exact_decisions, fast.conservative_fallbacks,
+               time,
+               last_size > 0 ? fmt::format("n^{:.2f}", std::log(time / last_time) / std::log(n / last_size)) : "-",
+               fast.visible.size(), fast.part.size(), fast.closure.passes, fast.closure.boxes_opened,
+               fast.counts.wedges, fast.counts.exact_decisions, fast.conservative_fallbacks,
                static_cast<double>(usage.ru_maxrss) / 1024, exact > 0 ? fmt::format("{:.0f}", exact / time) : "-");
     last_time = time;
     last_size = n;

@@ -75,6 +75,37 @@ TEST(Map, SameBytesInEveryRunAndForEveryThreadCount) {
   }
 }
 
+TEST(Map, TheTraversalGivesTheSameRegions) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  std::vector<json> results;
+  for (const char* formulation : {"plain", "traversal"}) {
+    const auto ran = run_clues(
+        {"map", "scene.off", "--cell", screen_cell, "--formulation", formulation, "--map", "--json"}, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    results.push_back(json::parse(ran.out));
+  }
+  EXPECT_FALSE(results[0]["stats"].contains("traversal_surfaces_visited"));
+  EXPECT_TRUE(results[1]["stats"].contains("traversal_surfaces_visited"));
+  for (auto& result : results) result.erase("stats");
+  EXPECT_EQ(results[0], results[1]);
+  const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "--formulation", "sideways"}, folder.path());
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("use plain or traversal"));
+}
+
+TEST(Map, WritesTheOverlapGraph) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "--overlap-graph", "out.dot"}, folder.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(read_all(folder.file("out.dot")), AllOf(HasSubstr("digraph overlap"), HasSubstr(" -> ")));
+  const auto many = run_clues(
+      {"map", "scene.off", "--cells", "grid:1x1x1:box:0,0,0,1,1,1", "--overlap-graph", "many.dot"}, folder.path());
+  EXPECT_EQ(many.exit_code, 2);
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"out.dot", "scene.off"}));
+}
+
 TEST(Map, ManyCellsMakeOneFileEachAndTheSameBytes) {
   const TestFolder folder;
   folder.write("scene.off", screen_scene);

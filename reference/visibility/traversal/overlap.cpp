@@ -107,8 +107,8 @@ OverlapGraph overlap_of_occluders(const exact::SceneQuery& scene) {
   for (std::uint32_t e = 0; e < complex.edges.size(); ++e) {
     if (is_contour[e]) continue;
     for (const std::uint32_t t : complex.edges[e].pieces) {
-      const auto [low, high] = std::minmax(root(t), root(complex.edges[e].pieces.front()));
-      parent[high] = low;
+      const std::uint32_t a = root(t), b = root(complex.edges[e].pieces.front());
+      parent[std::max(a, b)] = std::min(a, b);
     }
   }
   std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;  // the least piece of each
