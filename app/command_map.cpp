@@ -14,13 +14,10 @@
 #include <vector>
 
 #include "app/cell_folder.h"
+#include "app/cell_mapper.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/progress.h"
-#include "app/umbra_output.h"
-#include "exact/scene_query.h"
-#include "reference/visibility/first_order.h"
-#include "reference/visibility/traversal/overlap.h"
 #include "scene/atomic_file.h"
 #include "scene/cell_spec.h"
 #include "scene/error.h"
@@ -33,74 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
-
-struct MapRequest {
-  std::string scene, cell, cells, out, overlap_graph;
-  bool with_map = false, with_states = false, json = false, resume = false;
-  MethodOptions method;
-  UmbraRequest umbra;
-};
-
-struct MappedCell {
-  std::string name;
-  std::string bytes;          // what goes into the file
-  std::string summary;        // one line of the table
-  std::string overlap_graph;  // GraphViz, where it was asked for
-  std::string umbra_bytes, umbra_summary;
-};
-
-constexpr const char* table_head = "triangles  wholly  partly  hidden  visible area  fallbacks  cell\n";
-
-std::string table_line(const std::string& name, const reference::VisibilityMap& map) {
-  const auto census = take_census(map);
-  const double share =
-      census.area_facing_estimate > 0 ? 100 * census.area_visible_estimate / census.area_facing_estimate : 0;
-  return fmt::format("{:>9}  {:>6}  {:>6}  {:>6}  {:>10.2f} %  {:>9}  {}\n", map.complex.input_triangles, census.wholly,
-                     census.partly, census.hidden, share, map.statistics.conservative_fallbacks, name);
-}
-
-bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" || out.extension() == ".txt"; }
-
-std::string overlap_graph_of(const reference::VisibilityMap& map) {
-  const exact::SceneQuery scene(map.complex, map.cell);
-  return reference::to_graphviz(reference::overlap_of_occluders(scene), map.complex);
-}
-
-MappedCell to_mapped_cell(const reference::VisibilityMap& map, const std::string& sha256, const scene::CellSpec& spec,
-                          const MapRequest& request) {
-  auto result = reference::to_result(map, spec, request.with_map, request.with_states);
-  result.scene_file = fs::path(request.scene).filename().string();
-  result.scene_sha256 = sha256;
-  const bool plain = request.cells.empty() && wants_plain_list(request.out);
-  return {spec.name,
-          plain ? scene::to_pvs_text(result.visible) : scene::to_json_text(result),
-          table_line(spec.name, map),
-          request.overlap_graph.empty() ? "" : overlap_graph_of(map),
-          "",
-          ""};
-}
-
-MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& spec,
-                    const reference::Options& options, const MapRequest& request) {
-  const auto cell = exact::ConvexCell::from_doubles(spec.points);
-  return to_mapped_cell(reference::first_order_visibility(mesh, cell, options), sha256, spec, request);
-}
-
-MappedCell map_one(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& cell,
-                   reference::Options options, const MapRequest& request) {
-  ProgressBar bar("clues map");
-  options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
-    bar.show(stage, done, total);
-  };
-  if (request.umbra.file.empty()) return map_cell(mesh, sha256, cell, options, request);
-  const reference::Omega omega(mesh, exact::ConvexCell::from_doubles(cell.points), options);
-  bar.show("umbra", 0, 1);
-  MappedCell mapped = to_mapped_cell(omega.map(), sha256, cell, request);
-  UmbraOutput umbra = make_umbra(omega, mesh, cell, request.scene, sha256, request.umbra, options.threads);
-  mapped.umbra_bytes = std::move(umbra.bytes);
-  mapped.umbra_summary = std::move(umbra.summary);
-  return mapped;
-}
 
 // Everything that the results depend on.
 std::string request_text(const MapRequest& request, const std::string& sha256) {
@@ -119,18 +48,16 @@ std::string request_text(const MapRequest& request, const std::string& sha256) {
 
 // Maps the cells, each by one thread so that none waits for another, and gives each result to `finished` at once, one at a time.
 template <class Finished>
-void map_many(const scene::TriangleMesh& mesh, const std::string& sha256, const std::vector<scene::CellSpec>& cells,
-              const std::vector<std::size_t>& wanted, reference::Options options, const MapRequest& request,
-              const Finished& finished) {
+void map_many(const CellMapper& mapper, const std::vector<scene::CellSpec>& cells,
+              const std::vector<std::size_t>& wanted, int threads, const Finished& finished) {
   ProgressBar bar("clues map");
   bar.show("cells", cells.size() - wanted.size(), cells.size());
   std::mutex mutex;
   std::size_t done = cells.size() - wanted.size();
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  options.threads = 1;
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
-      MappedCell mapped = map_cell(mesh, sha256, cells[wanted[i]], options, request);
+      MappedCell mapped = mapper.map(cells[wanted[i]], 1, {});
       const std::lock_guard lock(mutex);
       finished(wanted[i], std::move(mapped));
       bar.show("cells", ++done, cells.size());
@@ -139,9 +66,8 @@ void map_many(const scene::TriangleMesh& mesh, const std::string& sha256, const 
 }
 
 // With a folder to write to: results go there as they are finished, and what is there already is not made again.
-std::vector<MappedCell> map_into_folder(const scene::TriangleMesh& mesh, const std::string& sha256,
-                                        const std::vector<scene::CellSpec>& cells, const reference::Options& options,
-                                        const MapRequest& request) {
+std::vector<MappedCell> map_into_folder(const CellMapper& mapper, const std::string& sha256,
+                                        const std::vector<scene::CellSpec>& cells, const MapRequest& request) {
   const CellFolder folder(request.out, request_text(request, sha256), request.resume);
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -149,10 +75,11 @@ std::vector<MappedCell> map_into_folder(const scene::TriangleMesh& mesh, const s
   }
   std::vector<MappedCell> mapped(cells.size());
   std::size_t kept = cells.size() - wanted.size();
-  if (kept > 0)
+  if (kept > 0) {
     std::fputs(fmt::format("clues map: {} of {} cells were there already\n", kept, cells.size()).c_str(), stderr);
+  }
   try {
-    map_many(mesh, sha256, cells, wanted, options, request, [&](std::size_t i, MappedCell&& cell) {
+    map_many(mapper, cells, wanted, request.method.threads, [&](std::size_t i, MappedCell&& cell) {
       folder.put(cell.name, cell.bytes);
       ++kept;
       mapped[i].summary = std::move(cell.summary);
@@ -169,22 +96,28 @@ std::vector<MappedCell> map_into_folder(const scene::TriangleMesh& mesh, const s
   return mapped;
 }
 
-std::vector<MappedCell> map_cells(const scene::TriangleMesh& mesh, const std::string& sha256,
-                                  const std::vector<scene::CellSpec>& cells, const reference::Options& options,
-                                  const MapRequest& request) {
-  if (request.cells.empty()) return {map_one(mesh, sha256, cells[0], options, request)};
-  if (!request.out.empty()) return map_into_folder(mesh, sha256, cells, options, request);
+std::vector<MappedCell> map_cells(const CellMapper& mapper, const std::string& sha256,
+                                  const std::vector<scene::CellSpec>& cells, const MapRequest& request) {
   std::vector<MappedCell> mapped(cells.size());
+  if (request.cells.empty()) {
+    ProgressBar bar("clues map");
+    const auto show = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
+      bar.show(stage, done, total);
+    };
+    mapped[0] = mapper.map(cells[0], request.method.threads, show);
+    return mapped;
+  }
+  if (!request.out.empty()) return map_into_folder(mapper, sha256, cells, request);
   std::vector<std::size_t> all(cells.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  map_many(mesh, sha256, cells, all, options, request,
+  map_many(mapper, cells, all, request.method.threads,
            [&](std::size_t i, MappedCell&& cell) { mapped[i] = std::move(cell); });
   return mapped;
 }
 
 int run_map(MapRequest request) {
   while (request.out.size() > 1 && request.out.back() == '/') request.out.pop_back();  // "cells/" is the folder "cells"
-  auto options = request.method.to_reference();
+  request.method.check();
   if (request.cell.empty() == request.cells.empty()) {
     throw Error(ErrorCode::bad_argument, "give one of --cell and --cells (see `clues map --help`)");
   }
@@ -206,7 +139,10 @@ int run_map(MapRequest request) {
   }
   const auto mesh = scene::read_mesh(request.scene);
   const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
-  const auto mapped = map_cells(mesh, scene::sha256_of_file(request.scene), cells, options, request);
+  const std::string sha256 = scene::sha256_of_file(request.scene);
+  const auto mapper =
+      request.method.kernel == "fast" ? fast_mapper(mesh, sha256, request) : exact_mapper(mesh, sha256, request);
+  const auto mapped = map_cells(*mapper, sha256, cells, request);
 
   if (!request.umbra.file.empty()) scene::write_file_atomically(request.umbra.file, mapped[0].umbra_bytes);
   if (!request.overlap_graph.empty()) scene::write_file_atomically(request.overlap_graph, mapped[0].overlap_graph);
@@ -218,7 +154,7 @@ int run_map(MapRequest request) {
     std::fputs((text + (many ? "]\n" : "")).c_str(), stdout);
     return fine;
   }
-  std::string table = table_head;
+  std::string table = mapper->table_head();
   for (const auto& cell : mapped) table += cell.summary + cell.umbra_summary;
   std::fputs(table.c_str(), request.json ? stderr : stdout);
   return fine;
@@ -226,9 +162,17 @@ int run_map(MapRequest request) {
 
 }  // namespace
 
+bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" || out.extension() == ".txt"; }
+
+std::string bytes_of(scene::Result result, const MapRequest& request, const std::string& sha256) {
+  result.scene_file = fs::path(request.scene).filename().string();
+  result.scene_sha256 = sha256;
+  const bool plain = request.cells.empty() && wants_plain_list(request.out);
+  return plain ? scene::to_pvs_text(result.visible) : scene::to_json_text(result);
+}
+
 void add_map_command(CLI::App& program, int& status) {
-  auto* command =
-      program.add_subcommand("map", "Compute the exact first-order visibility map of a scene for a view cell");
+  auto* command = program.add_subcommand("map", "Compute the first-order visibility map of a scene for a view cell");
   auto request = std::make_shared<MapRequest>();
   command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL")->required();
   command->add_option("--cell", request->cell, "One view cell")->type_name("SPEC");

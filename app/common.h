@@ -20,7 +20,8 @@ struct MethodOptions {
   int threads = 0;
 
   void add_to(CLI::App& command);
-  reference::Options to_reference() const;  // throws Error bad_argument, unsupported
+  void check() const;                       // throws Error bad_argument, unsupported
+  reference::Options to_reference() const;  // the same; unsupported for the fast kernel
 };
 
 // The two paragraphs about SPEC and exit codes that every footer needs.

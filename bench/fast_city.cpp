@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
@@ -38,6 +39,7 @@ void cities() {
              "median s", "growth", "visible", "part", "passes", "boxes", "wedges", "exact", "fallbacks", "peak MiB",
              "ratio");
   double last_time = 0, last_size = 0;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   for (const std::uint32_t size : {300U, 1000U, 3000U, 10000U, 100000U, 1000000U}) {
     const auto mesh = clues::fuzz::make_city(size, kSeed);
     const auto cell = clues::fuzz::street_cell(size, kSeed);
