@@ -163,7 +163,7 @@ class LocalMap::Parts {
     const Point a = scene.corner(t, 0).estimate(), b = scene.corner(t, 1).estimate(), c = scene.corner(t, 2).estimate();
     const Vec3<Interval>& n = h.normal_approximate();
     const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
-    const double up_size = std::sqrt(up[0] * up[0] + up[1] * up[1] + up[2] * up[2]);
+    const double up_size = length_estimate(up);
     double extent = 0;
     for (std::size_t k = 0; k < 3; ++k)
       extent = std::max({extent, std::fabs(a[k] - b[k]), std::fabs(b[k] - c[k]), std::fabs(c[k] - a[k])});
@@ -172,16 +172,19 @@ class LocalMap::Parts {
                                        {0.28125, 0.1875, 0.53125},
                                        {0.5625, 0.25, 0.1875}};
     for (const auto& w : kWeights) {
-      for (int level = 0; level < 5; ++level) {
+      constexpr int kDoubles = 3;
+      for (int level = up_size > 0 ? 0 : kDoubles; level < 2 * kDoubles; ++level) {
         // On either side of the piece, with nothing but the piece between.
-        const double step = std::ldexp(extent, -4 - 8 * level) / up_size * side;
-        Point before, behind;
-        for (std::size_t k = 0; k < 3; ++k) {
-          const double x = w[0] * a[k] + w[1] * b[k] + w[2] * c[k];
-          before[k] = x + step * up[k];
-          behind[k] = x - step * up[k];
-        }
-        const ExactPoint p(before), q(behind);
+        const auto beside = [&](int way) {
+          if (level >= kDoubles)
+            return ExactPoint::lifted(ExactPoint(inner_point(t, w)), scene.corner(t, 0),
+                                      std::ldexp(1.0, -24 * (level - kDoubles + 1)), h, way);
+          const double step = std::ldexp(extent, -4 - 8 * level) * way;
+          Point x;
+          for (std::size_t k = 0; k < 3; ++k) x[k] = w[0] * a[k] + w[1] * b[k] + w[2] * c[k] + step * (up[k] / up_size);
+          return ExactPoint(x);
+        };
+        const ExactPoint p = beside(side), q = beside(-side);
         if (h.side(p) != side || h.side(q) != -side || scene.crosses(p, q, t) != Crossing::yes) continue;
         const bool blocked = scene.tree.any(SegmentTest(p, q), [&](std::uint32_t i) {
           return scene.occluders[i] != t && scene.crosses(p, q, scene.occluders[i]) != Crossing::no;
@@ -196,6 +199,11 @@ class LocalMap::Parts {
     }
     ++counts.conservative_fallbacks;
     return true;
+  }
+
+  Exact3 inner_point(std::uint32_t t, const double* weights) const {
+    return Rational(weights[0]) * scene.corner(t, 0).exact() + Rational(weights[1]) * scene.corner(t, 1).exact() +
+           Rational(weights[2]) * scene.corner(t, 2).exact();
   }
 
   void take_pieces() {

@@ -64,6 +64,20 @@ ExactPoint ExactPoint::between(const ExactPoint& a, const ExactPoint& b, double 
   return out;
 }
 
+ExactPoint ExactPoint::lifted(const ExactPoint& from, const ExactPoint& to, double step, const Plane& plane,
+                              double lift) {
+  const Exact3& n = plane.normal_exact();
+  const Exact3 way = to.exact() - from.exact();
+  const auto size = [](const Exact3& v) {
+    return std::max({std::fabs(v.x.get_d()), std::fabs(v.y.get_d()), std::fabs(v.z.get_d())});
+  };
+  Rational scale(1);
+  const int binary = std::ilogb(size(way)) - std::ilogb(size(n));
+  (binary >= 0 ? mpq_mul_2exp : mpq_div_2exp)(scale.get_mpq_t(), scale.get_mpq_t(),
+                                              static_cast<mp_bitcnt_t>(std::abs(binary)));
+  return ExactPoint(from.exact() + Rational(step) * (way + Rational(scale * Rational(lift)) * n));
+}
+
 ExactPoint ExactPoint::reflected(const ExactPoint& x, const ExactPoint& s) {
   ExactPoint out;
   out.kind_ = Kind::reflected;
@@ -147,6 +161,24 @@ int Plane::side(const ExactPoint& x) const {
   if (s != kUnsure) return s;
   ++exact_decisions();
   return sgn(value_exact(x));
+}
+
+double length_estimate(const Point& v) {
+  const double most = std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+  if (!(most > 0)) return 0;
+  const int binary = std::ilogb(most);
+  double sum = 0;
+  for (const double x : v) sum += std::ldexp(x, -binary) * std::ldexp(x, -binary);
+  return std::ldexp(std::sqrt(sum), binary);
+}
+
+ExactPoint point_near(const ExactPoint& x, const ExactPoint& to, int level) {
+  constexpr int kDoubles = 3;
+  if (level >= kDoubles) return ExactPoint::between(x, to, std::ldexp(1.0, -5 - 24 * (level - kDoubles + 1)));
+  const Point a = x.estimate(), b = to.estimate();
+  Point p;
+  for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + std::ldexp(b[k] - a[k], -5 - 8 * level);
+  return ExactPoint(p);
 }
 
 int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {

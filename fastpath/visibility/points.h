@@ -24,6 +24,8 @@ class ExactPoint {
   static ExactPoint on_plane(const ExactPoint& a, const ExactPoint& b, const Plane& plane);
   // a + t (b - a).
   static ExactPoint between(const ExactPoint& a, const ExactPoint& b, double t);
+  // from + step (to - from) + lift step direction, exactly; `direction` is a plane's normal scaled to about the length of to - from.
+  static ExactPoint lifted(const ExactPoint& from, const ExactPoint& to, double step, const Plane& plane, double lift);
   // The same distance beyond x as s is before it.
   static ExactPoint reflected(const ExactPoint& x, const ExactPoint& s);
 
@@ -92,6 +94,13 @@ template <>
 inline Vec3<Rational> normal_of<Rational>(const Plane& h) {
   return h.normal_exact();
 }
+
+// The length of a vector, without underflow; zero only for the zero vector.
+double length_estimate(const Point& v);
+
+// A point near x on the way to another. Near, nearer and nearer with level 0, 1, ...: first a point with double coordinates close to the way,
+// then exactly on it. It refers to both.
+ExactPoint point_near(const ExactPoint& x, const ExactPoint& to, int level);
 
 // How often rationals had to decide, on this thread.
 std::uint64_t& exact_decisions();

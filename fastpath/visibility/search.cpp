@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint64_t kSourceSeed = 0x51, kVertexSeed = 0xa7;
 constexpr int kRetries = 12;
 
-double length(const Point& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+double length(const Point& v) { return length_estimate(v); }
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 }  // namespace
@@ -211,12 +211,21 @@ class Search::Work {
     const Vec3<Interval>& n = c.plane->normal_approximate();
     const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
     const double size = std::min(length(to), length(minus(s.hi->estimate(), s.lo->estimate())));
-    for (; s.level < 6; ++s.level) {
-      const double step = std::ldexp(size, -5 - 7 * s.level);
-      Point p;
-      for (std::size_t k = 0; k < 3; ++k)
-        p[k] = y[k] + step * (to[k] / length(to)) + step * 0x1p-5 * (up[k] / length(up));
-      const ExactPoint beside(p);
+    constexpr int kDoubles = 4;
+    if (!(length(to) > 0 && length(up) > 0)) s.level = std::max(s.level, kDoubles);
+    for (; s.level < 2 * kDoubles; ++s.level) {
+      const ExactPoint beside = [&] {
+        if (s.level >= kDoubles) {  // features smaller than the spacing of doubles
+          const double step = std::ldexp(1.0, -5 - 24 * (s.level - kDoubles + 1));
+          return ExactPoint::lifted(*s.y, scene.cell.vertices[static_cast<std::size_t>(c.touching.front())], step,
+                                    *c.plane, 0x1p-5);
+        }
+        const double step = std::ldexp(size, -5 - 7 * s.level);
+        Point p;
+        for (std::size_t k = 0; k < 3; ++k)
+          p[k] = y[k] + step * (to[k] / length(to)) + step * 0x1p-5 * (up[k] / length(up));
+        return ExactPoint(p);
+      }();
       if (c.plane->side(beside) <= 0 || (c.other && c.other->side(beside) > 0)) continue;
       const bool blocked = scene.tree.any(SegmentTest(beside, *s.y), [&](std::uint32_t i) {
         const std::uint32_t t = scene.occluders[i];
@@ -277,11 +286,9 @@ class Search::Work {
 
   void add_vertex_source(std::uint32_t v, const ExactPoint& from) {
     const ExactPoint& x = scene.points[v];
-    const Point a = x.estimate(), b = from.estimate();
-    for (int level = 0; level < 5; ++level) {
-      Point p;
-      for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + std::ldexp(b[k] - a[k], -5 - 8 * level);
-      const ExactPoint beside(p);
+    const ExactPoint* kept = pool.keep(from);
+    for (int level = 0; level < 7; ++level) {
+      const ExactPoint beside = point_near(x, *kept, level);
       if (equal(beside, x) || scene.may_meet(beside, x)) continue;
       VertexSource s;
       s.point = v;
@@ -343,6 +350,7 @@ class Search::Work {
             Point p;
             for (std::size_t k = 0; k < 3; ++k)
               p[k] = x[k] + reach * far * along[k] + way * far * length(along) * up[k] / length(up);
+            if (!(length(p) < HUGE_VAL)) continue;
             const ExactPoint v(p);
             if (scene.cell.interior_contains(v)) found.push_back(v);
           }

@@ -174,11 +174,8 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
         return walk;
       }
       if (crossed == Crossing::touch) continue;
-      const Point to = m->estimate(), from = p->estimate();
-      for (double part = 0x1p-5; part > 0x1p-40 && !found; part *= 0x1p-8) {
-        Point beside;
-        for (std::size_t k = 0; k < 3; ++k) beside[k] = to[k] + part * (from[k] - to[k]);
-        const ExactPoint next(beside);
+      for (int level = 0; level < 7 && !found; ++level) {
+        const ExactPoint next = point_near(*m, *p, level);
         if (h.side(next) != side || scene_->may_meet(next, *p) || pieces_->may_meet(next, *p, 0, kNothing)) continue;
         found = true;
         walk.legs.push_back({m, p, pool.keep(next), *last.piece, side, false});
