@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <vector>
 
@@ -74,10 +74,65 @@ void cities() {
   }
 }
 
+// A town under a closed roof, and beside it, wholly hidden, another that is doubled six times.
+clues::scene::TriangleMesh town_beside_hidden_city(std::uint32_t hidden) {
+  auto mesh = clues::fuzz::make_city(1000, kSeed);
+  const auto append = [&](const clues::scene::TriangleMesh& other, double shift) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const auto& p : other.points) mesh.points.push_back({p[0] + shift, p[1], p[2]});
+    for (const auto& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  };
+  clues::scene::Point low = mesh.points[0], high = low;
+  for (const auto& p : mesh.points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i] - 8);
+      high[i] = std::max(high[i], p[i] + 8);
+    }
+  }
+  clues::scene::TriangleMesh roof;
+  for (unsigned i = 0; i < 8; ++i) {
+    roof.points.push_back(
+        {(i & 1U) != 0 ? high[0] : low[0], (i & 2U) != 0 ? high[1] : low[1], (i & 4U) != 0 ? high[2] : low[2]});
+  }
+  for (const auto& q : {std::array{0U, 1U, 3U, 2U},
+                        {4U, 5U, 7U, 6U},
+                        {0U, 1U, 5U, 4U},
+                        {2U, 3U, 7U, 6U},
+                        {0U, 2U, 6U, 4U},
+                        {1U, 3U, 7U, 5U}}) {
+    roof.triangles.push_back({q[0], q[1], q[2]});
+    roof.triangles.push_back({q[0], q[2], q[3]});
+  }
+  append(roof, 0);
+  append(clues::fuzz::make_city(hidden, kSeed), 2 * (high[0] - low[0]));
+  mesh.face_of.resize(mesh.triangles.size());
+  return mesh;
+}
+
+void hidden_depth() {
+  fmt::print(
+      "\na town of 1000 triangles under a roof, and a hidden city beside it\n{:>10} {:>9} {:>8} {:>8} {:>7} {:>8}\n",
+      "triangles", "median s", "to first", "visible", "part", "wedges");
+  double first = 0;
+  const auto cell = clues::fuzz::street_cell(1000, kSeed);
+  for (std::uint32_t hidden = 2000; hidden <= 128000; hidden *= 2) {
+    const auto mesh = town_beside_hidden_city(hidden);
+    const clues::fastpath::Bvh bvh(mesh);
+    clues::fastpath::FirstOrder fast;
+    const double time = median_seconds(7, [&] { fast = clues::fastpath::first_order_visibility(bvh, cell, {}); });
+    if (first == 0) first = time;
+    fmt::print("{:>10} {:>9.3f} {:>8.2f} {:>8} {:>7} {:>8}\n", mesh.triangles.size(), time, time / first,
+               fast.visible.size(), fast.part.size(), fast.counts.wedges);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   tbb::task_arena arena(argc > 1 ? std::atoi(argv[1]) : tbb::task_arena::automatic);
   fmt::print("{} threads\n", arena.max_concurrency());
-  arena.execute(cities);
+  arena.execute([] {
+    cities();
+    hidden_depth();
+  });
 }

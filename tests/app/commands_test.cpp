@@ -152,6 +152,41 @@ TEST(Map, AStoppedRunOverManyCellsGoesOn) {
   EXPECT_EQ(read_all(second), whole);
 }
 
+TEST(Map, TheFastKernelGivesTheSamePvs) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const std::vector<std::string> command{"map", "scene.off", "--cell", screen_cell, "-o"};
+  for (const auto& [kernel, out] : {std::pair{"exact", "exact.pvs"}, {"fast", "fast.pvs"}}) {
+    auto arguments = command;
+    for (const char* more : {out, "--kernel", kernel}) arguments.emplace_back(more);
+    const auto ran = run_clues(arguments, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("fallbacks"));
+  }
+  EXPECT_EQ(read_all(folder.file("fast.pvs")), read_all(folder.file("exact.pvs")));
+
+  const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "--kernel", "fast", "--json"}, folder.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto result = json::parse(ran.out);
+  EXPECT_EQ(result["kernel"], "fast");
+  EXPECT_EQ(result["stats"]["conservative_fallbacks"], 0);
+}
+
+TEST(Map, TheFastKernelRefusesWhatItCannotDo) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--umbra", "u.json"},
+                                               {"--formulation", "traversal"},
+                                               {"--map", "--render-states"},
+                                               {"--overlap-graph", "g.dot"}}) {
+    std::vector<std::string> arguments{"map", "scene.off", "--cell", screen_cell, "--kernel", "fast"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto ran = run_clues(arguments, folder.path());
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("--kernel exact"));
+  }
+}
+
 TEST(Check, OwnPvsIsSound) {
   const TestFolder folder;
   folder.write("scene.off", screen_scene);
