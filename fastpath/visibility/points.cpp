@@ -43,11 +43,12 @@ ExactPoint ExactPoint::on_plane(const ExactPoint& a, const ExactPoint& b, const 
   out.b_ = &b;
   out.plane_ = &plane;
   const Interval at_a = plane.value_approximate(a), at_b = plane.value_approximate(b);
-  const Interval t = at_a / (at_a - at_b);
+  // Between 0 and 1, whatever the quotient of two uncertain values says.
+  const Interval quotient = at_a / (at_a - at_b);
+  const Interval t(quotient.inf() >= 0 ? std::min(quotient.inf(), 1.0) : 0,
+                   quotient.sup() <= 1 ? std::max(quotient.sup(), 0.0) : 1);
   const auto part = [&](const Interval& u, const Interval& w) {
     const Interval x = u + t * (w - u);
-    // Between the ends, when a and b are on different sides.
-    if (!(t.inf() >= 0 && t.sup() <= 1)) return x;
     return Interval(std::max(x.inf(), std::min(u.inf(), w.inf())), std::min(x.sup(), std::max(u.sup(), w.sup())));
   };
   out.near_ = {part(a.near_.x, b.near_.x), part(a.near_.y, b.near_.y), part(a.near_.z, b.near_.z)};

@@ -18,9 +18,9 @@ using Exact3 = Vec3<Rational>;
 class ExactPoint {
  public:
   ExactPoint() : ExactPoint(Point{0, 0, 0}) {}
-  explicit ExactPoint(const Point& p);
+  explicit ExactPoint(const Point& p);  // finite
   explicit ExactPoint(const Exact3& p);
-  // Where the line ab crosses a plane that it crosses.
+  // Where the segment ab crosses a plane; a and b are on different sides of it.
   static ExactPoint on_plane(const ExactPoint& a, const ExactPoint& b, const Plane& plane);
   // a + t (b - a).
   static ExactPoint between(const ExactPoint& a, const ExactPoint& b, double t);

@@ -16,6 +16,7 @@ constexpr std::uint64_t kSourceSeed = 0x51, kVertexSeed = 0xa7;
 constexpr int kRetries = 12;
 
 double length(const Point& v) { return length_estimate(v); }
+double inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 }  // namespace
@@ -206,8 +207,12 @@ class Search::Work {
   void place(Source& s) {
     const ContourEdge& c = contours[s.contour];
     const LocalEdge& edge = scene.edges[c.edge];
-    const Point y = s.y->estimate(),
-                to = minus(scene.cell.vertices[static_cast<std::size_t>(c.touching.front())].estimate(), y);
+    const ExactPoint &touching = scene.cell.vertices[static_cast<std::size_t>(c.touching.front())],
+                     &a = scene.points[edge.a], &b = scene.points[edge.b];
+    const Point y = s.y->estimate(), along = minus(b.estimate(), a.estimate());
+    Point to = minus(touching.estimate(), y);  // across the edge
+    const double shift = -inner(to, along) / inner(along, along);
+    for (std::size_t k = 0; k < 3; ++k) to[k] += shift * along[k];
     const Vec3<Interval>& n = c.plane->normal_approximate();
     const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
     const double size = std::min(length(to), length(minus(s.hi->estimate(), s.lo->estimate())));
@@ -217,8 +222,8 @@ class Search::Work {
       const ExactPoint beside = [&] {
         if (s.level >= kDoubles) {  // features smaller than the spacing of doubles
           const double step = std::ldexp(1.0, -5 - 24 * (s.level - kDoubles + 1));
-          return ExactPoint::lifted(*s.y, scene.cell.vertices[static_cast<std::size_t>(c.touching.front())], step,
-                                    *c.plane, 0x1p-5);
+          const Exact3 across = touching.exact() + Rational(std::isfinite(shift) ? shift : 0) * (b.exact() - a.exact());
+          return ExactPoint::lifted(*s.y, ExactPoint(across), step, *c.plane, 0x1p-5);
         }
         const double step = std::ldexp(size, -5 - 7 * s.level);
         Point p;
@@ -226,7 +231,8 @@ class Search::Work {
           p[k] = y[k] + step * (to[k] / length(to)) + step * 0x1p-5 * (up[k] / length(up));
         return ExactPoint(p);
       }();
-      if (c.plane->side(beside) <= 0 || (c.other && c.other->side(beside) > 0)) continue;
+      // Between H- and the event surface of the other supporting plane there is one label.
+      if (c.plane->side(beside) <= 0 || (c.other && c.other->side(beside) >= 0)) continue;
       const bool blocked = scene.tree.any(SegmentTest(beside, *s.y), [&](std::uint32_t i) {
         const std::uint32_t t = scene.occluders[i];
         if (std::find(edge.pieces.begin(), edge.pieces.end(), t) != edge.pieces.end()) return false;
