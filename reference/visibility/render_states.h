@@ -15,7 +15,7 @@ struct RenderState {
   bool no_z_compare = false;  // no surface meets its shaft: from every viewpoint all of it is seen, so it always wins
   bool no_z_write =
       false;  // it does not meet the shaft of any other visible region: nothing that is drawn lies behind it. What is not in the
-      // scene (a sky, moving things) must be drawn so that it does not need its depth. It may still need to be compared.
+  // scene (a sky, moving things) must be drawn so that it does not need its depth. It may still need to be compared.
   bool no_backface_cull = false;  // all of the cell is strictly in front of it
 };
 

@@ -10,6 +10,7 @@
 #include "scene/error.h"
 #include "validate/point_query.h"
 #include "validate/points_file.h"
+#include "validate/segment_query.h"
 
 namespace clues::validate {
 namespace {
@@ -91,6 +92,35 @@ TEST_F(PointQueryTest, InTheCell) {
   }
 }
 
+TEST_F(PointQueryTest, ASegmentThroughTheUmbra) {
+  // At z = 3/2 the umbra is |x|, |y| <= 5/2, on the way from x = -8 to x = 8.
+  const Point3 a(FT(-8), FT(0), FT(3) / FT(2)), b(FT(8), FT(0), FT(3) / FT(2));
+  const auto parts = ask_segment(query_, omega_, a, b);
+  ASSERT_EQ(parts.size(), 3U);
+  EXPECT_EQ(parts[0].sight, PartSight::visible);
+  EXPECT_EQ(parts[1].sight, PartSight::hidden);
+  EXPECT_EQ(parts[1].from, FT(11) / FT(32));
+  EXPECT_EQ(parts[1].to, FT(21) / FT(32));
+  EXPECT_EQ(parts[2].sight, PartSight::visible);
+  EXPECT_TRUE(exact::check_sight_line(mesh_, cell_, *parts[2].v, parts[2].at).blockers.empty());
+}
+
+TEST_F(PointQueryTest, ASegmentInASurfaceAndOneOutOfTheCell) {
+  // On the wall the umbra is |x|, |y| <= 3.
+  const auto wall = ask_segment(query_, omega_, Point3(-8, 1, 2), Point3(8, 1, 2));
+  ASSERT_EQ(wall.size(), 3U);
+  EXPECT_EQ(wall[1].from, FT(5) / FT(16));
+  EXPECT_EQ(wall[1].to, FT(11) / FT(16));
+  EXPECT_EQ(wall[1].sight, PartSight::hidden);
+  // From within the cell up to the plate, and through it.
+  const auto up =
+      ask_segment(query_, omega_, Point3(FT(1) / FT(3), FT(0), FT(0)), Point3(FT(1) / FT(3), FT(0), FT(3) / FT(2)));
+  ASSERT_EQ(up.size(), 2U);
+  EXPECT_EQ(up[0].sight, PartSight::visible);
+  EXPECT_EQ(up[0].to, FT(2) / FT(3));
+  EXPECT_EQ(up[1].sight, PartSight::hidden);
+}
+
 TEST(PointQueryRandom, ProofsHoldAndLabelsAreSound) {
   constexpr std::uint64_t kSeed = 20261121;
   std::uint64_t visible = 0, occluded = 0, only_first_order = 0;
@@ -153,6 +183,9 @@ TEST_F(PointsFile, DecimalsAndFractions) {
   EXPECT_EQ(points[0].line, 3U);
   EXPECT_EQ(points[0].point, Point3(FT(0.1), FT(-1) / FT(3), FT(0.125)));
   EXPECT_EQ(points[1].point, Point3(1000, 0, 0));
+  EXPECT_FALSE(points[1].end);
+  write("0 0 0 1/2 0 0\n");
+  EXPECT_EQ(read_points(path_).at(0).end, Point3(0.5, 0, 0));
 }
 
 TEST_F(PointsFile, FaultsNameFileAndLine) {
