@@ -125,8 +125,9 @@ std::string part_line(std::uint64_t line, const validate::SegmentPart& part) {
   std::string proof = "no point is first-order visible";
   if (part.sight == validate::PartSight::undecided) proof = "first-order visible; no free sight line was found";
   if (part.sight == validate::PartSight::visible) {
-    proof = validate::to_string_exact(part.at) +
-            (part.v ? " is seen from " + validate::to_string_exact(*part.v) : std::string(" is in the cell"));
+    const std::string at = validate::to_string_exact(part.at);
+    proof = part.v ? fmt::format("{} is seen from {}", at, validate::to_string_exact(*part.v))
+                   : fmt::format("{} is in the cell", at);
   }
   return fmt::format("{:>6}  {:<18}  {:<9}  {}{}\n", line, where, word_of(part.sight),
                      part.contradiction ? "CONTRADICTION, please report: " : "", proof);
