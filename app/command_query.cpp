@@ -16,6 +16,7 @@
 #include "validate/judge_report.h"
 #include "validate/point_query.h"
 #include "validate/points_file.h"
+#include "validate/segment_query.h"
 
 namespace clues::app {
 namespace {
@@ -31,6 +32,7 @@ struct QueryRequest {
 struct Asked {
   validate::LinePoint at;
   validate::PointReport report;
+  std::vector<validate::SegmentPart> parts;  // of a segment; then there is no report
 };
 
 std::string sight_word(const validate::PointAnswer& a) { return a.v ? "visible" : "occluded"; }
@@ -58,9 +60,40 @@ json to_json(const validate::PointAnswer& a) {
   return out;
 }
 
+const char* word_of(validate::PartSight sight) {
+  switch (sight) {
+    case validate::PartSight::visible:
+      return "visible";
+    case validate::PartSight::undecided:
+      return "undecided";
+    case validate::PartSight::hidden:
+      return "hidden";
+  }
+  return "?";
+}
+
+json segment_json(const Asked& q) {
+  json parts = json::array();
+  for (const auto& part : q.parts) {
+    json out = {{"from", exact::to_string_exact(part.from)},
+                {"to", exact::to_string_exact(part.to)},
+                {"sight", word_of(part.sight)}};
+    if (part.sight == validate::PartSight::visible) {
+      out["at"] = exact_json(part.at);
+      out["v"] = part.v ? exact_json(*part.v) : json();
+    }
+    parts.push_back(std::move(out));
+  }
+  return {{"line", q.at.line}, {"ends", {exact_json(q.at.point), exact_json(*q.at.end)}}, {"parts", std::move(parts)}};
+}
+
 std::string to_json_text(const std::vector<Asked>& all) {
-  json points = json::array();
+  json points = json::array(), segments = json::array();
   for (const Asked& q : all) {
+    if (q.at.end) {
+      segments.push_back(segment_json(q));
+      continue;
+    }
     json answers = json::array();
     for (const auto& a : q.report.answers) answers.push_back(to_json(a));
     const bool surface = !q.report.answers.empty() && q.report.answers.front().triangle;
@@ -71,7 +104,8 @@ std::string to_json_text(const std::vector<Asked>& all) {
                                                  : "space"},
                       {"answers", std::move(answers)}});
   }
-  return json{{"format", "clues-query/1"}, {"points", std::move(points)}}.dump(2) + "\n";
+  return json{{"format", "clues-query/1"}, {"points", std::move(points)}, {"segments", std::move(segments)}}.dump(2) +
+         "\n";
 }
 
 std::string proof_of(const validate::PointAnswer& a) {
@@ -86,15 +120,29 @@ std::string proof_of(const validate::PointAnswer& a) {
   return text;
 }
 
+std::string part_line(std::uint64_t line, const validate::SegmentPart& part) {
+  const std::string where = fmt::format("{} to {}", exact::to_string_exact(part.from), exact::to_string_exact(part.to));
+  std::string proof = "no point is first-order visible";
+  if (part.sight == validate::PartSight::undecided) proof = "first-order visible; no free sight line was found";
+  if (part.sight == validate::PartSight::visible) {
+    const std::string at = validate::to_string_exact(part.at);
+    proof = part.v ? fmt::format("{} is seen from {}", at, validate::to_string_exact(*part.v))
+                   : fmt::format("{} is in the cell", at);
+  }
+  return fmt::format("{:>6}  {:<18}  {:<9}  {}{}\n", line, where, word_of(part.sight),
+                     part.contradiction ? "CONTRADICTION, please report: " : "", proof);
+}
+
 std::string to_text(const std::vector<Asked>& all) {
-  std::string text = fmt::format("{:>6}  {:<18}  {:<8}  proof\n", "line", "where", "sight");
+  std::string text = fmt::format("{:>6}  {:<18}  {:<9}  proof\n", "line", "where", "sight");
   for (const Asked& q : all) {
+    for (const auto& part : q.parts) text += part_line(q.at.line, part);
     if (q.report.in_cell)
-      text += fmt::format("{:>6}  {:<18}  {:<8}  the point is in the cell\n", q.at.line, "cell", "visible");
+      text += fmt::format("{:>6}  {:<18}  {:<9}  the point is in the cell\n", q.at.line, "cell", "visible");
     for (const auto& a : q.report.answers) {
       const std::string where =
           a.triangle ? fmt::format("triangle {} {}", *a.triangle, a.front ? "front" : "back") : "space";
-      text += fmt::format("{:>6}  {:<18}  {:<8}  {}\n", q.at.line, where, sight_word(a), proof_of(a));
+      text += fmt::format("{:>6}  {:<18}  {:<9}  {}\n", q.at.line, where, sight_word(a), proof_of(a));
     }
   }
   return text;
@@ -113,16 +161,22 @@ int run_query(const QueryRequest& request) {
     };
     const reference::Omega omega(mesh, cell, options);
     CGAL::Bbox_3 bounds = points.front().point.bbox();
-    for (const auto& p : points) bounds += p.point.bbox();
+    for (const auto& p : points) bounds += p.end ? p.point.bbox() + p.end->bbox() : p.point.bbox();
     const validate::PointQuery query(mesh, omega, bounds);
     for (const auto& p : points) {
-      all.push_back({p, query.ask(p.point)});
+      if (p.end) {
+        all.push_back({p, {}, validate::ask_segment(query, omega, p.point, *p.end)});
+      } else {
+        all.push_back({p, query.ask(p.point), {}});
+      }
       bar.show("points", all.size(), points.size());
     }
   }
   std::fputs((request.json ? to_json_text(all) : to_text(all)).c_str(), stdout);
   const bool contradiction = std::any_of(all.begin(), all.end(), [](const Asked& q) {
-    return std::any_of(q.report.answers.begin(), q.report.answers.end(), [](const auto& a) { return a.contradiction; });
+    const auto bad = [](const auto& a) { return a.contradiction; };
+    return std::any_of(q.report.answers.begin(), q.report.answers.end(), bad) ||
+           std::any_of(q.parts.begin(), q.parts.end(), bad);
   });
   return contradiction ? oracle_contradiction : fine;
 }
@@ -135,7 +189,9 @@ void add_query_command(CLI::App& program, int& status) {
   command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL")->required();
   command->add_option("--cell", request->cell, "The view cell")->type_name("SPEC")->required();
   command
-      ->add_option("--points", request->points, "The points: x y z a line, decimals or exact fractions p/q, # comments")
+      ->add_option(
+          "--points", request->points,
+          "The points: x y z a line, or the two ends of a segment; decimals or exact fractions p/q,\n# comments")
       ->type_name("FILE")
       ->required();
   request->method.add_to(*command);
@@ -150,7 +206,10 @@ void add_query_command(CLI::App& program, int& status) {
           "same.\n"
           "  A point in free space has one answer, a point of a surface one for each side; a point of an edge or a "
           "vertex has\n"
-          "  the answers of all triangles there. A point of the cell is visible.\n\n") +
+          "  the answers of all triangles there. A point of the cell is visible.\n"
+          "  A segment is cut into parts (from 0 at its first end to 1): visible at a point that is named, hidden as a "
+          "whole, or\n"
+          "  undecided: visible to the first-order method, but no free sight line was found.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  echo '3 1/3 0.5' > points.txt\n"

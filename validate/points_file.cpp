@@ -40,13 +40,23 @@ std::vector<LinePoint> read_points(const std::filesystem::path& path) {
   std::vector<LinePoint> points;
   while (lines.next()) {
     const auto& tokens = lines.tokens();
-    if (tokens.size() != 3) {
+    if (tokens.size() != 3 && tokens.size() != 6) {
       scene::fail_at(lines.place(), scene::ErrorCode::malformed,
-                     fmt::format("a point has three coordinates, this line has {}", tokens.size()));
+                     fmt::format("a point has three coordinates and a segment six, this line has {}", tokens.size()));
     }
-    RVector p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = coordinate(tokens[i], lines.place());
-    points.push_back({lines.line(), to_point(p)});
+    const auto point_at = [&](std::size_t first) {
+      RVector p;
+      for (std::size_t i = 0; i < 3; ++i) p[i] = coordinate(tokens[first + i], lines.place());
+      return to_point(p);
+    };
+    LinePoint read{lines.line(), point_at(0), std::nullopt};
+    if (tokens.size() == 6) {
+      read.end = point_at(3);
+      if (*read.end == read.point)
+        scene::fail_at(lines.place(), scene::ErrorCode::malformed,
+                       "the two ends of the segment are one point; give it alone");
+    }
+    points.push_back(std::move(read));
   }
   if (points.empty()) scene::fail_in(file, scene::ErrorCode::malformed, "no points; write three numbers a line");
   return points;

@@ -110,7 +110,7 @@ std::string complaint(const std::vector<DirectedEdge>& edges, const Rational& lo
   }
   std::string list;
   for (const auto* side : {&forward, &backward}) {
-    for (const std::size_t f : *side) list += (list.empty() ? "" : ", ") + std::to_string(f);
+    for (const std::size_t f : *side) list += fmt::format("{}{}", list.empty() ? "" : ", ", f);
   }
   if ((forward.size() + backward.size()) % 2 == 0) {
     return fmt::format("facets {} meet along {} and do not run opposite ways there: one of them is turned over", list,
@@ -140,7 +140,8 @@ std::string find_border(const UmbraCertificate& facets) {
     for (auto at = begins.begin(); at != begins.end(); ++at) {
       if (at->second.first == 0) continue;
       const auto next = std::next(at);  // there is one: what begins here ends behind
-      return complaint(edges, at->first, next->first, text(*at->second.second) + " - " + text(*next->second.second));
+      return complaint(edges, at->first, next->first,
+                       fmt::format("{} - {}", text(*at->second.second), text(*next->second.second)));
     }
   }
   return "";

@@ -33,7 +33,7 @@ struct Box {
 
 struct Umbra {
   Box bounds;
-  std::vector<UmbraFacet> facets;  // ordered by their plane's first part, then by corners
+  std::vector<UmbraFacet> facets;  // plane by plane
   std::uint64_t planes = 0;
   std::uint64_t parts = 0;      // of planes, with one label on each side
   std::uint64_t fallbacks = 0;  // labels that are visible only by a limit (D17): the boundary may be open there

@@ -45,6 +45,19 @@ TEST_F(Query, AnswersEachPointWithAProof) {
   EXPECT_EQ(answer["points"][1]["answers"][0]["first_order"], "hidden");
 }
 
+TEST_F(Query, CutsSegments) {
+  folder_.write("points.txt", "0 0 0 0 0 3\n");
+  const auto table = run({"query", "--points", "points.txt"});
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_THAT(table.out,
+              AllOf(HasSubstr("0 to 2/3"), HasSubstr("is seen from"), HasSubstr("no point is first-order visible")));
+  const auto answer = json::parse(run({"query", "--points", "points.txt", "--json"}).out);
+  ASSERT_EQ(answer["segments"].size(), 1U);
+  EXPECT_EQ(answer["segments"][0]["parts"][0]["sight"], "visible");
+  EXPECT_EQ(answer["segments"][0]["parts"][0]["to"], "2/3");
+  EXPECT_EQ(answer["segments"][0]["parts"][1]["sight"], "hidden");
+}
+
 TEST_F(Query, BadPointsAreNamedByFileAndLine) {
   folder_.write("points.txt", "0 0 1\n0 0\n");
   const auto ran = run({"query", "--points", "points.txt"});

@@ -10,6 +10,7 @@
 #include "scene/error.h"
 #include "validate/point_query.h"
 #include "validate/points_file.h"
+#include "validate/segment_query.h"
 
 namespace clues::validate {
 namespace {
@@ -55,8 +56,9 @@ TEST_F(PointQueryTest, InSpace) {
 }
 
 TEST_F(PointQueryTest, OnAWedgeThePointIsOnTheBorderOfBoth) {
-  // |x| = 1 + z on the border of the umbra of the cell's upper face: from every point of int V it is occluded, beside it it is not.
-  const PointAnswer border = one(Point3(FT(5) / FT(2), FT(0), FT(3) / FT(2)));
+  // The umbra is |x|, |y| <= (4 z + 2 - 2 (z - 1)) / 3 = (2 z + 4) / 3, by the lower corners of the cell. No point of int V sees its border, but any point beside it is seen.
+  const PointAnswer border = one(Point3(FT(7) / FT(3), FT(0), FT(3) / FT(2)));
+  EXPECT_FALSE(border.v);
   EXPECT_TRUE(border.first_order);
 }
 
@@ -65,7 +67,7 @@ TEST_F(PointQueryTest, OnASurfaceEachSideHasItsAnswer) {
   ASSERT_EQ(report.answers.size(), 2U);
   EXPECT_EQ(report.answers[0].triangle, 2U);
   EXPECT_TRUE(report.answers[0].front && report.answers[0].faces_away);
-  EXPECT_THAT(report.answers[1].covered_by, ElementsAre(0));
+  EXPECT_THAT(report.answers[1].covered_by, ElementsAre(0, 1));
   EXPECT_FALSE(report.answers[1].first_order);
 }
 
@@ -78,9 +80,10 @@ TEST_F(PointQueryTest, OnAnEdgeAllTrianglesThere) {
 }
 
 TEST_F(PointQueryTest, OnTheBorderOfRegionsTheVisibleOneCounts) {
-  // The umbra ends at |x| = 3 on the wall.
-  const PointReport report = query_.ask(Point3(3, 0.125, 2));
+  // The umbra ends at |x| = 8/3 on the wall.
+  const PointReport report = query_.ask(Point3(FT(8) / FT(3), FT(0.125), FT(2)));
   ASSERT_EQ(report.answers.size(), 2U);
+  EXPECT_FALSE(report.answers[1].v);
   EXPECT_TRUE(report.answers[1].first_order);
 }
 
@@ -89,6 +92,35 @@ TEST_F(PointQueryTest, InTheCell) {
     EXPECT_TRUE(query_.ask(p).in_cell);
     EXPECT_TRUE(query_.ask(p).answers.empty());
   }
+}
+
+TEST_F(PointQueryTest, ASegmentThroughTheUmbra) {
+  // At z = 3/2 the umbra is |x|, |y| <= 7/3, on the way from x = -8 to x = 8.
+  const Point3 a(FT(-8), FT(0), FT(3) / FT(2)), b(FT(8), FT(0), FT(3) / FT(2));
+  const auto parts = ask_segment(query_, omega_, a, b);
+  ASSERT_EQ(parts.size(), 3U);
+  EXPECT_EQ(parts[0].sight, PartSight::visible);
+  EXPECT_EQ(parts[1].sight, PartSight::hidden);
+  EXPECT_EQ(parts[1].from, FT(17) / FT(48));
+  EXPECT_EQ(parts[1].to, FT(31) / FT(48));
+  EXPECT_EQ(parts[2].sight, PartSight::visible);
+  EXPECT_TRUE(exact::check_sight_line(mesh_, cell_, *parts[2].v, parts[2].at).blockers.empty());
+}
+
+TEST_F(PointQueryTest, ASegmentInASurfaceAndOneOutOfTheCell) {
+  // On the wall the umbra is |x|, |y| <= 8/3.
+  const auto wall = ask_segment(query_, omega_, Point3(-8, 1, 2), Point3(8, 1, 2));
+  ASSERT_EQ(wall.size(), 3U);
+  EXPECT_EQ(wall[1].from, FT(1) / FT(3));
+  EXPECT_EQ(wall[1].to, FT(2) / FT(3));
+  EXPECT_EQ(wall[1].sight, PartSight::hidden);
+  // From within the cell up to the plate, and through it.
+  const auto up =
+      ask_segment(query_, omega_, Point3(FT(1) / FT(3), FT(0), FT(0)), Point3(FT(1) / FT(3), FT(0), FT(3) / FT(2)));
+  ASSERT_EQ(up.size(), 2U);
+  EXPECT_EQ(up[0].sight, PartSight::visible);
+  EXPECT_EQ(up[0].to, FT(2) / FT(3));
+  EXPECT_EQ(up[1].sight, PartSight::hidden);
 }
 
 TEST(PointQueryRandom, ProofsHoldAndLabelsAreSound) {
@@ -153,6 +185,9 @@ TEST_F(PointsFile, DecimalsAndFractions) {
   EXPECT_EQ(points[0].line, 3U);
   EXPECT_EQ(points[0].point, Point3(FT(0.1), FT(-1) / FT(3), FT(0.125)));
   EXPECT_EQ(points[1].point, Point3(1000, 0, 0));
+  EXPECT_FALSE(points[1].end);
+  write("0 0 0 1/2 0 0\n");
+  EXPECT_EQ(read_points(path_).at(0).end, Point3(0.5, 0, 0));
 }
 
 TEST_F(PointsFile, FaultsNameFileAndLine) {
