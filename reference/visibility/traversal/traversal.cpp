@@ -106,7 +106,7 @@ Traversal traverse(const exact::SceneQuery& whole, const Options& options, Stati
     const OverlapGraph graph = overlap_of_pieces(whole, lit);
     for (const std::uint32_t c : graph.in_front()) {
       statistics.clusters += graph.components[c].size() > 1;
-      for (const std::uint32_t n : graph.components[c]) spread.visit(graph.members[n].front());
+      for (const std::uint32_t n : graph.components[c]) spread.visit_with_neighbours(graph.members[n].front());
     }
   }
 }
