@@ -79,6 +79,7 @@ struct Statistics {
   std::uint64_t sight_lines = 0;
   std::uint64_t shaft_tests = 0;  // boxes and surfaces asked for whether they are dark
   std::uint64_t passes = 0;
+  std::uint64_t by_order = 0;  // passes in which no sight line helped, and the overlap order decided
   std::uint64_t clusters = 0;  // overlap cycles that were visited as one
 };
 

@@ -90,6 +90,12 @@ void Spread::look_around() {
   flood();
 }
 
+void Spread::visit_with_neighbours(std::uint32_t piece) {
+  for (const std::uint32_t corner : scene_.complex().pieces[piece].corners) {
+    for (const std::uint32_t u : scene_.complex().point_pieces[corner]) visit(u);
+  }
+}
+
 void Spread::look_at(const std::vector<std::uint32_t>& pieces) {
   for (const std::uint32_t t : pieces) {
     if (seen_[t]) continue;

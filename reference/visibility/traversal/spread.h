@@ -20,6 +20,7 @@ class Spread {
   void look_at(const std::vector<std::uint32_t>& pieces);
   // Marks as visited without a sight line.
   void visit(std::uint32_t piece) { visited_[piece] = true; }
+  void visit_with_neighbours(std::uint32_t piece);  // those that share a corner with it
 
   const std::vector<bool>& visited() const { return visited_; }
   bool anything_seen() const { return seen_count_ > 0; }

@@ -48,6 +48,7 @@ void carry_over(Statistics& all, const Statistics& last) {
   all.sight_lines = before.sight_lines;
   all.shaft_tests = before.shaft_tests;
   all.passes = before.passes;
+  all.by_order = before.by_order;
   all.clusters = before.clusters;
 }
 
@@ -101,10 +102,11 @@ Traversal traverse(const exact::SceneQuery& whole, const Options& options, Stati
       look_for_the_first(spread, whole, lit);
     }
     if (lit.empty() || spread.visited() != before) continue;
-    const OverlapGraph graph = overlap_of_pieces(whole, lit);  // all suspended: go by the order
+    ++statistics.by_order;  // all suspended
+    const OverlapGraph graph = overlap_of_pieces(whole, lit);
     for (const std::uint32_t c : graph.in_front()) {
       statistics.clusters += graph.components[c].size() > 1;
-      for (const std::uint32_t n : graph.components[c]) spread.visit(graph.members[n].front());
+      for (const std::uint32_t n : graph.components[c]) spread.visit_with_neighbours(graph.members[n].front());
     }
   }
 }

@@ -14,7 +14,7 @@
 // Where wedges end without meeting a surface there is the sky: a wedge without a blocker is unbounded, and what stands free in lit space and meets no
 // wedge is found because it is not dark. So no enclosing mesh is needed (B-15, B-19, B-31). A wedge starts beyond its edge or vertex (B-18).
 //
-// With every seen surface those that share a corner with it are visited too, and so is every surface at a visible edge or corner: they decide
+// With every surface those that share a corner with it are visited too (but not those of these), and so is every surface at a visible edge or corner: they decide
 // which wedges start there. They make the wedges of K those of S.
 #pragma once
 
