@@ -31,7 +31,36 @@ struct MapRequest {
   std::string scene, cell, cells, out;
   bool with_map = false, json = false;
   MethodOptions method;
+  RefineChoice refine;
 };
+
+// What is wanted beyond the first-order map.
+struct Wanted {
+  validate::Refinement refinement = validate::Refinement::none;
+  reference::RefineOptions options;
+};
+
+// --method backprojected is short for --refine backprojection; with --refine cell both are wanted. Takes the method back to the one that
+// the other options know.
+Wanted wanted(MapRequest& request) {
+  const bool backprojected = request.method.method == "backprojected";
+  if (backprojected) request.method.method = "first-order";
+  Wanted out{request.refine.refinement(validate::Refinement::none), request.refine.to_reference()};
+  if (backprojected) {
+    out.refinement = out.refinement == validate::Refinement::cells || out.refinement == validate::Refinement::both
+                         ? validate::Refinement::both
+                         : validate::Refinement::backprojection;
+  }
+  return out;
+}
+
+reference::VisibilityMap visibility_map(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
+                                        const reference::Options& options, const Wanted& wanted) {
+  if (wanted.refinement == validate::Refinement::none) return reference::first_order_visibility(mesh, cell, options);
+  reference::Bounds bounds(mesh, cell, options);
+  validate::refine(bounds, wanted.refinement, wanted.options);
+  return bounds.refined_map(wanted.refinement == validate::Refinement::cells ? "subdivided" : "backprojected");
+}
 
 struct MappedCell {
   std::string name;
@@ -61,9 +90,9 @@ fs::path file_of_cell(const fs::path& folder, std::string name) {
 }
 
 MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& spec,
-                    const reference::Options& options, const MapRequest& request) {
+                    const reference::Options& options, const Wanted& wanted, const MapRequest& request) {
   const auto cell = exact::ConvexCell::from_doubles(spec.points);
-  const auto map = reference::first_order_visibility(mesh, cell, options);
+  const auto map = visibility_map(mesh, cell, options, wanted);
   auto result = reference::to_result(map, spec, request.with_map);
   result.scene_file = fs::path(request.scene).filename().string();
   result.scene_sha256 = sha256;
@@ -74,13 +103,13 @@ MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, 
 
 std::vector<MappedCell> map_all(const scene::TriangleMesh& mesh, const std::string& sha256,
                                 const std::vector<scene::CellSpec>& cells, reference::Options options,
-                                const MapRequest& request) {
+                                const Wanted& wanted, const MapRequest& request) {
   ProgressBar bar("clues map");
   if (cells.size() == 1) {
     options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
       bar.show(stage, done, total);
     };
-    return {map_cell(mesh, sha256, cells[0], options, request)};
+    return {map_cell(mesh, sha256, cells[0], options, wanted, request)};
   }
   // Many cells: one thread each, so that none waits for another.
   std::vector<MappedCell> mapped(cells.size());
@@ -90,7 +119,7 @@ std::vector<MappedCell> map_all(const scene::TriangleMesh& mesh, const std::stri
   options.threads = 1;
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, cells.size(), [&](std::size_t i) {
-      mapped[i] = map_cell(mesh, sha256, cells[i], options, request);
+      mapped[i] = map_cell(mesh, sha256, cells[i], options, wanted, request);
       const std::lock_guard lock(bar_mutex);
       bar.show("cells", ++done, cells.size());
     });
@@ -118,6 +147,7 @@ void write_cells(const fs::path& folder, const std::vector<MappedCell>& mapped) 
 
 int run_map(MapRequest request) {
   while (request.out.size() > 1 && request.out.back() == '/') request.out.pop_back();  // "cells/" is the folder "cells"
+  const Wanted refined = wanted(request);
   auto options = request.method.to_reference();
   if (request.cell.empty() == request.cells.empty()) {
     throw Error(ErrorCode::bad_argument, "give one of --cell and --cells (see `clues map --help`)");
@@ -130,7 +160,7 @@ int run_map(MapRequest request) {
   }
   const auto mesh = scene::read_mesh(request.scene);
   const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
-  const auto mapped = map_all(mesh, scene::sha256_of_file(request.scene), cells, options, request);
+  const auto mapped = map_all(mesh, scene::sha256_of_file(request.scene), cells, options, refined, request);
 
   if (!request.out.empty()) {
     if (many) {
@@ -161,6 +191,7 @@ void add_map_command(CLI::App& program, int& status) {
   command->add_option("--cells", request->cells, "Many view cells: grid:NXxNYxNZ:box:x0,y0,z0,x1,y1,z1")
       ->type_name("SPEC");
   request->method.add_to(*command);
+  request->refine.add_to(*command);
   command->add_flag("--map", request->with_map,
                     "Put the regions, segments and wedges into the result too, in exact coordinates");
   command->add_flag("--json", request->json, "Without -o: print the result itself instead of a table");
@@ -174,7 +205,8 @@ void add_map_command(CLI::App& program, int& status) {
       std::string("DESCRIPTION\n"
                   "  Lists the triangles of which some point may be seen from some point of the cell. No visible "
                   "triangle is ever\n"
-                  "  left out; the answer may hold some that only look visible to the method (first-order).\n"
+                  "  left out; the answer may hold some that only look visible to the method (first-order). Refinement takes out\n"
+                  "  more of these, at a cost; clues precision says how many may be left.\n"
                   "  A table counts the triangles whose sides facing the cell are seen wholly, partly, or not at all.\n"
                   "  The same input gives the same bytes, whatever --threads says. An existing OUT is replaced as a "
                   "whole, or,\n"
@@ -184,6 +216,7 @@ void add_map_command(CLI::App& program, int& status) {
       "EXAMPLES\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --map -o town.clues.json\n"
+      "  clues map town.obj --cell box:0,0,1,2,2,2 --method backprojected --max-depth 2\n"
       "  clues map town.obj --cells grid:4x4x1:box:0,0,1,8,8,2 -o cells/\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   4 an oracle contradicted itself");

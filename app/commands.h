@@ -9,6 +9,7 @@ namespace clues::app {
 enum ExitCode : int { fine = 0, findings = 1, bad_usage = 2, not_everything_ran = 3, oracle_contradiction = 4 };
 
 void add_map_command(CLI::App& program, int& status);
+void add_precision_command(CLI::App& program, int& status);
 void add_check_command(CLI::App& program, int& status);
 void add_conform_command(CLI::App& program, int& status);
 void add_iut_command(CLI::App& program, int& status);

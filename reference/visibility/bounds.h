@@ -27,12 +27,20 @@ struct AreaEstimate {
   double excess() const { return upper - lower; }
 };
 
+// One side of an input triangle: fractions of its area, exactly.
+struct TriangleBounds {
+  std::uint32_t triangle = 0;
+  bool front = true;
+  exact::FT lower, upper, first_order;
+};
+
 class Bounds {
  public:
   // upper: the first-order map; lower: nothing yet. Throws as first_order_visibility does.
   Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options);
 
   const VisibilityMap& first_order() const { return map_; }
+  const Options& options() const { return options_; }
   const SideSets& lower() const { return lower_; }
   const SideSets& upper() const { return upper_; }
 
@@ -52,6 +60,9 @@ class Bounds {
 
   AreaEstimate area() const;
   double area_estimate(const SideSets& sets) const;
+
+  // All sides of input triangles that count in the mode and of which something is visible to first order; by triangle, front first.
+  std::vector<TriangleBounds> by_triangle() const;
 
   std::uint64_t maps() const { return maps_; }              // computed, other than the first and those of single points
   std::uint64_t viewpoints() const { return viewpoints_; }  // that added to lower

@@ -87,4 +87,38 @@ VisibilityMap Bounds::refined_map(const std::string& method) const {
   return map;
 }
 
+std::vector<TriangleBounds> Bounds::by_triangle() const {
+  const exact::Complex& complex = map_.complex;
+  std::vector<exact::FT> first_order(upper_.size(), exact::FT(0));
+  for (const Region& r : map_.regions) {
+    if (r.visible) first_order[side_index(r.piece, r.front)] += r.area_fraction;
+  }
+  std::vector<exact::FT> whole(complex.input_triangles, exact::FT(0));
+  std::vector<TriangleBounds> sides(2 * complex.input_triangles, {0, true, exact::FT(0), exact::FT(0), exact::FT(0)});
+  for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
+    const auto& f = TriangleFrame(complex, t).flat();
+    const exact::FT area = twice_area({f[0], f[1], f[2]});  // pieces of one triangle are laid flat in one way
+    for (const exact::Origin& o : complex.pieces[t].origins) {
+      whole[o.triangle] += area;
+      for (const bool front : {true, false}) {
+        TriangleBounds& side = sides[2 * std::size_t{o.triangle} + (front ? 0 : 1)];
+        const std::size_t i = side_index(t, front == o.same_side);
+        side.lower += area * lower_[i].fraction();
+        side.upper += area * upper_[i].fraction();
+        side.first_order += area * first_order[i];
+      }
+    }
+  }
+  std::vector<TriangleBounds> out;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    TriangleBounds& side = sides[i];
+    side.triangle = static_cast<std::uint32_t>(i / 2);
+    side.front = i % 2 == 0;
+    if ((map_.mode == Mode::solid && !side.front) || side.first_order == exact::FT(0)) continue;
+    for (exact::FT* x : {&side.lower, &side.upper, &side.first_order}) *x = exact::collapsed(*x / whole[side.triangle]);
+    out.push_back(std::move(side));
+  }
+  return out;
+}
+
 }  // namespace clues::reference
