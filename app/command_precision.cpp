@@ -58,7 +58,8 @@ void add_precision_command(CLI::App& program, int& status) {
       std::string(
           "DESCRIPTION\n"
           "  Two exact bounds enclose what is visible: what single points of the cell see is certainly visible\n"
-          "  (witnessed), and what is outside the refined map is certainly hidden. The excess is the area between them.\n"
+          "  (witnessed), and what is outside the refined map is certainly hidden. The excess is the area between "
+          "them.\n"
           "  It shrinks with the depth, from both sides. Default: --refine cell.\n"
           "  The work is that of many maps; start with small scenes and small depths.\n\n") +
       cell_help +

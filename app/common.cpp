@@ -28,7 +28,10 @@ void MethodOptions::add_to(CLI::App& command) {
           "sheet: both sides of a triangle can be seen (default). solid: only fronts can; the mesh must be closed\n"
           "and consistently oriented")
       ->type_name("sheet|solid");
-  command.add_option("--method", method, "first-order (default); clues map also has backprojected, which is --refine backprojection")->type_name("NAME");
+  command
+      .add_option("--method", method,
+                  "first-order (default); clues map also has backprojected, which is --refine backprojection")
+      ->type_name("NAME");
   command.add_option("--kernel", kernel, "exact (default, and the only one in this version)")->type_name("NAME");
   command.add_option("--threads", threads, "How many threads may work; 0: all cores (default). The answer is the same")
       ->type_name("N");
@@ -40,8 +43,7 @@ reference::Options MethodOptions::to_reference() const {
     throw Error(ErrorCode::bad_argument, "--mode " + mode + ": no such mode; use sheet or solid");
   }
   if (method == "backprojected") {
-    throw Error(ErrorCode::unsupported,
-                "--method backprojected is for clues map; use --method first-order here");
+    throw Error(ErrorCode::unsupported, "--method backprojected is for clues map; use --method first-order here");
   }
   if (method != "first-order") {
     throw Error(ErrorCode::bad_argument, "--method " + method + ": no such method; use first-order");
@@ -69,9 +71,10 @@ void RefineChoice::add_to(CLI::App& command) {
                   "How often a part of the cell may be cut again (default 4); the work may double with each depth")
       ->type_name("N");
   command
-      .add_option("--tolerance-area", tolerance_area,
-                  "Done when no more than this area, in units of the scene, is neither known to be visible nor known to\n"
-                  "be hidden (default 0)")
+      .add_option(
+          "--tolerance-area", tolerance_area,
+          "Done when no more than this area, in units of the scene, is neither known to be visible nor known to\n"
+          "be hidden (default 0)")
       ->type_name("X");
 }
 

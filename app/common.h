@@ -31,7 +31,7 @@ struct RefineChoice {
   double tolerance_area = 0;
 
   void add_to(CLI::App& command);
-  reference::RefineOptions to_reference() const;  // throws Error bad_argument
+  reference::RefineOptions to_reference() const;                          // throws Error bad_argument
   validate::Refinement refinement(validate::Refinement otherwise) const;  // throws Error bad_argument
 };
 

@@ -124,8 +124,7 @@ Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell) {
   return build_complex(points, mesh.triangles, cell);
 }
 
-Complex build_complex(const std::vector<Point3>& points, const std::vector<Corners>& input,
-                      const ConvexCell* cell) {
+Complex build_complex(const std::vector<Point3>& points, const std::vector<Corners>& input, const ConvexCell* cell) {
   Complex complex;
   complex.input_triangles = input.size();
 

@@ -49,14 +49,15 @@ std::string to_table(const PrecisionReport& report) {
     text += fmt::format("{:>5}  {:>5}  {:>5}  {:>10}  {:>14.6g}  {:>14.6g}  {:>14.6g}  {:>7.3f} %\n", d.depth, d.cells,
                         d.maps, d.viewpoints, d.area.lower, d.area.upper, d.area.excess(), share);
   }
-  const auto decided = std::count_if(report.triangles.begin(), report.triangles.end(),
-                                     [](const auto& t) { return t.lower == t.upper; });
+  const auto decided =
+      std::count_if(report.triangles.begin(), report.triangles.end(), [](const auto& t) { return t.lower == t.upper; });
   const auto hidden = std::count_if(report.triangles.begin(), report.triangles.end(),
                                     [](const auto& t) { return t.upper == exact::FT(0); });
-  return text + fmt::format(
-                    "sides of triangles visible to first order: {}; of these exactly known: {}, among them hidden after "
-                    "all: {}\n",
-                    report.triangles.size(), decided, hidden);
+  return text +
+         fmt::format(
+             "sides of triangles visible to first order: {}; of these exactly known: {}, among them hidden after "
+             "all: {}\n",
+             report.triangles.size(), decided, hidden);
 }
 
 std::string to_json_text(const PrecisionReport& report, const std::string& scene_file,

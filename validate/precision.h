@@ -24,8 +24,7 @@ PrecisionReport refine(reference::Bounds& bounds, Refinement refinement, const r
 const char* name_of(Refinement refinement);  // "none", "cell", "backprojection", "both"
 
 std::string to_table(const PrecisionReport& report);
-std::string to_json_text(const PrecisionReport& report, const std::string& scene_file,
-                         const std::string& scene_sha256);
+std::string to_json_text(const PrecisionReport& report, const std::string& scene_file, const std::string& scene_sha256);
 // Excess area against depth.
 std::string to_svg(const PrecisionReport& report);
 

@@ -5,6 +5,7 @@
 
 #include "exact/cell_cut.h"
 #include "reference/visibility/exactness.h"
+#include "scene/error.h"
 
 namespace clues::reference {
 
@@ -39,7 +40,8 @@ void join(std::vector<ContourSegment>& segments) {
   });
   std::vector<ContourSegment> joined;
   for (const ContourSegment& s : segments) {
-    if (!joined.empty() && joined.back().edge == s.edge && joined.back().center == s.center && s.lo <= joined.back().hi) {
+    if (!joined.empty() && joined.back().edge == s.edge && joined.back().center == s.center &&
+        s.lo <= joined.back().hi) {
       joined.back().hi = std::max(joined.back().hi, s.hi);
     } else {
       joined.push_back(s);
@@ -48,110 +50,60 @@ void join(std::vector<ContourSegment>& segments) {
   segments = std::move(joined);
 }
 
-struct Part {
-  ConvexCell cell;
-  VisibilityMap map;
-  SideSets seen;  // a bound of what the part sees, on the sides that were open when it was made
-};
-
-bool sees_more(const SideSets& seen, const Bounds& bounds, const std::vector<bool>& open) {
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    if (open[i] && !subtract(seen[i], bounds.lower()[i]).empty()) return true;
-  }
-  return false;
-}
-
-SideSets common(const SideSets& a, const SideSets& b, const std::vector<bool>& open) {
-  SideSets out = a;
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (open[i]) out[i] = intersect(a[i], b[i]);
-  }
-  return out;
-}
-
-void look_from(const ConvexCell& cell, Bounds& bounds) {
-  for (const Point3& v : cell.vertices()) bounds.add_viewpoint(v);
-  bounds.add_viewpoint(cell.center());
-}
-
 class Refiner {
  public:
   Refiner(Bounds& bounds, const RefineOptions& options) : bounds_(bounds), options_(options) {}
 
   std::vector<DepthFigures> run(const DepthReport& report) {
     std::vector<DepthFigures> depths;
-    const auto note = [&](int depth, std::size_t cells) {
-      depths.push_back({depth, cells, bounds_.maps(), bounds_.viewpoints(), bounds_.area()});
+    const auto note = [&](int depth) {
+      depths.push_back({depth, cells_, bounds_.maps(), bounds_.viewpoints(), bounds_.area()});
       if (report) report(depths.back());
     };
-    std::vector<Part> parts;
-    parts.push_back({bounds_.first_order().cell, bounds_.first_order(), bounds_.upper()});
-    look_from(parts[0].cell, bounds_);
-    note(0, 1);
+    bounds_.look_around(0);
+    note(0);
+    open_ = bounds_.open_sides();
+    std::vector<ContourSegment> segments = inexact_segments(bounds_.first_order(), open_);
     for (int depth = 1; depth <= options_.max_depth; ++depth) {
-      open_ = bounds_.open_sides();
       if (std::none_of(open_.begin(), open_.end(), [](bool o) { return o; })) break;
       if (depths.back().area.excess() <= options_.tolerance_area) break;
-      std::vector<Part> next;
-      for (Part& part : parts) cut(std::move(part), next);
-      parts = std::move(next);
-      SideSets all = parts[0].seen;
-      for (std::size_t i = 1; i < parts.size(); ++i) all = unite(all, parts[i].seen);
-      bounds_.restrict_to(all, open_);
-      for (const Part& part : parts) look_from(part.cell, bounds_);
-      note(depth, parts.size());
+      std::vector<ContourSegment> next;
+      for (const ContourSegment& s : segments) {
+        if (adjust(s) == Outcome::no_gain) continue;
+        const Point3 middle = exact::collapsed(CGAL::midpoint(s.lo, s.hi));
+        next.push_back({s.edge, s.lo, middle, s.plane, s.center});
+        next.push_back({s.edge, middle, s.hi, s.plane, s.center});
+      }
+      segments = std::move(next);
+      bounds_.look_around(depth);
+      note(depth);
+      open_ = bounds_.open_sides();
     }
     return depths;
   }
 
  private:
-  Part part_of(ConvexCell cell) {
-    VisibilityMap map = bounds_.map_of(cell, open_);
-    SideSets seen = bounds_.sets_of(map);
-    return {std::move(cell), std::move(map), std::move(seen)};
-  }
+  enum class Outcome { touches, no_gain, gain };
 
-  void cut(Part part, std::vector<Part>& out) {
-    if (!sees_more(part.seen, bounds_, open_)) {
-      out.push_back(std::move(part));
-      return;
-    }
-    std::vector<Part> best;
-    double best_area = bounds_.area_estimate(part.seen);
-    for (const ContourSegment& s : inexact_segments(part.map, open_)) {
-      const Plane3 plane =
-          adjusted_plane(s, seen_by_segment(part.map.complex, s, part.cell, bounds_.options()), part.cell);
-      const auto plus = exact::part_beside(part.cell, plane, exact::Side::negative);
-      const auto minus = exact::part_beside(part.cell, plane, exact::Side::positive);
-      if (!plus || !minus) continue;
-      std::vector<Part> halves;
-      halves.push_back(part_of(*plus));
-      halves.push_back(part_of(*minus));
-      const SideSets both = unite(halves[0].seen, halves[1].seen);
-      const double area = bounds_.area_estimate(common(bounds_.upper(), both, open_));
-      part.seen = common(part.seen, both, open_);
-      if (area < best_area) {
-        best_area = area;
-        best = std::move(halves);
-      }
-    }
-    if (best.empty()) {
-      const std::vector<ConvexCell> cells = halves(part.cell);
-      if (cells.size() < 2) {
-        out.push_back(std::move(part));
-        return;
-      }
-      for (const ConvexCell& cell : cells) best.push_back(part_of(cell));
-    }
-    for (Part& half : best) {
-      half.seen = common(half.seen, part.seen, open_);
-      out.push_back(std::move(half));
-    }
+  // T4: hidden is what both V+ and V- call hidden. Where the segment sees V up to the wedge's own plane there is nothing to adjust, but
+  // parts of it may see less.
+  Outcome adjust(const ContourSegment& s) {
+    const ConvexCell& cell = bounds_.first_order().cell;
+    const Plane3 plane =
+        adjusted_plane(s, seen_by_segment(bounds_.first_order().complex, s, cell, bounds_.options()), cell);
+    const auto plus = exact::part_beside(cell, plane, exact::Side::negative);
+    const auto minus = exact::part_beside(cell, plane, exact::Side::positive);
+    if (!plus || !minus) return Outcome::touches;
+    cells_ += 2;
+    const SideSets by_plus = bounds_.sets_of(bounds_.map_of(*plus, open_));
+    const SideSets by_minus = bounds_.sets_of(bounds_.map_of(*minus, open_));
+    return bounds_.restrict_to(bounds_.united(by_plus, by_minus), open_) ? Outcome::gain : Outcome::no_gain;
   }
 
   Bounds& bounds_;
   RefineOptions options_;
   std::vector<bool> open_;
+  std::uint64_t cells_ = 1;
 };
 
 }  // namespace
@@ -181,9 +133,10 @@ std::vector<Point3> seen_by_segment(const exact::Complex& complex, const Contour
                                     const ConvexCell& cell, const Options& options) {
   if (cell.dimension() < 2) return cell.vertices();
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  const auto& own = complex.edges[segment.edge].pieces;
+  // What lies in a plane through the segment is edge-on: it neither hides anything nor is seen.
+  const auto edge_on = [&](const Plane3& plane) { return plane.has_on(segment.lo) && plane.has_on(segment.hi); };
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
-    if (complex.in_cell[t] || std::find(own.begin(), own.end(), t) != own.end()) continue;
+    if (complex.in_cell[t] || edge_on(complex.planes[t])) continue;
     triangles.push_back(complex.pieces[t].corners);
   }
   const std::size_t receivers = triangles.size();
@@ -191,6 +144,7 @@ std::vector<Point3> seen_by_segment(const exact::Complex& complex, const Contour
   const auto base = static_cast<std::uint32_t>(points.size());
   points.insert(points.end(), cell.vertices().begin(), cell.vertices().end());
   for (const exact::CellFacet& f : cell.facets()) {
+    if (edge_on(f.plane)) continue;
     const auto corner = [&](std::size_t i) { return base + static_cast<std::uint32_t>(f.corners[i]); };
     for (std::size_t i = 2; i < f.corners.size(); ++i) triangles.push_back({corner(0), corner(i - 1), corner(i)});
   }
@@ -203,11 +157,16 @@ std::vector<Point3> seen_by_segment(const exact::Complex& complex, const Contour
       if (cell.dimension() == 2) wanted[side_index(t, !o.same_side)] = true;
     }
   }
-  const VisibilityMap map = first_order_visibility_in(
-      scene, ConvexCell(std::vector<Point3>{segment.lo, segment.hi}), options, wanted);
+  const ConvexCell source(std::vector<Point3>{segment.lo, segment.hi});
   std::vector<Point3> seen;
-  for (const Region& r : map.regions) {
-    if (r.visible) seen.insert(seen.end(), r.rings[0].begin(), r.rings[0].end());
+  try {
+    for (const Region& r : first_order_visibility_in(scene, source, options, wanted).regions) {
+      if (r.visible) seen.insert(seen.end(), r.rings[0].begin(), r.rings[0].end());
+    }
+  } catch (const scene::Error& e) {
+    // A lineal source among the scene's own edges may have no sight line in general position: then all of V counts as seen.
+    if (e.code() != scene::ErrorCode::internal) throw;
+    return cell.vertices();
   }
   return seen;
 }

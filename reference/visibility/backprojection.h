@@ -7,8 +7,9 @@
 // The adjusted wedge is a first-order wedge of V+, no more. What it calls hidden is hidden from V+ (T2), and has to be proved hidden from V- as
 // well (T4; raw adjusted wedges hide visible geometry, hazard A-4). So what is accepted as hidden is what the maps of V+ and of V- both call
 // hidden: V-'s own wedges, of the occluders between s and V-, are the cut that makes the wedge a UBP. By D21 every plane whatever gives a sound bound this way;
-// which plane is chosen decides what is gained, never whether the answer is right. What s sees is therefore computed without its own
-// triangles, which end at s and hide nothing from it (hazards ), and where s sees nothing of V (hazard A-11) the plane through s and V's centre will do.
+// which plane is chosen decides what is gained, never whether the answer is right. What s sees is therefore computed without the triangles whose planes hold s:
+// they hide nothing from it (hazards ). Where s sees nothing of V (hazard A-11) the plane through s and V's centre will do. Neighbouring segments need no
+// joining pieces of their own (FIG. 24C, hazards ): the halves are cells, and their maps have the SE-MV wedges that close their umbrae.
 #pragma once
 
 #include <optional>
@@ -41,9 +42,9 @@ std::vector<exact::Point3> seen_by_segment(const exact::Complex& complex, const 
 exact::Plane3 adjusted_plane(const ContourSegment& segment, const std::vector<exact::Point3>& seen,
                              const exact::ConvexCell& cell);
 
-// Depth by depth: every part of the cell that may still see more than is known to be seen is cut by the adjusted plane of each of its inexact segments, and what both
-// halves call hidden is hidden. The plane that gains most stays, and its halves are the parts of the next depth; where none gains
-// anything the part is halved as by refine_by_cells. Depth 0 is the first-order map.
+// Depth by depth: V is cut by the adjusted plane of every inexact segment of its first-order map, and what both halves call hidden is hidden. Segments that gained
+// something, or whose plane touches all of V, are halved for the next depth: the planes of the parts converge to the quadric through edge, obstacle and cell, from the
+// safe side. V+ and V- are mapped to first order: that is where the question T4 asks again ends. Depth 0 is the first-order map; `cells` counts the halves too.
 std::vector<DepthFigures> refine_by_backprojection(Bounds& bounds, const RefineOptions& options,
                                                    const DepthReport& report = {});
 

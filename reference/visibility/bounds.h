@@ -55,8 +55,15 @@ class Bounds {
   // Adds to lower what v sees on the open sides. Nothing if v was asked before, is touched by an occluder, or its map has a fallback.
   void add_viewpoint(const exact::Point3& v);
 
-  // upper becomes what it has in common with `seen` on the wanted sides.
-  void restrict_to(const SideSets& seen, const std::vector<bool>& wanted);
+  // Viewpoints for this depth: the corners and centres of V's halves' halves' ..., depth + 2 times. Of a solid V those on its border are enough:
+  // every sight line from inside V leaves it there.
+  void look_around(int depth);
+
+  // Side by side.
+  SideSets united(const SideSets& a, const SideSets& b) const;
+
+  // upper becomes what it has in common with `seen` on the wanted sides. Whether it lost anything.
+  bool restrict_to(const SideSets& seen, const std::vector<bool>& wanted);
 
   AreaEstimate area() const;
   double area_estimate(const SideSets& sets) const;
@@ -73,6 +80,8 @@ class Bounds {
 
  private:
   SideSets nothing() const;
+  template <class Work>
+  void for_each_side(const Work& work) const;  // in parallel, on the threads of the options
 
   VisibilityMap map_;
   Options options_;  // without progress
@@ -80,10 +89,9 @@ class Bounds {
   std::vector<double> piece_area_;  // estimates
   double facing_ = 0, first_order_area_ = 0;
   std::vector<exact::Point3> asked_;
+  std::vector<exact::ConvexCell> viewed_;
+  int viewed_depth_ = 0;  // halvings
   std::uint64_t maps_ = 0, viewpoints_ = 0, fallbacks_ = 0;
 };
-
-// Side by side; sets that are equal objects are not looked at.
-SideSets unite(const SideSets& a, const SideSets& b);
 
 }  // namespace clues::reference

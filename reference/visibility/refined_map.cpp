@@ -1,5 +1,6 @@
 // Bounds as a map: its visible regions are the upper bound.
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <set>
@@ -58,12 +59,13 @@ VisibilityMap Bounds::refined_map(const std::string& method) const {
   for (const Region& r : map_.regions) present.insert(side_index(r.piece, r.front));
   const std::vector<std::size_t> order(present.begin(), present.end());
   std::vector<Side> sides(order.size());
-  tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t k) {
+  tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
+  const auto describe = [&](std::size_t k) {
     const auto t = static_cast<std::uint32_t>(order[k] / 2);
     const bool front = order[k] % 2 == 0;
     const TriangleFrame frame(map.complex, t);
     const auto& f = frame.flat();
-    const FlatSet whole(twice_area({f[0], f[1], f[2]}), {{{f[0], f[1], f[2]}}});
+    const FlatSet whole(twice_area({f[0], f[1], f[2]}), {Face2{Ring2{f[0], f[1], f[2]}}});
     const FlatSet& visible = upper_[order[k]];
     add_faces(visible, true, frame, t, front, sides[k]);
     add_faces(subtract(whole, visible), false, frame, t, front, sides[k]);
@@ -73,7 +75,8 @@ VisibilityMap Bounds::refined_map(const std::string& method) const {
     std::sort(sides[k].segments.begin(), sides[k].segments.end(), [](const DmSegment& x, const DmSegment& y) {
       return x.a != y.a ? CGAL::lexicographically_xyz_smaller(x.a, y.a) : CGAL::lexicographically_xyz_smaller(x.b, y.b);
     });
-  });
+  };
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, order.size(), describe); });
   map.statistics.regions_visible = map.statistics.regions_hidden = 0;
   for (Side& side : sides) {
     for (Region& r : side.regions) {

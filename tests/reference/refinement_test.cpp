@@ -175,7 +175,8 @@ TEST(Subdivision, GeometryInTheCellHidesNothingFromItsParts) {
   const auto part = bounds.map_of(lower, all);
   const auto alone = map_of(scene.mesh(), lower);
   EXPECT_EQ(hidden_area(part, scene.mesh(), target, 2, false), FT(0));
-  EXPECT_GT(hidden_area(alone, scene.mesh(), target, 2, false), FT(0)) << "the literal reading: this test shows nothing";
+  EXPECT_GT(hidden_area(alone, scene.mesh(), target, 2, false), FT(0))
+      << "the literal reading: this test shows nothing";
 }
 
 TEST(Subdivision, CellsOfAllDimensions) {
@@ -256,25 +257,33 @@ TEST(Backprojection, HazardA4TheRawWedgeHidesWhatIsVisible) {
   const bool positive_is_below = plus->vertices()[0].y() == -4;
   const auto from_plus = bounds.map_of(positive_is_below ? *plus : *minus, all);
   // The planted bug is to stop here: V- is not asked.
-  EXPECT_FALSE(is_visible(from_plus, it.target, true, {100, 8.9, 0.01}) || is_visible(from_plus, it.target, false, {100, 8.9, 0.01}))
+  EXPECT_FALSE(is_visible(from_plus, it.target, true, {100, 8.9, 0.01}) ||
+               is_visible(from_plus, it.target, false, {100, 8.9, 0.01}))
       << "the raw adjusted wedge has no effect: this test shows nothing";
   EXPECT_GT(from_plus.statistics.regions_hidden, 0U);
-  const auto map_contradictions = contradictions([&] {
-    auto raw = from_plus;
-    raw.cell = it.cell;
-    return raw;
-  }(), 4, kSeed);
+  const auto map_contradictions = contradictions(
+      [&] {
+        auto raw = from_plus;
+        raw.cell = it.cell;
+        return raw;
+      }(),
+      4, kSeed);
   EXPECT_GT(map_contradictions.total(), 0U) << "the judges must catch the raw wedge";
 
   refine_by_backprojection(bounds, {2, 0});
   const auto map = bounds.refined_map("backprojected");
   EXPECT_EQ(contradictions(map, 4, kSeed).total(), 0U);
-  EXPECT_TRUE(is_visible(map, it.target, true, {100, 8.9, 0.01}) || is_visible(map, it.target, false, {100, 8.9, 0.01}));
+  EXPECT_TRUE(is_visible(map, it.target, true, {100, 8.9, 0.01}) ||
+              is_visible(map, it.target, false, {100, 8.9, 0.01}));
 }
 
-TEST(Backprojection, TwoSlitsCloseIn) { expect_factor_four(two_slits(), box_cell(-1, -1, 0, 1, 1, 0.5), By::backprojection); }
+TEST(Backprojection, TwoSlitsCloseIn) {
+  expect_factor_four(two_slits(), box_cell(-1, -1, 0, 1, 1, 0.5), By::backprojection);
+}
 TEST(Subdivision, TwoSlitsCloseIn) { expect_factor_four(two_slits(), box_cell(-1, -1, 0, 1, 1, 0.5), By::cells); }
-TEST(Subdivision, ThreeSkewEdgesCloseIn) { expect_factor_four(three_skew_edges(), box_cell(-1, -1, 0, 1, 1, 0.5), By::cells); }
+TEST(Subdivision, ThreeSkewEdgesCloseIn) {
+  expect_factor_four(three_skew_edges(), box_cell(-1, -1, 0, 1, 1, 0.5), By::cells);
+}
 TEST(Subdivision, KeyholeClosesIn) { expect_factor_four(keyhole(), box_cell(-0.5, -0.5, -1, 0.5, 0.5, 0), By::cells); }
 
 // --- FIG. 27 ----------------------------------------------------------------------------------------------------------------
