@@ -17,6 +17,9 @@ struct MapRequest {
   std::string scene, cell, cells, out, overlap_graph;
   bool with_map = false, with_states = false, json = false, resume = false;
   MethodOptions method;
+  std::string asked_method;  // as the user wrote it
+  RefineChoice refine;
+  validate::Refinement refinement = validate::Refinement::none;  // as --method and --refine together say
   UmbraRequest umbra;
 };
 

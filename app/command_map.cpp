@@ -31,13 +31,25 @@ namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
 
+// --method backprojected is short for --refine backprojection; with --refine cell both are wanted.
+validate::Refinement wanted_refinement(const MapRequest& request) {
+  const auto refinement = request.refine.refinement(validate::Refinement::none);
+  if (request.method.method != "backprojected") return refinement;
+  return refinement == validate::Refinement::cells || refinement == validate::Refinement::both
+             ? validate::Refinement::both
+             : validate::Refinement::backprojection;
+}
+
 // Everything that the results depend on.
 std::string request_text(const MapRequest& request, const std::string& sha256) {
   return nlohmann::json{{"format", "clues-cells/1"},
                         {"scene_sha256", sha256},
                         {"cells", request.cells},
                         {"mode", request.method.mode},
-                        {"method", request.method.method},
+                        {"method", request.asked_method},
+                        {"refine", request.refine.refine},
+                        {"max_depth", request.refine.max_depth},
+                        {"tolerance_area", request.refine.tolerance_area},
                         {"kernel", request.method.kernel},
                         {"map", request.with_map},
                         {"render_states", request.with_states},
@@ -117,7 +129,13 @@ std::vector<MappedCell> map_cells(const CellMapper& mapper, const std::string& s
 
 int run_map(MapRequest request) {
   while (request.out.size() > 1 && request.out.back() == '/') request.out.pop_back();  // "cells/" is the folder "cells"
+  request.refinement = wanted_refinement(request);
+  request.asked_method = request.method.method;
+  if (request.method.method == "backprojected") request.method.method = "first-order";  // refined afterwards
   request.method.check();
+  if (request.refinement != validate::Refinement::none && !request.umbra.file.empty()) {
+    throw Error(ErrorCode::unsupported, "--umbra is for first-order maps; leave out --refine and --method");
+  }
   if (request.cell.empty() == request.cells.empty()) {
     throw Error(ErrorCode::bad_argument, "give one of --cell and --cells (see `clues map --help`)");
   }
@@ -183,6 +201,7 @@ void add_map_command(CLI::App& program, int& status) {
       ->add_option("--overlap-graph", request->overlap_graph,
                    "Write here, for GraphViz, which occluders overlap which as the cell sees them, and the cycles")
       ->type_name("FILE.dot");
+  request->refine.add_to(*command);
   command->add_flag("--map", request->with_map,
                     "Put the regions, segments and wedges into the result too, in exact coordinates");
   command->add_flag("--render-states", request->with_states,
@@ -202,7 +221,9 @@ void add_map_command(CLI::App& program, int& status) {
       std::string("DESCRIPTION\n"
                   "  Lists the triangles of which some point may be seen from some point of the cell. No visible "
                   "triangle is ever\n"
-                  "  left out; the answer may hold some that only look visible to the method (first-order).\n"
+                  "  left out; the answer may hold some that only look visible to the method (first-order). Refinement "
+                  "takes out\n"
+                  "  more of these, at a cost; clues precision says how many may be left.\n"
                   "  A table counts the triangles whose sides facing the cell are seen wholly, partly, or not at all.\n"
                   "  The same input gives the same bytes, whatever --threads says. An existing file OUT is replaced "
                   "as a whole, or,\n"
@@ -215,6 +236,7 @@ void add_map_command(CLI::App& program, int& status) {
       "  clues map town.obj --cell box:0,0,1,2,2,2 --map -o town.clues.json\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --umbra town.umbra.json\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --formulation traversal --overlap-graph town.dot\n"
+      "  clues map town.obj --cell box:0,0,1,2,2,2 --method backprojected --max-depth 2\n"
       "  clues map town.obj --cells grid:4x4x1:box:0,0,1,8,8,2 -o cells/\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   3 the umbra is not closed where a limit was reached   4 an oracle "

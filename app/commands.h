@@ -15,6 +15,7 @@ struct Unfinished : std::runtime_error {
 };
 
 void add_map_command(CLI::App& program, int& status);
+void add_precision_command(CLI::App& program, int& status);
 void add_check_command(CLI::App& program, int& status);
 void add_query_command(CLI::App& program, int& status);
 void add_verify_command(CLI::App& program, int& status);

@@ -5,6 +5,7 @@
 
 #include "app/cell_mapper.h"
 #include "exact/scene_query.h"
+#include "reference/visibility/bounds.h"
 #include "reference/visibility/omega.h"
 #include "reference/visibility/traversal/overlap.h"
 
@@ -34,6 +35,7 @@ class ExactMapper : public CellMapper {
     options.threads = threads;
     options.progress = progress;
     const auto cell = exact::ConvexCell::from_doubles(spec.points);
+    if (request_.refinement != validate::Refinement::none) return mapped(refined(cell, options), spec);
     if (request_.umbra.file.empty()) return mapped(reference::first_order_visibility(mesh_, cell, options), spec);
     const reference::Omega omega(mesh_, cell, options);
     if (progress) progress("umbra", 0, 1);
@@ -48,6 +50,11 @@ class ExactMapper : public CellMapper {
   }
 
  private:
+  reference::VisibilityMap refined(const exact::ConvexCell& cell, const reference::Options& options) const {
+    reference::Bounds bounds(mesh_, cell, options);
+    validate::refine(bounds, request_.refinement, request_.refine.to_reference());
+    return bounds.refined_map(request_.refinement == validate::Refinement::cells ? "subdivided" : "backprojected");
+  }
   MappedCell mapped(const reference::VisibilityMap& map, const scene::CellSpec& spec) const {
     return {spec.name,
             bytes_of(reference::to_result(map, spec, request_.with_map, request_.with_states), request_, sha256_),

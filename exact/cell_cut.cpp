@@ -1,5 +1,9 @@
 #include "exact/cell_cut.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 namespace clues::exact {
 
 std::optional<ConvexCell> part_beside(const ConvexCell& cell, const Plane3& plane, Side side) {
@@ -19,6 +23,29 @@ std::optional<ConvexCell> part_beside(const ConvexCell& cell, const Plane3& plan
     if (CGAL::sign(at_a) * CGAL::sign(at_b) < 0) kept.push_back(collapsed(a + (at_a / (at_a - at_b)) * (b - a)));
   }
   return ConvexCell(kept);
+}
+
+std::vector<ConvexCell> halves(const ConvexCell& cell) {
+  std::size_t longest = 0;
+  FT extent(0), middle(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto less = [axis](const Point3& a, const Point3& b) { return a[axis] < b[axis]; };
+    const auto [lo, hi] = std::minmax_element(cell.vertices().begin(), cell.vertices().end(), less);
+    const FT size = (*hi)[axis] - (*lo)[axis];
+    if (size <= extent) continue;
+    extent = size;
+    longest = static_cast<std::size_t>(axis);
+    middle = ((*hi)[axis] + (*lo)[axis]) / FT(2);
+  }
+  if (extent == FT(0)) return {cell};
+  std::array<FT, 3> n{FT(0), FT(0), FT(0)};
+  n[longest] = FT(1);
+  const Plane3 plane(n[0], n[1], n[2], collapsed(FT(-middle)));
+  std::vector<ConvexCell> parts;
+  for (const Side side : {Side::negative, Side::positive}) {
+    if (auto part = part_beside(cell, plane, side)) parts.push_back(std::move(*part));
+  }
+  return parts;
 }
 
 }  // namespace clues::exact

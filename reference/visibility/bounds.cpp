@@ -1,10 +1,13 @@
 #include "reference/visibility/bounds.h"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "exact/cell_cut.h"
 
 namespace clues::reference {
 
@@ -38,10 +41,10 @@ bool side_counts(const VisibilityMap& map, std::size_t side) {
 
 }  // namespace
 
-SideSets unite(const SideSets& a, const SideSets& b) {
-  SideSets out = a;
-  tbb::parallel_for(std::size_t{0}, out.size(), [&](std::size_t i) { out[i] = unite(a[i], b[i]); });
-  return out;
+template <class Work>
+void Bounds::for_each_side(const Work& work) const {
+  tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, 2 * map_.complex.pieces.size(), work); });
 }
 
 Bounds::Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options)
@@ -73,12 +76,12 @@ SideSets Bounds::nothing() const {
 }
 
 SideSets Bounds::sets_of(const VisibilityMap& map) const {
-  SideSets sets = lower_.empty() ? nothing() : lower_;
+  SideSets sets(2 * map_.complex.pieces.size(), FlatSet(FT(0)));
   std::vector<std::vector<const Region*>> visible(sets.size());
   for (const Region& r : map.regions) {
     if (r.visible) visible[side_index(r.piece, r.front)].push_back(&r);
   }
-  tbb::parallel_for(std::size_t{0}, sets.size(), [&](std::size_t i) {
+  for_each_side([&](std::size_t i) {
     const TriangleFrame frame(map_.complex, static_cast<std::uint32_t>(i / 2));
     std::vector<Face2> faces;
     for (const Region* r : visible[i]) {
@@ -95,8 +98,7 @@ SideSets Bounds::sets_of(const VisibilityMap& map) const {
 
 std::vector<bool> Bounds::open_sides() const {
   std::vector<char> open(upper_.size());
-  tbb::parallel_for(std::size_t{0}, upper_.size(),
-                    [&](std::size_t i) { open[i] = subtract(upper_[i], lower_[i]).empty() ? 0 : 1; });
+  for_each_side([&](std::size_t i) { open[i] = subtract(upper_[i], lower_[i]).empty() ? 0 : 1; });
   return {open.begin(), open.end()};
 }
 
@@ -123,13 +125,45 @@ void Bounds::add_viewpoint(const Point3& v) {
       first_order_visibility_in(complex, exact::ConvexCell(std::vector<Point3>{v}), options_, open_sides());
   if (seen.statistics.conservative_fallbacks > 0) return;
   ++viewpoints_;
-  lower_ = unite(lower_, sets_of(seen));
+  lower_ = united(lower_, sets_of(seen));
 }
 
-void Bounds::restrict_to(const SideSets& seen, const std::vector<bool>& wanted) {
-  tbb::parallel_for(std::size_t{0}, upper_.size(), [&](std::size_t i) {
-    if (wanted[i]) upper_[i] = intersect(upper_[i], seen[i]);
+void Bounds::look_around(int depth) {
+  constexpr int kFiner = 2;
+  const exact::ConvexCell& whole = map_.cell;
+  const auto ask = [&](const Point3& v) {
+    if (viewed_depth_ == 0 || whole.dimension() < 3 || !whole.interior_contains(v)) add_viewpoint(v);
+  };
+  if (viewed_.empty()) viewed_ = {whole};
+  for (;; ++viewed_depth_) {
+    for (const exact::ConvexCell& part : viewed_) {
+      for (const Point3& v : part.vertices()) ask(v);
+      ask(part.center());
+    }
+    if (viewed_depth_ >= depth + kFiner) break;
+    std::vector<exact::ConvexCell> finer;
+    for (const exact::ConvexCell& part : viewed_) {
+      for (exact::ConvexCell& half : exact::halves(part)) finer.push_back(std::move(half));
+    }
+    viewed_ = std::move(finer);
+  }
+}
+
+SideSets Bounds::united(const SideSets& a, const SideSets& b) const {
+  SideSets out = a;
+  for_each_side([&](std::size_t i) { out[i] = unite(a[i], b[i]); });
+  return out;
+}
+
+bool Bounds::restrict_to(const SideSets& seen, const std::vector<bool>& wanted) {
+  std::vector<char> less(upper_.size(), 0);
+  for_each_side([&](std::size_t i) {
+    if (!wanted[i]) return;
+    const exact::FT before = upper_[i].fraction();
+    upper_[i] = intersect(upper_[i], seen[i]);
+    less[i] = upper_[i].fraction() < before;
   });
+  return std::any_of(less.begin(), less.end(), [](char l) { return l != 0; });
 }
 
 double Bounds::area_estimate(const SideSets& sets) const {

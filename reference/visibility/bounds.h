@@ -27,12 +27,20 @@ struct AreaEstimate {
   double excess() const { return upper - lower; }
 };
 
+// One side of an input triangle: fractions of its area, exactly.
+struct TriangleBounds {
+  std::uint32_t triangle = 0;
+  bool front = true;
+  exact::FT lower, upper, first_order;
+};
+
 class Bounds {
  public:
   // upper: the first-order map; lower: nothing yet. Throws as first_order_visibility does.
   Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options);
 
   const VisibilityMap& first_order() const { return map_; }
+  const Options& options() const { return options_; }
   const SideSets& lower() const { return lower_; }
   const SideSets& upper() const { return upper_; }
 
@@ -47,11 +55,21 @@ class Bounds {
   // Adds to lower what v sees on the open sides. Nothing if v was asked before, is touched by an occluder, or its map has a fallback.
   void add_viewpoint(const exact::Point3& v);
 
-  // upper becomes what it has in common with `seen` on the wanted sides.
-  void restrict_to(const SideSets& seen, const std::vector<bool>& wanted);
+  // Viewpoints for this depth: the corners and centres of V's halves' halves' ..., depth + 2 times. Of a solid V those on its border are enough:
+  // every sight line from inside V leaves it there.
+  void look_around(int depth);
+
+  // Side by side.
+  SideSets united(const SideSets& a, const SideSets& b) const;
+
+  // upper becomes what it has in common with `seen` on the wanted sides. Whether it lost anything.
+  bool restrict_to(const SideSets& seen, const std::vector<bool>& wanted);
 
   AreaEstimate area() const;
   double area_estimate(const SideSets& sets) const;
+
+  // All sides of input triangles that count in the mode and of which something is visible to first order; by triangle, front first.
+  std::vector<TriangleBounds> by_triangle() const;
 
   std::uint64_t maps() const { return maps_; }              // computed, other than the first and those of single points
   std::uint64_t viewpoints() const { return viewpoints_; }  // that added to lower
@@ -62,6 +80,8 @@ class Bounds {
 
  private:
   SideSets nothing() const;
+  template <class Work>
+  void for_each_side(const Work& work) const;  // in parallel, on the threads of the options
 
   VisibilityMap map_;
   Options options_;  // without progress
@@ -69,10 +89,9 @@ class Bounds {
   std::vector<double> piece_area_;  // estimates
   double facing_ = 0, first_order_area_ = 0;
   std::vector<exact::Point3> asked_;
+  std::vector<exact::ConvexCell> viewed_;
+  int viewed_depth_ = 0;  // halvings
   std::uint64_t maps_ = 0, viewpoints_ = 0, fallbacks_ = 0;
 };
-
-// Side by side; sets that are equal objects are not looked at.
-SideSets unite(const SideSets& a, const SideSets& b);
 
 }  // namespace clues::reference

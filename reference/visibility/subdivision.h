@@ -25,11 +25,7 @@ struct DepthFigures {
 
 using DepthReport = std::function<void(const DepthFigures&)>;
 
-// The cell halved across its longest extent (of x, y, z; the first of equal ones). A point cannot be cut: it comes back alone.
-std::vector<exact::ConvexCell> halves(const exact::ConvexCell& cell);
-
-// Cuts again and again all parts that may still see more than is known to be seen. Depth 0 is the first-order map. The vertices and the
-// centre of every part become viewpoints of the lower bound.
+// Cuts again and again all parts that may still see more than is known to be seen. Depth 0 is the first-order map.
 std::vector<DepthFigures> refine_by_cells(Bounds& bounds, const RefineOptions& options, const DepthReport& report = {});
 
 }  // namespace clues::reference
