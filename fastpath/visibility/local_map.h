@@ -64,7 +64,7 @@ class LocalMap {
   const std::vector<WedgePiece>& pieces() const;
   const std::vector<LocalRegion>& regions() const;  // empty unless asked for
 
-  // D14. p in free space: not on a surface. `hidden` is a proof; a case that stays undecided is called visible and counted in
+  // D14. p finite, in free space: not on a surface. `hidden` is a proof; a case that stays undecided is called visible and counted in
   // conservative_labels(). Any number of threads may ask.
   Label label(const Point& p) const;
   std::uint64_t conservative_labels() const;

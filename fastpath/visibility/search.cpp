@@ -356,7 +356,7 @@ class Search::Work {
             Point p;
             for (std::size_t k = 0; k < 3; ++k)
               p[k] = x[k] + reach * far * along[k] + way * far * length(along) * up[k] / length(up);
-            if (!(length(p) < HUGE_VAL)) continue;
+            if (!std::isfinite(p[0] + p[1] + p[2])) continue;
             const ExactPoint v(p);
             if (scene.cell.interior_contains(v)) found.push_back(v);
           }
