@@ -133,7 +133,8 @@ std::string to_graphviz(const OverlapGraph& graph, const exact::Complex& complex
     std::size_t listed = 0;
     for (const std::uint32_t t : triangles) {
       if (listed++ == 6) break;
-      names += (names.empty() ? "" : " ") + std::to_string(t);
+      if (!names.empty()) names += ' ';
+      names += std::to_string(t);
     }
     if (triangles.size() > 6) names += fmt::format(" ... ({} in all)", triangles.size());
     text += fmt::format("{}n{} [label=\"{}\"];\n", indent, node, names);
