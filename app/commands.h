@@ -2,15 +2,23 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <stdexcept>
 
 namespace clues::app {
 
 // docs/interpreting-results.md and every --help say the same.
 enum ExitCode : int { fine = 0, findings = 1, bad_usage = 2, not_everything_ran = 3, oracle_contradiction = 4 };
 
+// Thrown where not everything could be done, though nothing is wrong: exit code 3.
+struct Unfinished : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 void add_map_command(CLI::App& program, int& status);
 void add_precision_command(CLI::App& program, int& status);
 void add_check_command(CLI::App& program, int& status);
+void add_query_command(CLI::App& program, int& status);
+void add_verify_command(CLI::App& program, int& status);
 void add_conform_command(CLI::App& program, int& status);
 void add_iut_command(CLI::App& program, int& status);
 void add_lint_command(CLI::App& program, int& status);

@@ -32,13 +32,21 @@ void MethodOptions::add_to(CLI::App& command) {
       .add_option("--method", method,
                   "first-order (default); clues map also has backprojected, which is --refine backprojection")
       ->type_name("NAME");
-  command.add_option("--kernel", kernel, "exact (default, and the only one in this version)")->type_name("NAME");
+  command
+      .add_option("--kernel", kernel,
+                  "exact (default), or fast: doubles with exact decisions where these do not suffice")
+      ->type_name("NAME");
+  command
+      .add_option("--formulation", formulation,
+                  "plain (default): all of the scene at once. traversal: outward from what is visible, without a look "
+                  "at what is\n"
+                  "hidden behind it. Two ways to one map")
+      ->type_name("plain|traversal");
   command.add_option("--threads", threads, "How many threads may work; 0: all cores (default). The answer is the same")
       ->type_name("N");
 }
 
-reference::Options MethodOptions::to_reference() const {
-  reference::Options options;
+void MethodOptions::check() const {
   if (mode != "sheet" && mode != "solid") {
     throw Error(ErrorCode::bad_argument, "--mode " + mode + ": no such mode; use sheet or solid");
   }
@@ -48,13 +56,24 @@ reference::Options MethodOptions::to_reference() const {
   if (method != "first-order") {
     throw Error(ErrorCode::bad_argument, "--method " + method + ": no such method; use first-order");
   }
-  if (kernel == "fast") {
-    throw Error(ErrorCode::unsupported, "--kernel fast is not in this version; use --kernel exact");
+  if (kernel != "exact" && kernel != "fast") {
+    throw Error(ErrorCode::bad_argument, "--kernel " + kernel + ": no such kernel; use exact or fast");
   }
-  if (kernel != "exact") throw Error(ErrorCode::bad_argument, "--kernel " + kernel + ": no such kernel; use exact");
   if (threads < 0 || threads > 4096) {
     throw Error(ErrorCode::bad_argument, fmt::format("--threads {}: use 0 (all cores) to 4096", threads));
   }
+  if (formulation != "plain" && formulation != "traversal") {
+    throw Error(ErrorCode::bad_argument,
+                "--formulation " + formulation + ": no such formulation; use plain or traversal");
+  }
+}
+
+reference::Options MethodOptions::to_reference() const {
+  check();
+  if (kernel == "fast")
+    throw Error(ErrorCode::unsupported, "--kernel fast: exact numbers are needed here; use --kernel exact");
+  reference::Options options;
+  options.formulation = formulation == "traversal" ? reference::Formulation::traversal : reference::Formulation::plain;
   options.mode = mode == "solid" ? reference::Mode::solid : reference::Mode::sheet;
   options.threads = threads;
   return options;

@@ -18,10 +18,12 @@ struct MethodOptions {
   std::string mode = "sheet";
   std::string method = "first-order";
   std::string kernel = "exact";
+  std::string formulation = "plain";
   int threads = 0;
 
   void add_to(CLI::App& command);
-  reference::Options to_reference() const;  // throws Error bad_argument, unsupported
+  void check() const;                       // throws Error bad_argument, unsupported
+  reference::Options to_reference() const;  // the same; unsupported for the fast kernel
 };
 
 // How far a map is refined (D20, D21): on `map` and `precision`.

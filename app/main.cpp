@@ -46,6 +46,8 @@ int main(int argc, char** argv) {
   app::add_map_command(program, status);
   app::add_precision_command(program, status);
   app::add_check_command(program, status);
+  app::add_query_command(program, status);
+  app::add_verify_command(program, status);
   app::add_conform_command(program, status);
   app::add_iut_command(program, status);
   app::add_lint_command(program, status);
@@ -60,6 +62,8 @@ int main(int argc, char** argv) {
     return fail(std::string(e.what()) + " (see `clues --help`)", app::bad_usage);
   } catch (const scene::Error& e) {
     return fail(e.what(), e.code() == scene::ErrorCode::internal ? app::oracle_contradiction : app::bad_usage);
+  } catch (const app::Unfinished& e) {
+    return fail(e.what(), app::not_everything_ran);
   } catch (const std::bad_alloc&) {
     return fail("out of memory", app::not_everything_ran);
   } catch (const std::exception& e) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <utility>
 
@@ -23,8 +24,20 @@ void ProgressBar::show(const std::string& stage, std::uint64_t done, std::uint64
   if (!terminal_) return;
   constexpr std::uint64_t width = 24;
   const std::uint64_t filled = total == 0 ? 0 : std::min(width, width * done / total);
+  using Clock = std::chrono::steady_clock;
+  if (stage != stage_) {
+    stage_ = stage;
+    began_ = Clock::now();
+    done_before_ = done;
+  }
   std::string line = fmt::format("{} [{}{}] {} {}/{}", title_, std::string(filled, '#'),
                                  std::string(width - filled, '.'), stage, done, total);
+  const double spent = std::chrono::duration<double>(Clock::now() - began_).count();
+  if (done > done_before_ && done < total && spent > 2) {
+    const auto left = static_cast<std::uint64_t>(spent * static_cast<double>(total - done) /
+                                                 static_cast<double>(done - done_before_));
+    line += fmt::format(", about {}:{:02} left", left / 60, left % 60);
+  }
   if (line == last_) return;
   std::fprintf(stderr, "\r%s\033[K", line.c_str());
   std::fflush(stderr);

@@ -1,6 +1,7 @@
-// A progress bar on standard error: only when that is a terminal, so that a pipe or a log never sees it.
+// A progress bar on standard error, with the time that is left: only when that is a terminal, so that a pipe or a log never sees it.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 
@@ -19,6 +20,10 @@ class ProgressBar {
  private:
   std::string title_;
   std::string last_;  // what stands there now
+  std::string
+      stage_;  // the running stage, when it was first shown, and how much was done then: for the time that is left
+  std::chrono::steady_clock::time_point began_;
+  std::uint64_t done_before_ = 0;
   bool terminal_;
 };
 

@@ -13,10 +13,12 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "exact/complex_internal.h"
 #include "exact/kernel.h"
+#include "scene/error.h"
 
 namespace clues::exact {
 namespace {
@@ -255,23 +257,43 @@ Complex build_complex(const std::vector<Point3>& points, const std::vector<Corne
 }
 
 std::vector<std::uint32_t> triangles_not_solid(const Complex& complex) {
-  std::vector<std::uint32_t> bad;
-  for (const Edge& e : complex.edges) {
+  // Edges over all pieces, those in the cell too, which Complex::edges leaves out.
+  struct Sides {
     std::int64_t balance = 0;
-    for (const std::uint32_t t : e.pieces) {
-      const Piece& p = complex.pieces[t];
-      const auto at = static_cast<std::size_t>(std::find(p.corners.begin(), p.corners.end(), e.a) - p.corners.begin());
-      const bool forward = p.corners[(at + 1) % 3] == e.b;
-      for (const Origin& o : p.origins) balance += forward == o.same_side ? 1 : -1;
+    std::vector<std::uint32_t> pieces;
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Sides> edges;
+  for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
+    const Piece& p = complex.pieces[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = p.corners[k], b = p.corners[(k + 1) % 3];
+      Sides& edge = edges[std::minmax(a, b)];
+      for (const Origin& o : p.origins) edge.balance += (a < b) == o.same_side ? 1 : -1;
+      edge.pieces.push_back(t);
     }
-    if (balance == 0) continue;
-    for (const std::uint32_t t : e.pieces) {
+  }
+  std::vector<std::uint32_t> bad;
+  for (const auto& [ends, edge] : edges) {
+    if (edge.balance == 0) continue;
+    for (const std::uint32_t t : edge.pieces) {
       for (const Origin& o : complex.pieces[t].origins) bad.push_back(o.triangle);
     }
   }
   std::sort(bad.begin(), bad.end());
   bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
   return bad;
+}
+
+void require_solid(const Complex& complex) {
+  const std::vector<std::uint32_t> bad = triangles_not_solid(complex);
+  if (bad.empty()) return;
+  std::string list;
+  for (std::size_t i = 0; i < bad.size() && i < 5; ++i) list += (i ? ", " : "") + std::to_string(bad[i]);
+  throw scene::Error(scene::ErrorCode::not_solid,
+                     "solid mode needs a closed, consistently oriented mesh, but triangle" +
+                         std::string(bad.size() > 1 ? "s " : " ") + list + (bad.size() > 5 ? ", ..." : "") + " (" +
+                         std::to_string(bad.size()) +
+                         " in all) have an edge that is open or turned over; close the mesh, or use sheet mode");
 }
 
 }  // namespace clues::exact

@@ -52,7 +52,11 @@ Complex build_complex(const std::vector<Point3>& points, const std::vector<std::
                       const ConvexCell* cell = nullptr);
 
 // D4: closed and consistently oriented: every edge has exactly two sides leaving it for each entering it. Returns the ids of
-// input triangles at offending edges (empty: solid mode is allowed). For a complex that is not cut by a cell.
+// input triangles at offending edges (empty: solid mode is allowed). Whether a cell cut the complex does not matter to whether there are any: a cut
+// closed mesh is closed.
 std::vector<std::uint32_t> triangles_not_solid(const Complex& complex);
+
+// Throws scene::Error not_solid, which names some of these triangles, if there are any.
+void require_solid(const Complex& complex);
 
 }  // namespace clues::exact

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "exact/convex_cell.h"
 #include "exact/kernel.h"
@@ -23,5 +24,14 @@ struct WitnessVerdict {
 // on the back; v must lie strictly on that side. A triangle that meets V needs no witness (D3). O(n).
 WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& cell, std::uint32_t triangle,
                              bool front, const Point3& v, const Point3& p);
+
+struct SightLine {
+  bool valid = false;  // v in int V, p != v
+  std::vector<std::uint32_t>
+      blockers;  // the triangles that meet the open segment (v,p) outside int V, ascending; free (D5): none
+};
+
+// D5 for any point p, on surfaces or not, by the same means. O(n).
+SightLine check_sight_line(const scene::TriangleMesh& mesh, const ConvexCell& cell, const Point3& v, const Point3& p);
 
 }  // namespace clues::exact

@@ -13,8 +13,24 @@ const char* side_name(bool front) { return front ? "front" : "back"; }
 
 // Doubles round-trip; one past the range of doubles (its exact text stands beside it) becomes null.
 Json to_json(const MapRegion& region) {
-  return {{"triangle", region.triangle},           {"side", side_name(region.front)},   {"visible", region.visible},
-          {"area_fraction", region.area_fraction}, {"rings_exact", region.rings_exact}, {"rings", region.rings}};
+  Json json = {{"triangle", region.triangle},
+               {"side", side_name(region.front)},
+               {"visible", region.visible},
+               {"rings", region.rings}};
+  if (region.area_fraction.empty()) {
+    json["area_estimate"] = region.area_estimate;
+  } else {
+    json["area_fraction"] = region.area_fraction;
+    json["rings_exact"] = region.rings_exact;
+  }
+  return json;
+}
+
+Json to_json(const MapMesh& mesh) {
+  Json faces = Json::array(), edges = Json::array();
+  for (const auto& f : mesh.faces) faces.push_back({{"regions", f.regions}, {"rings", f.rings}});
+  for (const auto& e : mesh.edges) edges.push_back({{"kind", e.kind}, {"ends", e.ends}, {"faces", e.faces}});
+  return {{"vertices_exact", mesh.vertices_exact}, {"faces", std::move(faces)}, {"edges", std::move(edges)}};
 }
 
 Json to_json(const MapSegment& segment) {
@@ -55,6 +71,9 @@ std::string to_json_text(const Result& result) {
   json["stats"].emplace("conservative_fallbacks", 0);  // unless it is there
   if (result.has_map) {
     json["regions"] = to_array(result.regions);
+    for (std::size_t i = 0; i < result.regions.size() && result.has_render_states; ++i)
+      json["regions"][i]["render_states"] = result.regions[i].render_states;
+    json["mesh"] = to_json(result.mesh);
     json["segments"] = to_array(result.segments);
     json["wedges"] = to_array(result.wedges);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/mesh.h"
@@ -16,9 +17,28 @@ struct MapRegion {
   std::uint32_t triangle = 0;
   bool front = true;
   bool visible = true;
-  std::string area_fraction;                                         // exact part of the triangle's area, "p/q"
+  std::string
+      area_fraction;  // exact part of the triangle's area, "p/q"; empty when only the estimate is known, and then there are no exact rings
+  double area_estimate = 0;                                          // when there is no fraction
   std::vector<std::vector<std::array<std::string, 3>>> rings_exact;  // outer ring first, then holes
   std::vector<std::vector<Point>> rings;
+  std::vector<std::string> render_states;  // "NO_BACKFACE_CULL", "NO_Z_COMPARE", "NO_Z_WRITE", as far as they hold
+};
+
+// The regions as a mesh: shared vertices, and edges that know the faces on both sides.
+struct MapMesh {
+  std::vector<std::array<std::string, 3>> vertices_exact;
+  struct Face {
+    std::vector<std::uint64_t> regions;  // indices into Result::regions; several where input triangles coincide
+    std::vector<std::vector<std::uint64_t>> rings;
+  };
+  std::vector<Face> faces;
+  struct Edge {
+    std::string kind;  // "border" (of the triangle, or of a part of it), "dm", "ob" (D15)
+    std::array<std::uint64_t, 2> ends{};
+    std::vector<std::uint64_t> faces;  // left of the edge, then right; a border has one
+  };
+  std::vector<Edge> edges;
 };
 
 struct MapSegment {  // a DM segment; boundary: also an OB segment (D15)
@@ -47,7 +67,9 @@ struct Result {
   std::vector<std::uint32_t> visible;         // sorted, unique
   std::map<std::string, std::int64_t> stats;  // always holds "conservative_fallbacks"
   bool has_map = false;
+  bool has_render_states = false;
   std::vector<MapRegion> regions;
+  MapMesh mesh;
   std::vector<MapSegment> segments;
   std::vector<MapWedge> wedges;
 };
@@ -59,6 +81,9 @@ std::string to_json_text(const Result& result);
 // Sorted and unique. Throws Error: file errors, malformed (file and line), index_out_of_range when an id is
 // >= triangles.
 std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, std::uint64_t triangles);
+// The same from bytes; `file` is for messages only.
+std::vector<std::uint32_t> parse_pvs_list(std::string_view bytes, const std::string& file, std::uint64_t triangles);
+std::vector<std::uint32_t> parse_result_pvs(std::string_view bytes, const std::string& file, std::uint64_t triangles);
 std::string to_pvs_text(const std::vector<std::uint32_t>& visible);
 
 // Lower-case hex SHA-256 of a file's bytes.

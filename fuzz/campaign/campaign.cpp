@@ -9,8 +9,8 @@
 #include "fuzz/campaign/finding_folder.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/campaign/oracle.h"
-#include "fuzz/campaign/workers.h"
 #include "scene/error.h"
+#include "validate/workers.h"
 
 namespace clues::fuzz {
 namespace {
@@ -23,7 +23,8 @@ constexpr std::chrono::milliseconds look_up{200};
 
 std::string plan_of(const CampaignOptions& options, const std::vector<NamedGenerator>& generators,
                     const std::vector<const Oracle*>& oracles, const Subject& subject) {
-  json plan{{"seed", options.seed}, {"first", options.first}, {"subject", subject.name()}};
+  json plan{
+      {"seed", options.seed}, {"first", options.first}, {"subject", subject.name()}, {"scenes", options.given.hashes}};
   for (const auto& g : generators) plan["generators"].push_back(g.name);
   for (const Oracle* o : oracles) plan["oracles"].push_back(o->name());
   return plan.dump();
@@ -34,7 +35,7 @@ class Campaign {
   Campaign(const CampaignOptions& options, const Subject& subject)
       : options_(options),
         subject_(subject),
-        generators_(generators_named(options.generators)),
+        generators_(generators_named(options.generators, options.given)),
         oracles_(oracles_named(options.oracles)),
         store_(made(options.out) / "findings.sqlite", plan_of(options, generators_, oracles_, subject)) {}
 
@@ -78,8 +79,8 @@ class Campaign {
     const auto end = options_.time ? Clock::now() + *options_.time : Clock::time_point::max();
     const std::uint64_t last = options_.cases.value_or(UINT64_MAX);
     if (next >= last || enough_errors()) return;
-    Workers workers(
-        options_.jobs, [this](std::uint64_t job) { return to_json_text(judge_case(make(job), subject_, oracles_)); },
+    validate::Workers workers(
+        options_.jobs, [this](std::uint64_t n) { return to_json_text(judge_case(make(n), subject_, oracles_)); },
         options_.time_for_one);
     std::uint64_t expected = next;  // the case to go into the store next
     std::map<std::uint64_t, Outcome> early;
@@ -93,7 +94,7 @@ class Campaign {
       if (workers.empty()) break;
       const auto reply = workers.wait(look_up);
       if (!reply) continue;
-      early[reply->job] = reply->text ? outcome_from_json_text(*reply->text) : lost(reply->job, reply->failure);
+      early[reply->task] = reply->finished ? outcome_from_json_text(reply->text) : lost(reply->task, reply->text);
       for (auto at = early.find(expected); at != early.end(); at = early.find(++expected)) {
         for (const Finding& f : at->second.findings) signatures_.insert(f.signature());
         block.push_back(std::move(at->second));
@@ -113,7 +114,7 @@ class Campaign {
     f.oracle = "subject";
     f.verdict = failure.starts_with("no end") ? "no-end/answer" : "crash/answer";
     f.where = make(number);
-    f.explanation = "the process that worked on this case " + failure;
+    f.explanation = "the process that worked on this case: " + failure;
     outcome.counters["cases of " + f.where.generator] = 1;
     outcome.findings.push_back(std::move(f));
     return outcome;
@@ -124,16 +125,16 @@ class Campaign {
     std::vector<StoredFinding> open = store_.findings();
     std::erase_if(open, [](const StoredFinding& f) { return f.folder.has_value(); });
     if (open.empty()) return;
-    Workers workers(
-        options_.jobs, [&](std::uint64_t job) { return shrunk_text(open[job].finding); },
+    validate::Workers workers(
+        options_.jobs, [&](std::uint64_t i) { return shrunk_text(open[i].finding); },
         2 * options_.shrink.time + options_.time_for_one);
-    std::map<std::uint64_t, WorkerReply> replies;
+    std::map<std::uint64_t, validate::WorkerReply> replies;
     for (std::uint64_t next = 0; replies.size() < open.size() && !stopped();) {
       while (workers.idle() && next < open.size()) workers.start(next++);
-      if (auto reply = workers.wait(look_up)) replies[reply->job] = std::move(*reply);
+      if (auto reply = workers.wait(look_up)) replies[reply->task] = std::move(*reply);
       if (options_.progress) options_.progress("findings shrunk", replies.size(), open.size());
     }
-    for (auto& [job, reply] : replies) save(open[job], reply);
+    for (const auto& [i, reply] : replies) save(open[i], reply);
   }
 
   std::string shrunk_text(const Finding& f) const {
@@ -147,10 +148,10 @@ class Campaign {
     return out.dump();
   }
 
-  void save(const StoredFinding& stored, const WorkerReply& reply) {
-    SavedFinding saved{stored.finding, stored.finding, subject_.name(), 0};
-    if (reply.text) {
-      const json in = json::parse(*reply.text);
+  void save(const StoredFinding& stored, const validate::WorkerReply& reply) {
+    SavedFinding saved{stored.finding, stored.finding, subject_.name(), options_.given.paths, 0};
+    if (reply.finished) {
+      const json in = json::parse(reply.text);
       saved.finding = finding_from_json_text(in.at("finding").get<std::string>());
       saved.steps = in.at("steps").get<std::uint64_t>();
       const auto flaw = in.at("flaw").get<std::string>();

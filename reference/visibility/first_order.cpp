@@ -7,53 +7,65 @@
 #include <string>
 
 #include "exact/scene_query.h"
+#include "reference/visibility/discontinuity_mesh.h"
 #include "reference/visibility/fixpoint.h"
+#include "reference/visibility/omega.h"
 #include "reference/visibility/regions.h"
-#include "scene/error.h"
+#include "reference/visibility/render_states.h"
+#include "reference/visibility/traversal/traversal.h"
 
 namespace clues::reference {
 
 namespace {
 
-void require_solid(const exact::Complex& complex) {
-  const std::vector<std::uint32_t> bad = exact::triangles_not_solid(complex);
-  if (bad.empty()) return;
-  std::string list;
-  for (std::size_t i = 0; i < bad.size() && i < 5; ++i) list += (i ? ", " : "") + std::to_string(bad[i]);
-  throw scene::Error(scene::ErrorCode::not_solid,
-                     "solid mode needs a closed, consistently oriented mesh, but triangle" +
-                         std::string(bad.size() > 1 ? "s " : " ") + list + (bad.size() > 5 ? ", ..." : "") + " (" +
-                         std::to_string(bad.size()) +
-                         " in all) have an edge that is open or turned over; close the mesh, or use sheet mode");
+exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, Mode mode) {
+  exact::Complex complex = exact::build_complex(mesh, &cell);
+  if (mode == Mode::solid) exact::require_solid(complex);
+  return complex;
 }
 
 bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode::sheet || o.same_side == front; }
 
 }  // namespace
 
+Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options)
+    : Omega(complex_for(mesh, cell, options.mode), cell, options, {}) {}
+
+Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Options& options,
+             const std::vector<bool>& wanted) {
+  map_.reset(new VisibilityMap{std::move(complex), cell, options.mode, options.formulation, {}, {}, {}, {}, {}});
+  VisibilityMap& map = *map_;
+  if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
+  map.statistics.refined_triangles = map.complex.refined_triangles;
+
+  scene_ = std::make_unique<exact::SceneQuery>(map.complex, map.cell);
+  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    std::vector<bool> visited;
+    if (options.formulation == Formulation::traversal) {
+      Traversal t = traverse(*scene_, options, map.statistics);
+      part_ = std::move(t.part);
+      scene_ = std::move(t.scene);
+      fixpoint_ = std::make_unique<Fixpoint>(std::move(t.fixpoint));
+      visited = std::move(t.visited);
+    } else {
+      fixpoint_ = std::make_unique<Fixpoint>(find_wedges(*scene_, options, map.statistics));
+    }
+    for (const ValidPiece& p : fixpoint_->wedges.pieces()) map.wedges.push_back(p.wedge);
+    make_regions(*scene_, *fixpoint_, {visited, wanted}, options, map);
+  });
+  assert(options.planted_bug != PlantedBug::none || map.statistics.walk_disagreements == 0);  // D14
+  find_visible(*scene_, map);
+}
+
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                      const Options& options) {
-  if (options.mode == Mode::solid) require_solid(exact::build_complex(mesh));
-  return first_order_visibility_in(exact::build_complex(mesh, &cell), cell, options);
+  return Omega(mesh, cell, options).take_map();
 }
 
 VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exact::ConvexCell& cell,
                                         const Options& options, const std::vector<bool>& wanted) {
-  VisibilityMap map{complex, cell, options.mode, {}, {}, {}, {}, {}};
-  if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
-  map.statistics.refined_triangles = map.complex.refined_triangles;
-
-  const exact::SceneQuery scene(map.complex, map.cell);
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    const Fixpoint fixpoint = find_wedges(scene, options, map.statistics);
-    for (const ValidPiece& p : fixpoint.wedges.pieces()) map.wedges.push_back(p.wedge);
-    make_regions(scene, fixpoint, options, wanted, map);
-  });
-  assert(options.planted_bug != PlantedBug::none || map.statistics.walk_disagreements == 0);  // D14
-
-  find_visible(scene, map);
-  return map;
+  return Omega(complex, cell, options, wanted).take_map();
 }
 
 void find_visible(const exact::SceneQuery& scene, VisibilityMap& map) {
@@ -86,7 +98,7 @@ std::vector<std::uint8_t> VisibilityMap::triangle_state() const {
   return state;
 }
 
-scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map) {
+scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map, bool with_render_states) {
   scene::Result result;
   result.scene_triangles = map.complex.input_triangles;
   result.cell = cell.points;
@@ -112,6 +124,16 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   put("sv_me", s.sv_me);
   put("walk_disagreements", s.walk_disagreements);
   put("walks", s.walks);
+  if (map.formulation == Formulation::traversal) {
+    put("traversal_by_order", s.by_order);
+    put("traversal_clusters", s.clusters);
+    put("traversal_passes", s.passes);
+    put("traversal_shaft_tests", s.shaft_tests);
+    put("traversal_sight_lines", s.sight_lines);
+    put("traversal_surfaces_seen", s.surfaces_seen);
+    put("traversal_surfaces_visited", s.surfaces_visited);
+    put("traversal_wedges_built", s.wedges_built);
+  }
   if (!with_map) return result;
 
   result.has_map = true;
@@ -119,9 +141,15 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
     return std::array<std::string, 3>{exact::to_string_exact(p.x()), exact::to_string_exact(p.y()),
                                       exact::to_string_exact(p.z())};
   };
+  std::vector<RenderState> states;
+  if (with_render_states) states = render_states(map);
+  result.has_render_states = with_render_states;
+  std::vector<std::vector<std::uint64_t>> places;  // per region of the map: its places in the result
   for (const Region& r : map.regions) {
     scene::MapRegion out;
     out.visible = r.visible;
+    if (with_render_states) out.render_states = names_of(states[places.size()]);
+    places.emplace_back();
     for (const auto& ring : r.rings) {
       out.rings_exact.emplace_back();
       out.rings.emplace_back();
@@ -134,8 +162,18 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
     for (const exact::Origin& o : map.complex.pieces[r.piece].origins) {
       out.triangle = o.triangle;
       out.front = o.same_side == r.front;
-      if (counts(map.mode, o, r.front)) result.regions.push_back(out);
+      if (!counts(map.mode, o, r.front)) continue;
+      places.back().push_back(result.regions.size());
+      result.regions.push_back(out);
     }
+  }
+  const DiscontinuityMesh mesh = discontinuity_mesh(map);
+  for (const exact::Point3& p : mesh.vertices) result.mesh.vertices_exact.push_back(text(p));
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) result.mesh.faces.push_back({places[i], mesh.faces[i]});
+  for (const DiscontinuityMesh::Edge& e : mesh.edges) {
+    scene::MapMesh::Edge out{e.right ? e.boundary ? "ob" : "dm" : "border", {e.a, e.b}, {e.left}};
+    if (e.right) out.faces.push_back(*e.right);
+    result.mesh.edges.push_back(std::move(out));
   }
   for (const DmSegment& d : map.segments) {
     for (const exact::Origin& o : map.complex.pieces[d.piece].origins) {

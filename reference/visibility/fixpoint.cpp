@@ -6,11 +6,11 @@
 #include <map>
 #include <memory>
 #include <set>
-#include <tuple>
 
 #include "exact/simple_point.h"
 #include "reference/visibility/apex.h"
 #include "reference/visibility/contour.h"
+#include "reference/visibility/sources.h"
 #include "reference/visibility/walk.h"
 #include "scene/error.h"
 
@@ -20,10 +20,6 @@ using exact::Point3;
 using exact::Vector3;
 
 namespace {
-
-constexpr std::uint64_t kSourceSeed = 0x51;
-
-bool before(const Point3& a, const Point3& b) { return CGAL::lexicographically_xyz_smaller(a, b); }
 
 // The planted bug of a tolerance: strips that look narrow in doubles are taken for nothing.
 bool is_narrow(const Strip& s, const Point3& center) {
@@ -37,25 +33,6 @@ bool is_narrow(const Strip& s, const Point3& center) {
   }
   return dot * dot > 0.98 * aa * bb;
 }
-
-// A piece of a contour edge between two neighbouring cuts, seen from one supporting plane: one source, one label (D13a).
-struct Source {
-  std::size_t contour = 0;
-  Point3 lo, hi, y;  // lexicographic order along the edge; y its middle
-  std::uint64_t seed = kSourceSeed;
-  Walk walk;
-  bool lit = false;
-};
-
-// A mesh vertex seen from v in int V: a source of SE-MV wedges even where no contour edge ends (a corner whose edges all point away
-// from the cell).
-struct VertexSource {
-  std::uint32_t point = 0;
-  Point3 x, v;
-  Probe probe;
-  Walk walk;
-  bool lit = false;
-};
 
 // A sector waiting to become valid pieces: either a contour edge seen from a touching cell vertex, or a sector of an apex.
 struct Job {
@@ -79,20 +56,26 @@ class Search {
         cuts_(complex_.edges.size()),
         wedges_(scene) {
     edge_wedges_.resize(contours_.size());
-    for (std::size_t i = 0; i < contours_.size(); ++i) edge_wedges_[i].resize(contours_[i].touching.size());
+    for (std::size_t i = 0; i < contours_.size(); ++i) {
+      edge_wedges_[i].resize(contours_[i].touching.size());
+      is_contour_.insert(contours_[i].edge);
+    }
     if (options.planted_bug == PlantedBug::wrong_wedge_side) {
       for (ContourEdge& c : contours_) c.plane = c.plane.opposite();
     }
   }
 
   Fixpoint run() {
-    make_vertex_sources();
+    vertex_sources_ = vertex_sources(
+        scene_, walker_, [this](std::uint32_t p) -> const Apex& { return *corner(p); }, statistics_.walks);
     for (bool changed = true; changed;) {
       ++statistics_.rounds;
       changed = round();
     }
     count();
-    return {std::move(wedges_), std::move(beyond_limit_)};
+    Fixpoint out{std::move(wedges_), std::move(beyond_limit_), {}, {}};
+    find_lit(out);
+    return out;
   }
 
  private:
@@ -104,7 +87,7 @@ class Search {
     for (auto& [key, apex] : csvs_) apex->start_round();
     for (auto& [key, apex] : corners_) apex->start_round();
     new_cuts_.assign(complex_.edges.size(), {});
-    make_sources();
+    sources_ = edge_sources(scene_, walker_, contours_, cuts_, std::move(sources_), statistics_.walks);
 
     std::vector<std::size_t> lit;
     for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -145,96 +128,11 @@ class Search {
     return changed;
   }
 
-  // The sources of this round; walks are kept from the last one where the piece of the edge is still the same.
-  void make_sources() {
-    std::map<std::tuple<std::size_t, Point3>, Source> known;
-    for (Source& s : sources_) known.emplace(std::tuple(s.contour, s.y), std::move(s));
-    sources_.clear();
-    for (std::size_t c = 0; c < contours_.size(); ++c) {
-      const exact::Edge& e = complex_.edges[contours_[c].edge];
-      is_contour_.insert(contours_[c].edge);
-      std::vector<Point3> stops{complex_.points[e.a]};
-      if (before(complex_.points[e.a], complex_.points[e.b])) {
-        stops.insert(stops.end(), cuts_[contours_[c].edge].begin(), cuts_[contours_[c].edge].end());
-      } else {
-        stops.insert(stops.end(), cuts_[contours_[c].edge].rbegin(), cuts_[contours_[c].edge].rend());
-      }
-      stops.push_back(complex_.points[e.b]);
-      for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-        Source s;
-        s.contour = c;
-        s.lo = stops[i];
-        s.hi = stops[i + 1];
-        s.y = exact::simple_between(complex_.points[e.a], complex_.points[e.b], s.lo, s.hi);
-        sources_.push_back(std::move(s));
-      }
-    }
-    std::vector<Source*> unknown;
-    for (Source& s : sources_) {
-      const auto it = known.find(std::tuple(s.contour, s.y));
-      if (it == known.end()) {
-        unknown.push_back(&s);
-      } else {
-        s.walk = std::move(it->second.walk);
-        s.seed = it->second.seed;
-      }
-    }
-    tbb::parallel_for(std::size_t{0}, unknown.size(),
-                      [&](std::size_t i) { unknown[i]->walk = walker_.walk(start_of(*unknown[i]), unknown[i]->seed); });
-    statistics_.walks += unknown.size();
-  }
-
-  Start start_of(const Source& s) const { return {s.y, std::nullopt, &contours_[s.contour]}; }
-
-  static Start start_of(const VertexSource& s) { return {s.x, std::nullopt, nullptr, s.v}; }
-
   void light_vertex(VertexSource& s) {
     s.lit = true;
     Apex* apex = corner(s.point);
     apex->add_probe(s.probe);
     touched_.insert(apex);
-  }
-
-  // Every mesh vertex, once for each sight line from near a cell vertex that arrives in a local face where a sector starts, and once for every
-  // other such face from which the cell is seen.
-  void make_vertex_sources() {
-    const std::vector<Point3>& cell = scene_.cell().vertices();
-    for (std::uint32_t p = 0; p < complex_.points.size(); ++p) {
-      const Apex* apex = corner(p);
-      const Point3& x = complex_.points[p];
-      std::vector<Vector3> directions;
-      for (std::size_t i = 0; i < cell.size(); ++i) {
-        std::vector<int> weights;
-        for (std::size_t j = 0; j < cell.size(); ++j)
-          weights.push_back(i == j ? 5003 : 3 + static_cast<int>((7 * j + 11 * i + p) % 13));
-        const Vector3 d = scene_.cell().interior_point(weights) - x;
-        if (apex->has_sector_facing(d)) directions.push_back(d);
-      }
-      for (const Vector3& d : apex->into_cell(scene_.cell(), directions)) directions.push_back(d);
-      for (const Vector3& d : directions) add_vertex_source(p, *apex, d);
-    }
-    tbb::parallel_for(std::size_t{0}, vertex_sources_.size(), [&](std::size_t i) {
-      vertex_sources_[i].walk = walker_.walk(start_of(vertex_sources_[i]), kSourceSeed);
-    });
-    statistics_.walks += vertex_sources_.size();
-  }
-
-  // x seen along d, or along a direction nearby in the same local face if that sight line is in special position.
-  void add_vertex_source(std::uint32_t point, const Apex& apex, const Vector3& d) {
-    constexpr int kAttempts = 12;
-    const Point3& x = complex_.points[point];
-    const std::size_t n = scene_.cell().vertices().size();
-    VertexSource s{point, x, x + d, {}, {}, false};
-    exact::FT pull(1);
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
-      if (!scene_.crossings(s.v, x).degenerate && (attempt == 0 || apex.in_one_face(d, s.v - x))) break;
-      std::vector<int> weights;
-      for (std::size_t j = 0; j < n; ++j) weights.push_back(1 + (attempt * 7 + static_cast<int>(j) * 5) % 11);
-      pull = pull / exact::FT(8);
-      s.v = exact::collapsed(x + d + pull * (scene_.cell().interior_point(weights) - (x + d)));
-    }
-    s.probe = {{s.v - x, CGAL::NULL_VECTOR, CGAL::NULL_VECTOR}, s.v - x, CGAL::NULL_VECTOR};
-    vertex_sources_.push_back(std::move(s));
   }
 
   // Hidden sources that the pieces from index `first` on make visible.
@@ -243,11 +141,11 @@ class Search {
     tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
       Source& s = sources_[i];
       if (s.lit) return;
-      label[i] = walker_.visible(start_of(s), s.walk, wedges_, first);
+      label[i] = walker_.visible(start_of(s, contours_), s.walk, wedges_, first);
       for (int attempt = 0; label[i] == Meets::degenerate && attempt < 100;
            ++attempt) {  // walk elsewhere, and ask all pieces
-        s.walk = walker_.walk(start_of(s), ++s.seed);
-        label[i] = walker_.visible(start_of(s), s.walk, wedges_, 0);
+        s.walk = walker_.walk(start_of(s, contours_), ++s.seed);
+        label[i] = walker_.visible(start_of(s, contours_), s.walk, wedges_, 0);
       }
     });
     std::vector<std::size_t> lit;
@@ -367,6 +265,16 @@ class Search {
     return batch;
   }
 
+  // Where the ray through `on_ray` starts: on the sector's near bound.
+  static Point3 near_point(const Sector& sector, const OnWedge& on, const Spot& on_ray) {
+    if (sector.from_apex()) return sector.center;
+    if (on_ray.p == sector.near0 || on_ray.p == sector.near1) return on_ray.p;
+    const exact::Point2 a = on.frame(sector.near0), b = on.frame(sector.near1);
+    const exact::Vector2 d = on_ray.q - on.center;
+    const exact::FT at_a = CGAL::determinant(d, a - on.center), at_b = CGAL::determinant(d, b - on.center);
+    return exact::collapsed(sector.near0 + (at_a / (at_a - at_b)) * (sector.near1 - sector.near0));
+  }
+
   std::vector<ValidPiece> pieces_of(const Job& job) const {
     const Sector sector = sector_of(job);
     const std::shared_ptr<const OnWedge>& on = *job.slot;
@@ -387,8 +295,8 @@ class Search {
       w.generation = job.touching < 0 ? job.apex->generation : 0;
       w.plane = sector.plane;
       w.center = sector.center;
-      w.near0 = sector.near0;
-      w.near1 = sector.near1;
+      w.near0 = near_point(sector, *on, strip.on_ray0);
+      w.near1 = near_point(sector, *on, strip.on_ray1);
       w.on_ray0 = strip.on_ray0.p;
       w.on_ray1 = strip.on_ray1.p;
       w.unbounded = !strip.blocker;
@@ -478,6 +386,14 @@ class Search {
   }
 
   void count() {
+    for (const auto& of_edge : edge_wedges_)
+      statistics_.wedges_built += static_cast<std::uint64_t>(
+          std::count_if(of_edge.begin(), of_edge.end(), [](const auto& on) { return on != nullptr; }));
+    const auto built = [this](Apex& apex) {
+      for (const ApexSector& s : apex.sectors()) statistics_.wedges_built += s.on_wedge != nullptr;
+    };
+    for (const auto& [key, apex] : csvs_) built(*apex);
+    for (const auto& [key, apex] : corners_) built(*apex);
     for (const ValidPiece& p : wedges_.pieces()) {
       statistics_.sv_me += p.wedge.kind == WedgeKind::sv_me;
       statistics_.se_me += p.wedge.kind == WedgeKind::se_me;
@@ -492,6 +408,20 @@ class Search {
     statistics_.conservative_fallbacks += beyond_limit_.size();
     for (const Source& s : sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
     for (const VertexSource& s : vertex_sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
+  }
+
+  void find_lit(Fixpoint& out) const {
+    for (const Source& s : sources_) {
+      if (s.lit) out.lit_edges.push_back(contours_[s.contour].edge);
+    }
+    for (const auto& [key, apex] : csvs_) {
+      if (apex->probed()) out.lit_edges.push_back(key.first);
+    }
+    for (const auto& [point, apex] : corners_) {
+      if (apex->probed()) out.lit_points.push_back(point);
+    }
+    std::sort(out.lit_edges.begin(), out.lit_edges.end());
+    out.lit_edges.erase(std::unique(out.lit_edges.begin(), out.lit_edges.end()), out.lit_edges.end());
   }
 
   struct CsvLess {

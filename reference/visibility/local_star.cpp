@@ -34,6 +34,13 @@ CGAL::Sign leading(const FT& a, const FT& b, const FT& c) {
   return sb != CGAL::ZERO ? sb : CGAL::sign(c);
 }
 
+// Where b lies in the turn about axis that starts at a, given the sign of the turn from a to b: 0 at a, 1 in the first half turn, 2 opposite,
+// 3 in the second half turn.
+int half_turn(CGAL::Sign turn, const Vector3& axis, const Vector3& a, const Vector3& b) {
+  if (turn != CGAL::ZERO) return turn == CGAL::POSITIVE ? 1 : 3;
+  return CGAL::is_positive(CGAL::cross_product(axis, a) * CGAL::cross_product(axis, b)) ? 0 : 2;
+}
+
 }  // namespace
 
 CGAL::Sign side_of(const Vector3& normal, const Beside& d) {
@@ -98,12 +105,7 @@ void LocalStar::finish() {
     }
     if (spokes.empty()) continue;
     const Vector3 reference = spokes.front().to;
-    const auto half =
-        [&](const Vector3& to) {  // 0: the reference, 1: first half turn, 2: opposite, 3: second half turn
-          const CGAL::Sign s = det_sign(axis, reference, to);
-          if (s != CGAL::ZERO) return s == CGAL::POSITIVE ? 1 : 3;
-          return CGAL::is_positive(CGAL::cross_product(axis, reference) * CGAL::cross_product(axis, to)) ? 0 : 2;
-        };
+    const auto half = [&](const Vector3& to) { return half_turn(det_sign(axis, reference, to), axis, reference, to); };
     std::sort(spokes.begin() + 1, spokes.end(), [&](const Spoke& x, const Spoke& y) {
       const int hx = half(x.to), hy = half(y.to);
       return hx != hy ? hx < hy : det_sign(axis, x.to, y.to) == CGAL::POSITIVE;
@@ -207,11 +209,7 @@ bool LocalStar::spreads_around_edge(const Beside& d, const Vector3& inner, const
   // Seen along the edge every piece is a ray, and a way may turn by less than a half turn at once. Angles about the axis, from d:
   const Vector3& axis = nodes_[0];
   const auto turn = [&](const Vector3& w) { return side_of(CGAL::cross_product(w, axis), d); };  // of d -> w
-  const auto half = [&](const Vector3& w) {  // 0: like d, 1: first half turn, 2: opposite, 3: second half turn
-    const CGAL::Sign s = turn(w);
-    if (s != CGAL::ZERO) return s == CGAL::POSITIVE ? 1 : 3;
-    return CGAL::is_positive(CGAL::cross_product(axis, d.limit) * CGAL::cross_product(axis, w)) ? 0 : 2;
-  };
+  const auto half = [&](const Vector3& w) { return half_turn(turn(w), axis, d.limit, w); };
   bool ccw = true;  // inner comes before all pieces
   for (std::size_t i = 2; i < nodes_.size(); ++i) {
     const int h = half(nodes_[i]), h_inner = half(inner);

@@ -54,7 +54,7 @@ void add_borders(const FlatSet& set, const TriangleFrame& frame, std::uint32_t t
 }  // namespace
 
 VisibilityMap Bounds::refined_map(const std::string& method) const {
-  VisibilityMap map{map_.complex, map_.cell, map_.mode, {}, {}, {}, {}, map_.statistics, method};
+  VisibilityMap map{map_.complex, map_.cell, map_.mode, map_.formulation, {}, {}, {}, {}, map_.statistics, method};
   std::set<std::size_t> present;
   for (const Region& r : map_.regions) present.insert(side_index(r.piece, r.front));
   const std::vector<std::size_t> order(present.begin(), present.end());

@@ -61,9 +61,11 @@ Segments2 without_overlaps(const Segments2& segments) {
 
 class SideMapper {
  public:
-  SideMapper(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options)
+  SideMapper(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const std::vector<bool>& visited,
+             const Options& options)
       : scene_(scene),
         fixpoint_(fixpoint),
+        visited_(visited),
         options_(options),
         walker_(scene, options.planted_bug != PlantedBug::no_rule_3) {
     for (const ValidPiece& piece : fixpoint.wedges.pieces()) {
@@ -90,6 +92,12 @@ class SideMapper {
     const Kernel::Triangle_2& triangle = flat_triangle.flat();
     const auto lift = [&](const Point2& q) { return flat_triangle.lift(q); };
 
+    if (!visited_.empty() && !visited_[t]) {  // lies in no point of Omega
+      Region r{t, front, false, {{p[0], p[1], p[2]}}, FT(1), {}};
+      r.sample = lift(inner_point({{triangle[0], triangle[1], triangle[2]}}, 0));
+      out.regions.push_back(std::move(r));
+      return out;
+    }
     if (complex.in_cell[t]) {  // D3
       Region r{t, front, true, {{p[0], p[1], p[2]}}, FT(1), CGAL::centroid(p[0], p[1], p[2])};
       out.regions.push_back(std::move(r));
@@ -239,19 +247,13 @@ class SideMapper {
 
   // D17: what the wedges left out by the generation limit could show lies in the anti-cones of their apexes.
   bool beyond_limit(const Region& r) const {
-    for (const Point3& x : fixpoint_.beyond_limit) {
-      bool outside = false;
-      for (const AnticoneFacet& f : anticone_facets(x, scene_.cell())) {
-        outside |= std::all_of(r.rings[0].begin(), r.rings[0].end(),
-                               [&](const Point3& q) { return f.plane.oriented_side(q) == CGAL::ON_NEGATIVE_SIDE; });
-      }
-      if (!outside) return true;
-    }
-    return false;
+    return std::any_of(fixpoint_.beyond_limit.begin(), fixpoint_.beyond_limit.end(),
+                       [&](const Point3& x) { return may_reach(x, scene_.cell(), r.rings[0]); });
   }
 
   const exact::SceneQuery& scene_;
   const Fixpoint& fixpoint_;
+  const std::vector<bool>& visited_;
   const Options& options_;
   Walker walker_;
   std::map<SideKey, std::vector<Segment3>> traces_;
@@ -259,9 +261,9 @@ class SideMapper {
 
 }  // namespace
 
-void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options,
-                  const std::vector<bool>& wanted, VisibilityMap& map) {
-  const SideMapper mapper(scene, fixpoint, options);
+void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const RegionScope& scope,
+                  const Options& options, VisibilityMap& map) {
+  const SideMapper mapper(scene, fixpoint, scope.visited, options);
   const auto& pieces = map.complex.pieces;
   std::vector<SideKey> sides;
   for (std::uint32_t t = 0; t < pieces.size(); ++t) {
@@ -269,7 +271,7 @@ void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, cons
       const bool counts =
           map.mode == Mode::sheet || std::any_of(pieces[t].origins.begin(), pieces[t].origins.end(),
                                                  [&](const exact::Origin& o) { return o.same_side == front; });
-      if (counts && (wanted.empty() || wanted[side_index(t, front)])) sides.emplace_back(t, front);
+      if (counts && (scope.wanted.empty() || scope.wanted[side_index(t, front)])) sides.emplace_back(t, front);
     }
   }
   std::vector<SideMapper::Output> outputs(sides.size());

@@ -47,6 +47,19 @@ FT Walker::height(const SurfaceSide& on, const Point3& x) const {
   return on.front ? d : FT(-d);
 }
 
+template <class Visit>
+void Walker::leaves(const SurfaceSide& side, const Visit& visit) const {
+  const std::vector<Point3>& s = scene_->cell().vertices();
+  for (const Point3& inside : s) {
+    const FT a = height(side, inside);
+    if (!CGAL::is_positive(a)) continue;
+    for (const Point3& other : s) {
+      const FT c = height(side, other);
+      if (!CGAL::is_positive(c) && visit(inside, inside + (a / (a - c)) * (other - inside))) return;
+    }
+  }
+}
+
 std::optional<Point3> Walker::anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const {
   const std::vector<Point3>& s = scene_->cell().vertices();
   std::vector<FT> a, b;
@@ -59,34 +72,29 @@ std::optional<Point3> Walker::anchor_beyond(const SurfaceSide& side, const Surfa
   if (best) return s[*best];
   if (!also) return std::nullopt;
   // No vertex is on both sides, but an edge of V, or a diagonal, may cross the space between the planes.
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    for (std::size_t j = 0; j < s.size(); ++j) {
-      if (!CGAL::is_positive(a[i]) || CGAL::is_positive(a[j])) continue;
-      const Point3 x = s[i] + (a[i] / (a[i] - a[j])) * (s[j] - s[i]);  // on the first plane
-      if (!CGAL::is_positive(height(*also, x))) continue;
-      for (FT pull = FT(1) / FT(2);; pull = pull / FT(2)) {
-        const Point3 y = x + pull * (s[i] - x);
-        if (CGAL::is_positive(height(*also, y))) return exact::collapsed(y);
-      }
-    }
-  }
-  return std::nullopt;
+  std::optional<Point3> found;
+  leaves(side, [&](const Point3& inside, const Point3& x) {
+    if (!CGAL::is_positive(height(*also, x))) return false;
+    FT pull = FT(1) / FT(2);
+    const auto towards = [&] { return x + pull * (inside - x); };
+    while (!CGAL::is_positive(height(*also, towards()))) pull = pull / FT(2);
+    found = exact::collapsed(towards());
+    return true;
+  });
+  return found;
 }
 
 std::optional<Point3> Walker::end_of_groove(const SurfaceSide& one, const SurfaceSide& two) const {
-  const std::vector<Point3>& s = scene_->cell().vertices();
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    const FT a = height(one, s[i]), b = height(two, s[i]);
-    if (!CGAL::is_negative(a) && !CGAL::is_negative(b)) return s[i];
-    if (!CGAL::is_positive(a)) continue;
-    for (const Point3& other : s) {
-      const FT c = height(one, other);
-      if (!CGAL::is_negative(c)) continue;
-      const Point3 x = exact::collapsed(s[i] + (a / (a - c)) * (other - s[i]));
-      if (!CGAL::is_negative(height(two, x))) return x;
-    }
+  for (const Point3& x : scene_->cell().vertices()) {
+    if (!CGAL::is_negative(height(one, x)) && !CGAL::is_negative(height(two, x))) return x;
   }
-  return std::nullopt;
+  std::optional<Point3> found;
+  leaves(one, [&](const Point3&, const Point3& x) {
+    if (CGAL::is_negative(height(two, x))) return false;
+    found = exact::collapsed(x);
+    return true;
+  });
+  return found;
 }
 
 std::optional<Point3> Walker::along_groove(const Point3& p, const SurfaceSide& on, const SurfaceSide& before,

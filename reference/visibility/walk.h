@@ -76,6 +76,9 @@ class Walker {
   exact::Point3 choose(std::uint64_t seed, const std::optional<exact::Point3>& anchor, const Good& good) const;
   // A multiple of the distance of x from the piece's plane, positive on the given side.
   exact::FT height(const SurfaceSide& on, const exact::Point3& x) const;
+  // Calls visit(s, x) for each edge or diagonal of V that leaves the open side at x, a point of its plane, from the vertex s; until it says true.
+  template <class Visit>
+  void leaves(const SurfaceSide& side, const Visit& visit) const;
   // A point of V strictly on the given side of the piece's plane, and, if `also` is given, on that side of that plane too; none when V has no such point.
   std::optional<exact::Point3> anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const;
   // A point of the closed V in both closed half spaces, for two walls that no point of V is strictly in front of at once; none if V keeps away.

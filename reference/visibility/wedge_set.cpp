@@ -87,7 +87,7 @@ void WedgeSet::add(std::vector<ValidPiece> batch) {
   std::vector<CGAL::Bbox_3> boxes;
   for (ValidPiece& piece : batch) {
     const auto id = static_cast<std::uint32_t>(pieces_.size());
-    boxes.push_back(box_of(piece.wedge, scene_->bounds()));
+    boxes.push_back(box_of(piece.wedge, bounds_));
     for (const std::uint32_t t : piece.on_wedge->coplanar_pieces) {
       const bool front =
           CGAL::is_positive(scene_->complex().planes[t].orthogonal_vector() * piece.wedge.plane.orthogonal_vector());

@@ -32,7 +32,9 @@ Meets crosses(const ValidPiece& piece, const exact::Point3& m, const exact::Poin
 
 class WedgeSet {
  public:
-  explicit WedgeSet(const exact::SceneQuery& scene) : scene_(&scene) {}
+  // For sight lines within `bounds`; of scene and cell, unless given.
+  explicit WedgeSet(const exact::SceneQuery& scene) : WedgeSet(scene, scene.bounds()) {}
+  WedgeSet(const exact::SceneQuery& scene, const CGAL::Bbox_3& bounds) : scene_(&scene), bounds_(bounds) {}
 
   // Adds a batch and indexes it. The pieces keep their order of arrival as indices.
   void add(std::vector<ValidPiece> batch);
@@ -58,6 +60,17 @@ class WedgeSet {
     return worst;
   }
 
+  // The pieces whose boxes the test cannot exclude, ascending.
+  template <class Test>
+  std::vector<std::uint32_t> candidates(const Test& may_meet) const {
+    std::vector<std::uint32_t> found;
+    for (const Batch& b : batches_) {
+      for (const std::uint32_t i : b.tree.candidates(may_meet))
+        found.push_back(static_cast<std::uint32_t>(b.begin) + i);
+    }
+    return found;
+  }
+
   // The pieces lying in the plane of complex piece t whose H- is t's front (or back) side.
   const std::vector<std::uint32_t>& upon(std::uint32_t t, bool front) const;
   // The pieces whose plane contains edge e.
@@ -69,6 +82,7 @@ class WedgeSet {
     exact::BoxTree tree;
   };
   const exact::SceneQuery* scene_;
+  CGAL::Bbox_3 bounds_;
   std::vector<ValidPiece> pieces_;
   std::vector<Batch> batches_;
   std::map<std::pair<std::uint32_t, bool>, std::vector<std::uint32_t>> upon_;

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/app/program.h"
@@ -19,6 +21,8 @@ TEST(Help, EveryCommandHasDescriptionExamplesAndExitCodes) {
                                                     {"map", "--help"},
                                                     {"precision", "--help"},
                                                     {"check", "--help"},
+                                                    {"query", "--help"},
+                                                    {"verify", "--help"},
                                                     {"demo", "--help"}}) {
     const auto ran = run_clues(arguments, folder.path());
     EXPECT_EQ(ran.exit_code, 0);
@@ -114,6 +118,37 @@ TEST(Map, SameBytesInEveryRunAndForEveryThreadCount) {
   }
 }
 
+TEST(Map, TheTraversalGivesTheSameRegions) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  std::vector<json> results;
+  for (const char* formulation : {"plain", "traversal"}) {
+    const auto ran = run_clues(
+        {"map", "scene.off", "--cell", screen_cell, "--formulation", formulation, "--map", "--json"}, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    results.push_back(json::parse(ran.out));
+  }
+  EXPECT_FALSE(results[0]["stats"].contains("traversal_surfaces_visited"));
+  EXPECT_TRUE(results[1]["stats"].contains("traversal_surfaces_visited"));
+  for (auto& result : results) result.erase("stats");
+  EXPECT_EQ(results[0], results[1]);
+  const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "--formulation", "sideways"}, folder.path());
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("use plain or traversal"));
+}
+
+TEST(Map, WritesTheOverlapGraph) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "--overlap-graph", "out.dot"}, folder.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(read_all(folder.file("out.dot")), AllOf(HasSubstr("digraph overlap"), HasSubstr(" -> ")));
+  const auto many = run_clues(
+      {"map", "scene.off", "--cells", "grid:1x1x1:box:0,0,0,1,1,1", "--overlap-graph", "many.dot"}, folder.path());
+  EXPECT_EQ(many.exit_code, 2);
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"out.dot", "scene.off"}));
+}
+
 TEST(Map, ManyCellsMakeOneFileEachAndTheSameBytes) {
   const TestFolder folder;
   folder.write("scene.off", screen_scene);
@@ -127,6 +162,71 @@ TEST(Map, ManyCellsMakeOneFileEachAndTheSameBytes) {
     const auto bytes = read_all(folder.file("cells1/" + name + ".clues.json"));
     EXPECT_THAT(bytes, HasSubstr("clues-result/1"));
     EXPECT_EQ(bytes, read_all(folder.file("cells3/" + name + ".clues.json")));
+  }
+}
+
+TEST(Map, AStoppedRunOverManyCellsGoesOn) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const std::vector<std::string> command{"map", "scene.off", "--cells", "grid:2x1x1:box:-1,-1,-1,1,1,0", "-o", "cells"};
+  auto resumed = command;
+  resumed.push_back("--resume");
+  ASSERT_EQ(run_clues(command, folder.path()).exit_code, 0);
+  const auto first = folder.file("cells/cell-0-0-0.clues.json"), second = folder.file("cells/cell-1-0-0.clues.json");
+  const auto whole = read_all(second);
+
+  // What a kill leaves behind: one cell of two. The finished one is not made again.
+  std::filesystem::remove(second);
+  std::ofstream(first) << "kept";
+  const auto ran = run_clues(resumed, folder.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("1 of 2 cells"));
+  EXPECT_EQ(read_all(first), "kept");
+  EXPECT_EQ(read_all(second), whole);
+
+  // Neither a new run nor another question may mix its answers with these.
+  const auto again = run_clues(command, folder.path());
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("--resume"));
+  resumed.push_back("--map");
+  const auto other = run_clues(resumed, folder.path());
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("cells.json"));
+  EXPECT_EQ(read_all(second), whole);
+}
+
+TEST(Map, TheFastKernelGivesTheSamePvs) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const std::vector<std::string> command{"map", "scene.off", "--cell", screen_cell, "-o"};
+  for (const auto& [kernel, out] : {std::pair{"exact", "exact.pvs"}, {"fast", "fast.pvs"}}) {
+    auto arguments = command;
+    for (const char* more : {out, "--kernel", kernel}) arguments.emplace_back(more);
+    const auto ran = run_clues(arguments, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("fallbacks"));
+  }
+  EXPECT_EQ(read_all(folder.file("fast.pvs")), read_all(folder.file("exact.pvs")));
+
+  const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "--kernel", "fast", "--json"}, folder.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto result = json::parse(ran.out);
+  EXPECT_EQ(result["kernel"], "fast");
+  EXPECT_EQ(result["stats"]["conservative_fallbacks"], 0);
+}
+
+TEST(Map, TheFastKernelRefusesWhatItCannotDo) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--umbra", "u.json"},
+                                               {"--formulation", "traversal"},
+                                               {"--map", "--render-states"},
+                                               {"--overlap-graph", "g.dot"}}) {
+    std::vector<std::string> arguments{"map", "scene.off", "--cell", screen_cell, "--kernel", "fast"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto ran = run_clues(arguments, folder.path());
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("--kernel exact"));
   }
 }
 

@@ -24,25 +24,14 @@ const char* const screen_scene =
     "9 0 2\n10 0 2\n9 1 2\n"
     "3 0 2 1\n3 0 3 2\n3 4 6 5\n3 7 9 8\n3 10 12 11\n";
 
-TestFolder::TestFolder() {
-  std::string pattern = (fs::temp_directory_path() / "clues-test-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = pattern;
-}
-
-TestFolder::~TestFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 std::string TestFolder::write(const std::string& name, const std::string& bytes) const {
-  std::ofstream(path_ / name, std::ios::binary) << bytes;
+  std::ofstream(file(name), std::ios::binary) << bytes;
   return file(name);
 }
 
 std::vector<std::string> TestFolder::names() const {
   std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator(path_)) found.push_back(entry.path().filename().string());
+  for (const auto& entry : fs::directory_iterator(path())) found.push_back(entry.path().filename().string());
   std::sort(found.begin(), found.end());
   return found;
 }

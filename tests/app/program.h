@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/mesh.h"
+#include "scene/temporary_folder.h"
 
 namespace clues::tests {
 
@@ -17,21 +18,10 @@ struct Ran {
 // `arguments` are given to the program as they are, without a shell.
 Ran run_clues(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
-// A fresh folder, removed again with everything in it.
-class TestFolder {
+class TestFolder : public scene::TemporaryFolder {
  public:
-  TestFolder();
-  ~TestFolder();
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
   std::string write(const std::string& name, const std::string& bytes) const;  // returns the path
   std::vector<std::string> names() const;                                      // what lies in it, sorted
-
- private:
-  std::filesystem::path path_;
 };
 
 std::string read_all(const std::filesystem::path& path);

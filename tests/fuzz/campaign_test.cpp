@@ -14,26 +14,12 @@
 #include "fuzz/generators/random_scenes.h"
 #include "planted_subjects.h"
 #include "scene/error.h"
+#include "scene/temporary_folder.h"
 
 namespace clues::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "clues-fuzz-test-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
 
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -70,50 +56,11 @@ CampaignOptions options_for(const fs::path& out, std::uint64_t cases) {
   return options;
 }
 
-void is_found_and_shrunk(const Subject& subject, std::uint64_t within) {
-  const Folder folder;
-  auto options = options_for(folder / "out", within);
-  options.errors = 1;
-  const CampaignSummary summary = run_campaign(options, subject);
-  EXPECT_EQ(summary.exit_code(), 1);
-  EXPECT_TRUE(summary.contradictions.empty()) << summary.contradictions.front();
-  ASSERT_FALSE(summary.findings.empty());
-  for (const auto& f : summary.findings) {
-    ASSERT_TRUE(f.folder.has_value());
-    const SavedFinding saved = load_finding(options.out / *f.folder);
-    EXPECT_EQ(flaw_of(saved.finding, subject), "");
-    EXPECT_EQ(saved.finding.signature(), f.finding.signature());
-    EXPECT_LE(saved.finding.where.mesh.triangles.size(), 12U);
-    std::cout << subject.name() << ": case " << f.case_number << ", " << f.finding.signature() << ", "
-              << saved.original.where.mesh.triangles.size() << " -> " << saved.finding.where.mesh.triangles.size()
-              << " triangles in " << saved.steps << " steps\n";
-  }
-}
-
-TEST(PlantedSubject, EverythingHiddenIsFound) { is_found_and_shrunk(EverythingHidden(), 2); }
-TEST(PlantedSubject, OneHiddenTriangleIsFound) { is_found_and_shrunk(HidesOneTriangle(), 12); }
-TEST(PlantedSubject, FromTheCentreIsFound) { is_found_and_shrunk(FromTheCentre(), 12); }
-TEST(PlantedSubject, WrongWedgeSideIsFound) { is_found_and_shrunk(*make_subject("reference:wrong_wedge_side"), 48); }
-TEST(PlantedSubject, RetestedCsvIsFound) { is_found_and_shrunk(*make_subject("reference:retested_csv"), 48); }
-TEST(PlantedSubject, MissingRule3IsFound) { is_found_and_shrunk(*make_subject("reference:no_rule_3"), 48); }
-TEST(PlantedSubject, RoundedComparisonIsFound) {
-  is_found_and_shrunk(*make_subject("reference:rounded_comparison"), 48);
-}
-
-TEST(PlantedSubject, NothingIsFoundInASoundAnswer) {
-  const Folder folder;
-  auto options = options_for(folder / "out", 6);
-  const auto subject = make_subject("reference");
-  const CampaignSummary summary = run_campaign(options, *subject);
-  EXPECT_TRUE(summary.findings.empty());
-  EXPECT_TRUE(summary.contradictions.empty());
-}
-
 TEST(Campaign, OneJobAndTwoLeaveTheSame) {
-  const Folder folder;
+  const scene::TemporaryFolder folder;
   std::string left[2];
   for (int jobs = 1; jobs <= 2; ++jobs) {
-    auto options = options_for(folder / std::to_string(jobs), 14);
+    auto options = options_for(folder.path() / std::to_string(jobs), 14);
     options.jobs = jobs;
     options.shrink.steps = 30;
     left[jobs - 1] = left_by(options.out, run_campaign(options, FromTheCentre()));
@@ -142,13 +89,13 @@ void run_and_be_killed(CampaignOptions options, int calls) {
 }
 
 TEST(Campaign, GoesOnAfterKillAsIfNothingHadHappened) {
-  const Folder folder;
-  auto whole = options_for(folder / "whole", 14);
+  const scene::TemporaryFolder folder;
+  auto whole = options_for(folder.path() / "whole", 14);
   whole.block = 3;
   whole.shrink.steps = 30;
   const std::string expected = left_by(whole.out, run_campaign(whole, FromTheCentre()));
   auto parts = whole;
-  parts.out = folder / "parts";
+  parts.out = folder.path() / "parts";
   parts.jobs = 2;
   run_and_be_killed(parts, 5);  // among the cases
   run_and_be_killed(parts, 4);
@@ -157,8 +104,8 @@ TEST(Campaign, GoesOnAfterKillAsIfNothingHadHappened) {
 }
 
 TEST(Campaign, StopsWhenAskedAndGoesOn) {
-  const Folder folder;
-  auto options = options_for(folder / "out", 12);
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "out", 12);
   options.shrink.steps = 30;
   std::atomic<bool> stop{false};
   options.stop = &stop;
@@ -174,8 +121,8 @@ TEST(Campaign, StopsWhenAskedAndGoesOn) {
 }
 
 TEST(Campaign, AnotherPlanIsRefused) {
-  const Folder folder;
-  auto options = options_for(folder / "out", 1);
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "out", 1);
   options.generators = {"loose_triangles"};
   run_campaign(options, HidesOneTriangle());
   options.seed = 8;
@@ -185,8 +132,8 @@ TEST(Campaign, AnotherPlanIsRefused) {
 }
 
 TEST(Campaign, WhatNeverOccurredIsSaid) {
-  const Folder folder;
-  auto options = options_for(folder / "out", 1);  // five generators of six never come
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "out", 1);  // five generators of six never come
   const auto subject = make_subject("reference");
   const CampaignSummary summary = run_campaign(options, *subject);
   EXPECT_EQ(summary.exit_code(), 3);
@@ -195,7 +142,7 @@ TEST(Campaign, WhatNeverOccurredIsSaid) {
 
 class Crashes : public Subject {
  public:
-  Answer answer(const scene::TriangleMesh&, const std::vector<scene::Point>&) const override {
+  Answer answer(const Case&) const override {
     raise(SIGKILL);
     return {};
   }
@@ -203,8 +150,8 @@ class Crashes : public Subject {
 };
 
 TEST(Campaign, ACrashIsAFindingAndNotTheEnd) {
-  const Folder folder;
-  auto options = options_for(folder / "out", 4);
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "out", 4);
   const CampaignSummary summary = run_campaign(options, Crashes());
   EXPECT_EQ(summary.cases, 4U);
   ASSERT_EQ(summary.findings.size(), 4U);
@@ -213,14 +160,14 @@ TEST(Campaign, ACrashIsAFindingAndNotTheEnd) {
 
 // A program that writes an empty PVS is found out; one that fails gives no answer.
 TEST(Campaign, ProgramsAreAskedThroughFiles) {
-  const Folder folder;
-  auto options = options_for(folder / "hides", 1);
+  const scene::TemporaryFolder folder;
+  auto options = options_for(folder.path() / "hides", 1);
   options.shrink.steps = 20;
   const auto hides = make_subject("sh -c 'test -s {scene} && test -s {cell} && : > {pvs}'");
   const CampaignSummary hidden = run_campaign(options, *hides);
   ASSERT_FALSE(hidden.findings.empty());
   EXPECT_EQ(hidden.findings[0].finding.verdict, "hidden/visible");
-  options.out = folder / "fails";
+  options.out = folder.path() / "fails";
   const auto fails = make_subject("false");
   const CampaignSummary failed = run_campaign(options, *fails);
   ASSERT_EQ(failed.findings.size(), 1U);
@@ -230,7 +177,7 @@ TEST(Campaign, ProgramsAreAskedThroughFiles) {
 class AFinding : public testing::Test {
  protected:
   void SetUp() override {
-    auto options = options_for(folder_ / "out", 1);
+    auto options = options_for(folder_.path() / "out", 1);
     options.errors = 1;
     options.oracles = {"sight-lines"};
     const CampaignSummary summary = run_campaign(options, EverythingHidden());
@@ -243,7 +190,7 @@ class AFinding : public testing::Test {
     ASSERT_NE(at, text.npos);
     std::ofstream(file, std::ios::binary) << text.replace(at, from.size(), to);
   }
-  Folder folder_;
+  scene::TemporaryFolder folder_;
   fs::path saved_;
 };
 
@@ -268,9 +215,9 @@ TEST_F(AFinding, DoesNotReplayWithAWitnessThatIsNone) {
 
 class EverythingVisible : public Subject {
  public:
-  Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>&) const override {
+  Answer answer(const Case& scene) const override {
     Answer out;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) out.pvs.push_back(t);
+    for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) out.pvs.push_back(t);
     return out;
   }
   std::string name() const override { return "everything-visible"; }

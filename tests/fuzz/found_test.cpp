@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/oracle.h"
+#include "scene/temporary_folder.h"
 
 namespace clues::fuzz {
 namespace {
@@ -30,17 +30,16 @@ TEST(Found, TwoTrianglesAtACornerInLineWithTheCell) {
 
 TEST(ReferenceCampaignLong, FindsNothing) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
-  std::string pattern = (std::filesystem::temp_directory_path() / "clues-fuzz-test-XXXXXX").string();
+  const scene::TemporaryFolder folder;
   CampaignOptions options;
   options.seed = 20261121;
   options.cases = 320;
   options.jobs = 2;
-  options.out = mkdtemp(pattern.data());
+  options.out = folder.path();
   const auto subject = make_subject("reference");
   const CampaignSummary summary = run_campaign(options, *subject);
   std::cout << to_text(summary, options.out);
   EXPECT_EQ(summary.exit_code(), 0);
-  if (summary.exit_code() == 0) std::filesystem::remove_all(options.out);  // else it is kept, to be looked at
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ MUTATIONS = [
     ("walk-groove-always", V + "walk.cpp", "} else if (const std::optional<Point3> end = end_of_groove(*surface, *before)) {", "} else if (const std::optional<Point3> end = std::optional<Point3>()) {"),
     ("walk-covered-edge-ignored", V + "walk.cpp", "  if (start.surface) upon(start.surface->piece, start.surface->front, start.p);", ""),
     ("fixpoint-one-round", V + "fixpoint.cpp", "changed = round();", "changed = round() && false;"),
-    ("fixpoint-no-vertex-sources", V + "fixpoint.cpp", "    make_vertex_sources();", ""),
+    ("fixpoint-no-vertex-sources", V + "fixpoint.cpp", "    vertex_sources_ = vertex_sources(\n        scene_, walker_, [this](std::uint32_t p) -> const Apex& { return *corner(p); }, statistics_.walks);\n", ""),
     ("fixpoint-no-cuts", V + "fixpoint.cpp", "if (!c.at_vertex) new_cuts_[c.id].push_back(c.at.p);", ""),
     ("fixpoint-csv-one-side", V + "fixpoint.cpp", "if (CGAL::orientation(on.center, c.at.q, piece.strip.on_ray1.q) == CGAL::LEFT_TURN) add(ccw);", ""),
     ("fixpoint-csv-wrong-side", V + "fixpoint.cpp", "== CGAL::LEFT_TURN) add(-ccw);", "== CGAL::LEFT_TURN) add(ccw);"),

@@ -15,45 +15,22 @@
 #include "scene/error.h"
 #include "scene/mesh.h"
 #include "scene/mesh_io.h"
+#include "scene/temporary_folder.h"
 
 namespace clues::tests {
 
-// testing::TempDir()/clues-SUITE-TEST, empty at the start and removed at the end.
-class TestFolder {
+class TestFolder : public scene::TemporaryFolder {
  public:
-  TestFolder() {
-    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    auto name = std::string("clues-") + test->test_suite_name() + "-" + test->name();
-    for (char& c : name) {
-      if (c == '/') c = '-';
-    }
-    path_ = std::filesystem::path(testing::TempDir()) / name;
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  TestFolder(const TestFolder&) = delete;
-  TestFolder& operator=(const TestFolder&) = delete;
-  ~TestFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-
-  const std::filesystem::path& path() const { return path_; }
-  std::string file(const std::string& name) const { return (path_ / name).string(); }
-
   std::string write(const std::string& name, std::string_view bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    std::ofstream(file(name), std::ios::binary) << bytes;
     return file(name);
   }
 
   std::vector<std::string> names() const {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(path_)) names.push_back(entry.path().filename());
+    for (const auto& entry : std::filesystem::directory_iterator(path())) names.push_back(entry.path().filename());
     return names;
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 inline std::string read_all(const std::filesystem::path& path) {

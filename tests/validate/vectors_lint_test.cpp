@@ -7,8 +7,8 @@
 #include <cstdlib>
 
 #include "tests/validate/vectors_support.h"
-#include "validate/vectors/children.h"
 #include "validate/vectors/reader.h"
+#include "validate/workers.h"
 
 namespace clues::validate {
 namespace {
@@ -242,7 +242,7 @@ TEST(Lint, SameReportForAnyNumberOfJobs) {
 TEST(Children, ACrashStopsNobodyElse) {
   const auto answers = run_in_children(
       6, 2,
-      [](std::size_t i) -> std::string {
+      [](std::uint64_t i) -> std::string {
         if (i == 1) std::abort();
         if (i == 3) std::_Exit(5);
         if (i == 4) throw std::runtime_error("no");

@@ -1,20 +1,14 @@
 // The fixture of the tests of validate/vectors/.
 #include "tests/validate/vectors_support.h"
 
-#include <unistd.h>
-
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 
 #include "scene/error.h"
 #include "validate/vectors/reader.h"
 #include "validate/vectors/writer.h"
 
 namespace clues::validate::tests {
-
-namespace fs = std::filesystem;
 
 const char* const kScreenFile = R"({
   "format": "clues-vectors/1", "topic": "screens", "definition": "D5, T1",
@@ -36,9 +30,6 @@ const char* const kScreenFile = R"({
 })";
 
 SuiteFolder::SuiteFolder() {
-  std::string name = (fs::temp_directory_path() / "clues-suite-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  path_ = name;
   auto file = parse_vector_file(kScreenFile, "screens.json", true);
   file.cases[0].expect = Expectation{{{0, false, true, {"0", "0", "-1/8"}, {"10", "-15", "4"}},
                                       {1, false, true, {"0", "0", "-1/8"}, {"-15", "10", "4"}},
@@ -56,20 +47,15 @@ SuiteFolder::SuiteFolder() {
   put("index.json", to_json_text(index));
 }
 
-SuiteFolder::~SuiteFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 std::string SuiteFolder::text(const std::string& file) const {
-  std::ifstream in(path_ / file, std::ios::binary);
+  std::ifstream in(path() / file, std::ios::binary);
   std::ostringstream all;
   all << in.rdbuf();
   return all.str();
 }
 
 void SuiteFolder::put(const std::string& file, const std::string& text) const {
-  std::ofstream(path_ / file, std::ios::binary) << text;
+  std::ofstream(path() / file, std::ios::binary) << text;
 }
 
 void SuiteFolder::spoil(const std::function<void(nlohmann::ordered_json&)>& change, const std::string& file) const {

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "scene/temporary_folder.h"
+
 namespace clues::validate::tests {
 
 // A wall (0, 1), before it a screen (2); the target 3 right behind the screen is hidden, 4 beside it is seen, 5 touches the cell and 6 has
@@ -15,11 +17,8 @@ extern const char* const kScreenFile;
 class SuiteFolder {
  public:
   SuiteFolder();  // kScreenFile as screens.json, and its index
-  ~SuiteFolder();
-  SuiteFolder(const SuiteFolder&) = delete;
-  SuiteFolder& operator=(const SuiteFolder&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return folder_.path(); }
   std::string text(const std::string& file) const;
   void put(const std::string& file, const std::string& text) const;
   // Changes screens.json (or another file) and writes it canonically where it still can be read, else as it is.
@@ -27,7 +26,7 @@ class SuiteFolder {
              const std::string& file = "screens.json") const;
 
  private:
-  std::filesystem::path path_;
+  scene::TemporaryFolder folder_;
 };
 
 }  // namespace clues::validate::tests

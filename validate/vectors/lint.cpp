@@ -11,9 +11,9 @@
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/formats/file_bytes.h"
-#include "validate/vectors/children.h"
 #include "validate/vectors/reader.h"
 #include "validate/vectors/writer.h"
+#include "validate/workers.h"
 
 namespace clues::validate {
 namespace {
@@ -131,14 +131,14 @@ class Linter {
     report_.selected = selected.size();
     const auto answers = run_in_children(
         selected.size(), std::max(options_.jobs, 1),
-        [&](std::size_t i) { return pack(look_at(*selected[i].second, options_.write)); },
+        [&](std::uint64_t i) { return pack(look_at(*selected[i].second, options_.write)); },
         [&](std::size_t done) {
           if (options_.progress) options_.progress(done, selected.size());
         });
     for (std::size_t i = 0; i < selected.size(); ++i) take(*selected[i].first, *selected[i].second, answers[i]);
   }
 
-  void take(const File& file, VectorCase& c, const TaskAnswer& raw) {
+  void take(const File& file, VectorCase& c, const WorkerReply& raw) {
     if (!raw.finished) {
       return complain(file.path.string(), c.id, "", "could not be proved: " + raw.text, LintKind::contradiction);
     }

@@ -1,0 +1,31 @@
+// What `clues map --umbra` adds: the umbra, verified before a byte of it is written.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "reference/visibility/omega.h"
+#include "scene/cell_spec.h"
+#include "scene/mesh.h"
+
+namespace clues::app {
+
+struct UmbraRequest {
+  std::string file, bounds;
+
+  void add_to(CLI::App& command);
+};
+
+// Throws Error bad_argument where the options do not fit together, file_unwritable where the file cannot be made.
+void require_good(const UmbraRequest& request, bool many_cells);
+
+struct UmbraOutput {
+  std::string bytes, summary;
+};
+
+// Throws Unfinished when limits (D17) leave the umbra open, Error internal when its certificate fails without them.
+UmbraOutput make_umbra(const reference::Omega& omega, const scene::TriangleMesh& mesh, const scene::CellSpec& cell,
+                       const std::string& scene_path, const std::string& scene_sha256, const UmbraRequest& request,
+                       int threads);
+
+}  // namespace clues::app

@@ -1,0 +1,55 @@
+// One plane, cut along segments: its parts, which of the given polygons cover each, and the outlines of parts that belong together as triangles.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "exact/kernel.h"
+#include "reference/visibility/plane_frame.h"
+
+namespace clues::reference {
+
+class PlaneCut {
+ public:
+  explicit PlaneCut(const exact::Plane3& plane);
+  PlaneCut(const PlaneCut&) = delete;
+  PlaneCut& operator=(const PlaneCut&) = delete;
+  ~PlaneCut();
+
+  // A convex polygon of the plane: its outline cuts, and components() tell whether it covers them. Polygons count from 0.
+  void add_polygon(const std::vector<exact::Point3>& corners);
+  // The part of segment ab (of the plane) inside the polygon that was added last.
+  void add_segment(const exact::Point3& a, const exact::Point3& b);
+
+  // Parts of the plane between the segments, with a point inside.
+  struct Component {
+    exact::Point3 inner;
+    exact::Point2 flat;
+  };
+  // Ends the adding. For n segments with k crossings O((n + k) log n) expected.
+  const std::vector<Component>& components();
+  bool covers(std::size_t polygon, const Component& component) const;
+
+  // Triangles, counter-clockwise about the plane's normal, of the components with of[component] >= 0; components with the same number are one.
+  // They depend on the point sets alone.
+  struct Facet {
+    int of = 0;
+    std::array<exact::Point3, 3> corners;
+  };
+  std::vector<Facet> facets(const std::vector<int>& of) const;
+
+ private:
+  struct Triangulated;
+
+  exact::Point3 lift(const exact::Point2& q) const;
+
+  exact::Plane3 plane_;
+  PlaneFrame frame_;
+  std::vector<std::vector<exact::Point2>> polygons_;  // counter-clockwise
+  std::vector<std::array<exact::Point2, 2>> segments_;
+  std::vector<Component> components_;
+  std::unique_ptr<Triangulated> cut_;
+};
+
+}  // namespace clues::reference

@@ -1,0 +1,84 @@
+#include "tests/differential/reference_part.h"
+
+#include <vector>
+
+#include "exact/scene_query.h"
+#include "reference/visibility/first_order.h"
+#include "reference/visibility/fixpoint.h"
+#include "reference/visibility/walk.h"
+
+namespace clues::tests {
+namespace {
+
+using exact::Point3;
+using Triangle3 = exact::Kernel::Triangle_3;
+
+CGAL::Bbox_3 to_bbox(const fastpath::Box& b) { return {b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]}; }
+
+class ReferencePart : public fastpath::PartialMap {
+ public:
+  ReferencePart(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, PartBug bug)
+      : bug_(bug),
+        map_(reference::first_order_visibility(mesh, cell, options_)),
+        scene_(map_.complex, map_.cell),
+        fixpoint_(reference::find_wedges(scene_, options_, statistics_)),
+        walker_(scene_, true) {
+    // The pieces as triangles; what is unbounded is cut far outside of the scene.
+    for (const auto& [wedge, on_wedge, strip] : fixpoint_.wedges.pieces()) {
+      const auto far = [&](const Point3& on_ray) {
+        return wedge.center + (on_ray - wedge.center) * exact::FT(1 << 30);
+      };
+      const Point3 a = wedge.near0, b = wedge.near1;
+      const Point3 c = wedge.unbounded ? far(wedge.on_ray1) : wedge.far1;
+      const Point3 d = wedge.unbounded ? far(wedge.on_ray0) : wedge.far0;
+      for (const Triangle3& t : {Triangle3(a, b, c), Triangle3(a, c, d)}) {
+        if (!t.is_degenerate()) triangles_.push_back(t);
+      }
+    }
+    std::vector<CGAL::Bbox_3> boxes;
+    for (const Triangle3& t : triangles_) boxes.push_back(t.bbox());
+    tree_ = exact::BoxTree(std::move(boxes));
+  }
+
+  std::vector<std::uint32_t> visible() const override { return map_.visible; }
+  bool certainly_hidden(const fastpath::Point& p) const override {
+    return bug_ == PartBug::dark_everywhere ||
+           !walker_.label({.p = exact::to_exact(p), .surface = std::nullopt}, fixpoint_.wedges, 1).visible;
+  }
+  bool wedge_may_touch(const fastpath::Box& box) const override {
+    return touches(to_bbox(box), exact::Kernel::Iso_cuboid_3(exact::to_exact(box.low), exact::to_exact(box.high)));
+  }
+  bool wedge_may_touch(const fastpath::Corners& t) const override {
+    const Triangle3 exact(exact::to_exact(t[0]), exact::to_exact(t[1]), exact::to_exact(t[2]));
+    return touches(exact.bbox(), exact);
+  }
+
+ private:
+  template <class Shape>
+  bool touches(const CGAL::Bbox_3& box, const Shape& shape) const {
+    if (bug_ == PartBug::wedges_touch_nothing) return false;
+    for (const std::uint32_t i : tree_.candidates([&](const CGAL::Bbox_3& b) { return CGAL::do_overlap(b, box); })) {
+      if (CGAL::do_intersect(shape, triangles_[i])) return true;
+    }
+    return false;
+  }
+
+  PartBug bug_;
+  reference::Options options_;
+  reference::Statistics statistics_;
+  reference::VisibilityMap map_;
+  exact::SceneQuery scene_;
+  reference::Fixpoint fixpoint_;
+  reference::Walker walker_;
+  std::vector<Triangle3> triangles_;
+  exact::BoxTree tree_;
+};
+
+}  // namespace
+
+fastpath::PartialMapMaker reference_parts(const exact::ConvexCell& cell, PartBug bug) {
+  return
+      [&cell, bug](const scene::TriangleMesh& part) { return std::make_shared<const ReferencePart>(part, cell, bug); };
+}
+
+}  // namespace clues::tests

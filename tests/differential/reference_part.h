@@ -1,0 +1,17 @@
+// The exact reference as the map of a part that the closure asks for (fastpath/visibility/closure.h): so the closure is tested without the engine of
+// the fast path.
+#pragma once
+
+#include <memory>
+
+#include "exact/convex_cell.h"
+#include "fastpath/visibility/closure.h"
+
+namespace clues::tests {
+
+// What a planted bug does to the answers.
+enum class PartBug { none, dark_everywhere, wedges_touch_nothing };
+
+fastpath::PartialMapMaker reference_parts(const exact::ConvexCell& cell, PartBug bug = PartBug::none);
+
+}  // namespace clues::tests
