@@ -19,6 +19,7 @@ TEST(Help, EveryCommandHasDescriptionExamplesAndExitCodes) {
   const TestFolder folder;
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"map", "--help"},
+                                                    {"precision", "--help"},
                                                     {"check", "--help"},
                                                     {"query", "--help"},
                                                     {"verify", "--help"},
@@ -60,6 +61,48 @@ TEST(Map, PlainListByExtension) {
   folder.write("scene.off", screen_scene);
   ASSERT_EQ(run_clues({"map", "scene.off", "--cell", screen_cell, "-o", "out.pvs"}, folder.path()).exit_code, 0);
   EXPECT_THAT(read_all(folder.file("out.pvs")), HasSubstr("0\n1\n2\n4\n"));
+}
+
+TEST(Map, RefinedMapsHoldTheVisibleTrianglesAndSayHowTheyWereMade) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const auto& [arguments, method] :
+       {std::pair<std::vector<std::string>, std::string>{{"--refine", "cell"}, "subdivided"},
+        {{"--method", "backprojected"}, "backprojected"},
+        {{"--method", "backprojected", "--refine", "cell", "--tolerance-area", "0.5"}, "backprojected"}}) {
+    std::vector<std::string> all{"map", "scene.off", "--cell", screen_cell, "--json", "--map", "--max-depth", "1"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const auto ran = run_clues(all, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const auto result = json::parse(ran.out);
+    EXPECT_EQ(result["method"], method);
+    EXPECT_EQ(result["visible"], json({0, 1, 2, 4}));
+    EXPECT_TRUE(result.contains("regions"));
+  }
+}
+
+TEST(Precision, ReportsTableJsonAndPicture) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const std::vector<std::string> command{"precision", "scene.off", "--cell", screen_cell, "--max-depth", "1"};
+  const auto table = run_clues(command, folder.path());
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_THAT(table.out, AllOf(HasSubstr("witnessed"), HasSubstr("exactly known")));
+  std::string first;
+  for (const std::string threads : {"1", "3"}) {
+    auto more = command;
+    more.insert(more.end(), {"--json", "--threads", threads, "-o", "report.json", "--svg", "excess.svg"});
+    const auto ran = run_clues(more, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    if (first.empty()) first = ran.out;
+    EXPECT_EQ(ran.out, first) << threads;
+  }
+  const auto report = json::parse(first);
+  EXPECT_EQ(read_all(folder.file("report.json")), first);
+  EXPECT_EQ(report["format"], "clues-precision/1");
+  EXPECT_EQ(report["depths"][0]["depth"], 0);
+  EXPECT_GE(report["triangles"].size(), 4U);
+  EXPECT_THAT(read_all(folder.file("excess.svg")), HasSubstr("<polyline"));
 }
 
 TEST(Map, SameBytesInEveryRunAndForEveryThreadCount) {

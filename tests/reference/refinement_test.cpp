@@ -125,7 +125,7 @@ void judge(const fuzz::GeneratedScene& scene, By by, int depth, std::size_t poin
     const reference::TriangleFrame frame(map.complex, t);
     const Plane3 side = i % 2 == 0 ? map.complex.planes[t] : map.complex.planes[t].opposite();
     for (const auto& face : bounds.lower()[i].faces()) {
-      const Point3 p = frame.lift(inner_point(face, 0));
+      const Point3 p = frame.lift(reference::inner_point(face, 0));
       EXPECT_FALSE(exact::point_occlusion(p, side, cell, corners).occluded) << "side " << i;
       ++judged.witnessed_points;
     }
@@ -161,22 +161,20 @@ TEST(RefinementLong, NothingHiddenIsSeen) {
 
 // --- D21 --------------------------------------------------------------------------------------------------------------------
 
-// A screen in the cell hides nothing (D3). It lies outside the lower half of the cell, and would hide the target from it, were the half a cell of its own.
+// A screen in the cell hides nothing (D3). It lies above the lower quarter of the cell, and would hide the target from it, were that a cell of its own.
 TEST(Subdivision, GeometryInTheCellHidesNothingFromItsParts) {
   SceneBuilder scene;
-  scene.plate(-4, -4, 4, 4, 3);  // before the cell's upper face, but for a hole over its lower half's view
-  scene.plate(-9, -9, 9, 9, 0.75);
-  const auto target = scene.plate(5, 5, 9, 9, 6);
-  const ConvexCell cell = box_cell(-10, -10, 0, 10, 10, 1);
-  const ConvexCell lower = box_cell(-10, -10, 0, 10, 10, 0.5);
+  scene.plate(-7, -7, 7, 7, 0.75);
+  const auto target = scene.plate(-2, -2, 2, 2, 6);
+  const ConvexCell cell = ConvexCell::from_doubles(
+      {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-10, -10, 1}, {10, -10, 1}, {10, 10, 1}, {-10, 10, 1}});
+  const auto lower = exact::part_beside(cell, Plane3(0, 0, 4, -1), exact::Side::negative);
+  ASSERT_TRUE(lower);
   Bounds bounds(scene.mesh(), cell, {});
-  const auto& complex = bounds.first_order().complex;
-  const std::vector<bool> all(2 * complex.pieces.size(), true);
-  const auto part = bounds.map_of(lower, all);
-  const auto alone = map_of(scene.mesh(), lower);
-  EXPECT_EQ(hidden_area(part, scene.mesh(), target, 2, false), FT(0));
-  EXPECT_GT(hidden_area(alone, scene.mesh(), target, 2, false), FT(0))
-      << "the literal reading: this test shows nothing";
+  const std::vector<bool> all(2 * bounds.first_order().complex.pieces.size(), true);
+  EXPECT_EQ(hidden_area(bounds.map_of(*lower, all), scene.mesh(), target, 2, false), FT(0));
+  EXPECT_EQ(hidden_area(map_of(scene.mesh(), *lower), scene.mesh(), target, 2, false), FT(16))
+      << "the literal reading hides the target: else this test shows nothing";
 }
 
 TEST(Subdivision, CellsOfAllDimensions) {
