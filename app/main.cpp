@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
   app::add_iut_command(program, status);
   app::add_lint_command(program, status);
   app::add_fuzz_commands(program, status);
+  app::add_report_command(program, status);
   app::add_demo_command(program, status);
   try {
     program.parse(argc, argv);

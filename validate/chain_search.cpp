@@ -17,10 +17,10 @@ using exact::Vector3;
 using reference::Wedge;
 using reference::WedgeKind;
 
-constexpr int kLongest = 8;      // steps back; chains seen so far have at most 4 links more than a sight line
-constexpr int kQuestions = 120;  // points asked about, for one chain
-constexpr int kViewpoints = 3;   // per point: walks from different places of the cell cross different wedges
-constexpr int kNearness[] = {5, 10, 20, 40};  // powers of 1/2
+constexpr std::size_t kQuestions = 160;  // points asked about, for one chain
+constexpr int kViewpoints = 3;           // per point: walks from different places of the cell cross different wedges
+constexpr int kNearness[] = {5, 12, 24, 48};  // powers of 1/2
+constexpr int kDirections = 6;                // beside a corner, where not every side is seen
 
 FT half_to_the(int n) {
   FT x(1);
@@ -61,41 +61,51 @@ class ChainSearch::Impl {
     }
   }
 
+  // Breadth first, so that the chain is short.
   std::optional<Chain> find(std::uint32_t triangle, bool front, const reference::Region& region,
                             const Point3& p) const {
     const Plane3& plane = map_.complex.planes[region.piece];
-    Chain chain{triangle, front, {}};
-    int questions = kQuestions;
-    if (!explain(p, region.front ? plane : plane.opposite(), kLongest, questions, chain.links)) return std::nullopt;
-    if (!check_chain(mesh_, map_.cell, chain).valid) return std::nullopt;
-    return chain;
+    const Plane3 side = region.front ? plane : plane.opposite();
+    if (map_.cell.contains(p)) return std::nullopt;
+    std::vector<Step> steps{{p, {}, 0}};
+    for (std::size_t i = 0; i < steps.size() && i < kQuestions; ++i) {
+      const std::optional<Plane3> on = i == 0 ? std::optional<Plane3>(side) : std::nullopt;
+      const exact::OcclusionAnswer answer = exact::point_occlusion(steps[i].x, on, map_.cell, soup_);
+      if (!answer.witness) {
+        if (steps.size() < kQuestions) go_back(i, on, steps);
+        continue;
+      }
+      Chain chain{triangle, front, {{*answer.witness, steps[i].x}}};
+      for (std::size_t at = i; at != 0; at = steps[at].next)
+        chain.links.insert(chain.links.end(), steps[at].onward.begin(), steps[at].onward.end());
+      if (check_chain(mesh_, map_.cell, chain).valid) return chain;
+    }
+    return std::nullopt;
   }
 
  private:
-  // Appends the links of a chain that ends at p; `side`: arriving on the positive side of that plane, in which p lies.
-  bool explain(const Point3& p, const std::optional<Plane3>& side, int steps, int& questions,
-               std::vector<ChainLink>& links) const {
-    if (questions-- <= 0 || map_.cell.contains(p)) return false;
-    const exact::OcclusionAnswer answer = exact::point_occlusion(p, side, map_.cell, soup_);
-    if (answer.witness) {
-      links.push_back({*answer.witness, p});
-      return true;
-    }
-    if (steps == 0) return false;
+  // A point from which the links lead on to the point of the step `next`.
+  struct Step {
+    Point3 x;
+    std::vector<ChainLink> onward;
+    std::size_t next = 0;
+  };
+
+  // Appends points from which step `to` is reached; `side`: on the positive side of that plane, in which it lies.
+  void go_back(std::size_t to, const std::optional<Plane3>& side, std::vector<Step>& steps) const {
+    const Point3 p = steps[to].x;
     for (int i = 0; i < kViewpoints; ++i) {
       const std::optional<Point3> v = viewpoint(side, i);
-      if (!v) return false;
+      if (!v) return;
       const exact::SegmentAnswer walk = scene_.crossings(*v, p);
       if (walk.degenerate || walk.hits.empty()) continue;
       const exact::Hit& last = walk.hits.back();
       const Point3 m = exact::collapsed(*v + last.t * (p - *v));
       for (const Wedge& w : map_.wedges) {
-        const std::optional<Point3> q = crossing(w, last.piece, m, p);
-        if (q && through_wedge(w, *q, *v, p, steps, questions, links)) return true;
+        if (const std::optional<Point3> q = crossing(w, last.piece, m, p)) through_wedge(w, *q, *v, to, side, steps);
       }
-      if (seen(last.piece, m, p) && past_surface(m, *v, p, steps, questions, links)) return true;
+      if (seen(last.piece, m, p)) past_surface(m, *v, to, steps);
     }
-    return false;
   }
 
   // A point of int V, strictly on the positive side of the plane.
@@ -161,47 +171,49 @@ class ChainSearch::Impl {
     return std::nullopt;
   }
 
-  // p is reached from just beyond q on the wedge piece, and that from just beside the source, both in H-.
-  bool through_wedge(const Wedge& w, const Point3& q, const Point3& v, const Point3& p, int steps, int& questions,
-                     std::vector<ChainLink>& links) const {
+  // The point is reached from just beyond q, which is on the wedge piece, and that from just beside the source, both in H-. Sight lines near the one through
+  // q and v pass q on all sides; at a corner only some of these sides are seen.
+  void through_wedge(const Wedge& w, const Point3& q, const Point3& v, std::size_t to,
+                     const std::optional<Plane3>& side, std::vector<Step>& steps) const {
     const std::optional<Origin> o = origin(w, q);
-    if (!o) return false;
-    const Vector3 whole = q - o->touching;
+    if (!o) return;
+    const Point3 p = steps[to].x;
+    const Vector3 whole = q - o->touching, n = w.plane.orthogonal_vector();
     const FT share = exact::collapsed(((o->source - o->touching) * whole) / (whole * whole));
-    for (const int near : kNearness) {
-      for (int which = 1; which <= 2; ++which) {
+    const FT onward = exact::collapsed(((v - p) * (v - p)) / ((v - p) * (q - p)));  // v - p as a multiple of q - p
+    const int directions = w.kind == WedgeKind::se_mv ? kDirections : 1;
+    for (int direction = 0; direction < directions; ++direction) {
+      Vector3 aside = p - q;
+      if (direction > 0) {
+        aside = *viewpoint(std::nullopt, direction) - *viewpoint(std::nullopt, direction + 5);
+        if (CGAL::is_negative(aside * n)) aside = -aside;
+        if (!CGAL::is_positive(aside * n)) continue;
+      }
+      for (const int near : kNearness) {
         const FT step = half_to_the(near);
-        const Point3 beyond = exact::collapsed(q + step * (p - q));
-        const Point3 from = exact::collapsed(o->touching + step * half_to_the(near * which) *
-                                                               (*viewpoint(std::nullopt, which) - o->touching));
+        const Point3 beyond = exact::collapsed(q + step * aside);
+        const Point3 eye = direction == 0 ? v : exact::collapsed(p + onward * (beyond - p));
+        if (!map_.cell.interior_contains(eye) || (side && !side->has_on_positive_side(eye))) continue;
+        const Point3 from =
+            exact::collapsed(o->touching + step * half_to_the(near) * (*viewpoint(std::nullopt, near) - o->touching));
         const Point3 beside = exact::collapsed(from + share * (beyond - from));
         if (map_.cell.contains(beside) || !scene_.is_free(beside, beyond) || !scene_.is_free(beyond, p)) continue;
-        const std::size_t length = links.size();
-        if (explain(beside, std::nullopt, steps - 1, questions, links)) {
-          links.push_back({from, beyond});
-          links.push_back({v, p});
-          return true;
-        }
-        links.resize(length);
+        steps.push_back({beside, {{from, beyond}, {eye, p}}, to});
+        if (near != kNearness[0]) break;
       }
     }
-    return false;
   }
 
-  // D14, rule 3: p is reached from the exit side of the surface at m.
-  bool past_surface(const Point3& m, const Point3& v, const Point3& p, int steps, int& questions,
-                    std::vector<ChainLink>& links) const {
+  // D14, rule 3: the point is reached from the exit side of the surface at m.
+  void past_surface(const Point3& m, const Point3& v, std::size_t to, std::vector<Step>& steps) const {
+    const Point3 p = steps[to].x;
     for (const int near : kNearness) {
       const Point3 off = exact::collapsed(m + half_to_the(near) * (p - m));
-      if (!scene_.is_free(off, p)) continue;
-      const std::size_t length = links.size();
-      if (explain(off, std::nullopt, steps - 1, questions, links)) {
-        links.push_back({v, p});
-        return true;
+      if (scene_.is_free(off, p)) {
+        steps.push_back({off, {{v, p}}, to});
+        break;
       }
-      links.resize(length);
     }
-    return false;
   }
 
   // Whether the map shows the surface at m on the side of p.

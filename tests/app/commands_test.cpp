@@ -23,6 +23,7 @@ TEST(Help, EveryCommandHasDescriptionExamplesAndExitCodes) {
                                                     {"check", "--help"},
                                                     {"query", "--help"},
                                                     {"verify", "--help"},
+                                                    {"report", "--help"},
                                                     {"demo", "--help"}}) {
     const auto ran = run_clues(arguments, folder.path());
     EXPECT_EQ(ran.exit_code, 0);
@@ -266,7 +267,9 @@ TEST(Check, HiddenTriangleInTheListIsLoose) {
   folder.write("pvs.txt", "0\n1\n2\n3\n4\n");
   const auto ran = run_clues({"check", "scene.off", "--cell", screen_cell, "--pvs", "pvs.txt"}, folder.path());
   EXPECT_EQ(ran.exit_code, 0) << ran.out;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("verdict: sound"), HasSubstr("1 loose")));
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("verdict: sound"), HasSubstr("1 loose"), HasSubstr("overestimate Qo = 0.25, in area"),
+                    HasSubstr("underestimate Qu = 0, in area 0\n")));
 }
 
 TEST(Check, TriangleThatMeetsTheCellIsVisible) {
