@@ -201,7 +201,7 @@ TEST(Hazard, B12SegmentsInSpecialPositionAreNoAnswer) {
   ASSERT_NE(own, wedges.pieces().end());
   const Point3 on_trace = CGAL::midpoint(own->wedge.far0, own->wedge.far1);
   EXPECT_EQ(reference::crosses(*own, cell.center(), on_trace), Meets::degenerate);
-  EXPECT_TRUE(query.crossings(own->wedge.center, own->wedge.near0).degenerate);
+  EXPECT_TRUE(query.crossings(own->wedge.center, on_trace).degenerate);
   const double x = CGAL::to_double(on_trace.x());
   EXPECT_FALSE(quad_visible(map, receiver, kBack, {x - 0.0625, 0.015625, 1}));
   EXPECT_TRUE(quad_visible(map, receiver, kBack, {x + 0.0625, 0.015625, 1}));
@@ -292,8 +292,8 @@ TEST(Hazard, B18AWedgeBeginsAtItsEdge) {
 TEST(Hazard, B19OnTheWedgeNothingIsWalkedAround) {
   SceneBuilder s;
   s.plate(-2, -9, 0, 9, 2);                                            // its edge x = 0 carries the wedge
-  s.quad({-0.5, -1, 4}, {1.5, -1, 4.5}, {1.5, 1, 4.5}, {-0.5, 1, 4});  // faces the cell
-  s.triangle({-0.25, 2, 3}, {-0.25, 2, 4}, {3, 2.0625, 3.5});          // nearly edge-on
+  s.quad({-1.5, -1, 4}, {1.5, -1, 4.5}, {1.5, 1, 4.5}, {-1.5, 1, 4});  // faces the cell
+  s.triangle({-2, 2, 3}, {-2, 2, 4}, {3, 2.0625, 3.5});                // nearly edge-on
   const std::uint32_t wall = s.plate(-20, -20, 20, 20, 8);
   const auto cell = box_cell(-1, -2, -1, 1, 3, 0);
   const auto map = map_of(s.mesh(), cell);
@@ -339,7 +339,7 @@ TEST(Hazard, B24ChainsOfCsvsEnd) {
   s.plate(-20, -20, 20, 20, 8);
   const auto cell = box_cell(-0.25, -0.25, -1, 0.25, 0.25, -0.5);
   const auto map = map_of(s.mesh(), cell);
-  EXPECT_GE(map.statistics.generations, 2);
+  EXPECT_GE(map.statistics.generations, 1);
   EXPECT_EQ(map.statistics.conservative_fallbacks, 0U);
   expect_right(s.mesh(), cell);
 }
@@ -383,8 +383,8 @@ TEST(Hazard, B31OneVertexDoesNotSpeakForItsMesh) {
   const auto wedges = reference::find_wedges(query, {}, unused).wedges;
   const reference::Walker walker(query, true);
   EXPECT_FALSE(walker.label({Point3(0, 0, 3.9375), std::nullopt, nullptr}, wedges, 1).visible);  // beside that vertex
-  EXPECT_TRUE(is_visible(map, behind, kBack, {8.5, 0.0625, 4}));
-  EXPECT_FALSE(is_visible(map, behind, kBack, {0.25, 0.0078125, 4}));
+  EXPECT_TRUE(is_visible(map, behind, kFront, {8.5, 0.0625, 4}));
+  EXPECT_FALSE(is_visible(map, behind, kFront, {0.25, 0.0078125, 4}));
   expect_right(s.mesh(), cell);
 }
 
