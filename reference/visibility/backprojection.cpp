@@ -110,11 +110,19 @@ class Refiner {
 
 std::vector<ContourSegment> inexact_segments(const VisibilityMap& map, const std::vector<bool>& open) {
   const exact::SceneQuery scene(map.complex, map.cell);
+  // The adjusted wedge runs in H-: what it could hide is there, whatever the wedge itself ends on.
+  const auto reaches_open_side = [&](const Wedge& w) {
+    for (std::uint32_t t = 0; t < map.complex.pieces.size(); ++t) {
+      if (!open[side_index(t, true)] && !open[side_index(t, false)]) continue;
+      for (const std::uint32_t c : map.complex.pieces[t].corners) {
+        if (w.plane.oriented_side(map.complex.points[c]) == CGAL::ON_POSITIVE_SIDE) return true;
+      }
+    }
+    return false;
+  };
   std::vector<ContourSegment> segments;
   for (const Wedge& w : map.wedges) {
-    if (w.kind == WedgeKind::se_mv || w.unbounded) continue;
-    const bool front = map.complex.planes[w.blocker].oriented_side(w.center) == CGAL::ON_POSITIVE_SIDE;
-    if (!open[side_index(w.blocker, front)]) continue;
+    if (w.kind == WedgeKind::se_mv || !reaches_open_side(w)) continue;
     const auto edge = edge_of(map.complex, w);
     if (!edge) continue;
     // The plane may touch V in several vertices, each with a wedge: one of them stands for the plane.

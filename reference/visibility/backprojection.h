@@ -28,8 +28,7 @@ struct ContourSegment {
   exact::Point3 center;  // the cell vertex that it touches (SVV)
 };
 
-// The segments behind bounded SV-ME and SE-ME wedges of the map that end on an open side: obstructed ones only, neighbours joined, the order
-// deterministic.
+// The obstructed segments behind the SV-ME and SE-ME wedges that leave something on an open side in H-; neighbours joined, the order deterministic.
 std::vector<ContourSegment> inexact_segments(const VisibilityMap& map, const std::vector<bool>& open);
 
 // Points that span a convex superset of what the segment sees of V: the corners of the visible regions on V's surface. For a flat V of its one facet. Empty: it

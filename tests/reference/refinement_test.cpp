@@ -215,12 +215,13 @@ void expect_factor_four(const SceneBuilder& scene, const ConvexCell& cell, By by
 // y > -1 from E. The adjusted wedge is y = (x - 10) / 10; the point (100, 8.9) is below it, and is seen from (0, 0).
 struct AdjustedWedge {
   SceneBuilder scene;
-  std::uint32_t target;
+  std::uint32_t target, near_target;  // seen from (0, 0); hidden, and visible to first order
   ConvexCell cell = ConvexCell::from_doubles({{0, -4, -1}, {0, 0, -1}, {0, 0, 1}, {0, -4, 1}});
   AdjustedWedge() {
     scene.quad({10, -50, -64}, {10, 0, -64}, {10, 0, 64}, {10, -50, 64});
     scene.quad({8, -0.2, -64}, {8, 0.2, -64}, {8, 0.2, 64}, {8, -0.2, 64});
     target = scene.quad({100, 8.75, -1}, {100, 8.9375, -1}, {100, 8.9375, 1}, {100, 8.75, 1});
+    near_target = scene.quad({12, 0.0625, -1}, {12, 0.125, -1}, {12, 0.125, 1}, {12, 0.0625, 1});
   }
 };
 
@@ -268,11 +269,16 @@ TEST(Backprojection, HazardA4TheRawWedgeHidesWhatIsVisible) {
       4, kSeed);
   EXPECT_GT(map_contradictions.total(), 0U) << "the judges must catch the raw wedge";
 
-  refine_by_backprojection(bounds, {2, 0});
+  const scene::Point near{12, 0.1, 0.01};
+  EXPECT_TRUE(is_visible(bounds.first_order(), it.near_target, true, near) ||
+              is_visible(bounds.first_order(), it.near_target, false, near));
+  refine_by_backprojection(bounds, {1, 0});
   const auto map = bounds.refined_map("backprojected");
   EXPECT_EQ(contradictions(map, 4, kSeed).total(), 0U);
   EXPECT_TRUE(is_visible(map, it.target, true, {100, 8.9, 0.01}) ||
               is_visible(map, it.target, false, {100, 8.9, 0.01}));
+  EXPECT_FALSE(is_visible(map, it.near_target, true, near) || is_visible(map, it.near_target, false, near))
+      << "between the two wedges, and before the wedge of O: hidden from both parts of the cell";
 }
 
 TEST(Backprojection, TwoSlitsCloseIn) {
