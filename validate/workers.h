@@ -23,7 +23,8 @@ struct WorkerReply {
 class Workers {
  public:
   // `work` runs in a child process; what it returns is sent back. It may not write to files or to the standard output. Signals for the whole
-  // group (Ctrl-C) are left to the caller. A process that is lost is replaced. time_for_one: none, or a task is given up after so long.
+  // group (Ctrl-C) are left to the caller. A process that is lost is replaced. time_for_one: none, or a task is given up after so much processor time of its
+  // process, which does not depend on what else the machine does; or after ten times as much time on the clock, should it wait for something.
   // Throws scene::Error internal when no process can be made.
   Workers(int count, std::function<std::string(std::uint64_t task)> work,
           std::optional<std::chrono::seconds> time_for_one);

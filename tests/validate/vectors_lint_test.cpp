@@ -8,7 +8,6 @@
 
 #include "tests/validate/vectors_support.h"
 #include "validate/vectors/reader.h"
-#include "validate/workers.h"
 
 namespace clues::validate {
 namespace {
@@ -237,28 +236,6 @@ TEST(Lint, SameReportForAnyNumberOfJobs) {
   options.jobs = 3;
   EXPECT_EQ(to_json_text(lint(suite, options)), one);
   EXPECT_EQ(ordered_json::parse(one)["format"], "clues-lint/1");
-}
-
-TEST(Children, ACrashStopsNobodyElse) {
-  const auto answers = run_in_children(
-      6, 2,
-      [](std::uint64_t i) -> std::string {
-        if (i == 1) std::abort();
-        if (i == 3) std::_Exit(5);
-        if (i == 4) throw std::runtime_error("no");
-        return std::string(i * 100'000, 'x');
-      },
-      nullptr);
-  ASSERT_EQ(answers.size(), 6U);
-  for (const std::size_t i : {0, 2, 5}) {
-    EXPECT_TRUE(answers[i].finished);
-    EXPECT_EQ(answers[i].text.size(), i * 100'000);
-  }
-  EXPECT_FALSE(answers[1].finished);
-  EXPECT_THAT(answers[1].text, HasSubstr("signal 6"));
-  EXPECT_THAT(answers[3].text, HasSubstr("exit code 5"));
-  EXPECT_FALSE(answers[4].finished);
-  EXPECT_EQ(answers[4].text, "no");
 }
 
 }  // namespace
