@@ -9,6 +9,7 @@
 #include "scene/cell_spec.h"
 #include "scene/mesh_io.h"
 #include "scene/result.h"
+#include "validate/chain_search.h"
 #include "validate/judge.h"
 #include "validate/judge_report.h"
 
@@ -24,10 +25,12 @@ struct CheckRequest {
 int run_check(const CheckRequest& request) {
   auto options = request.method.to_reference();
   const auto mesh = scene::read_mesh(request.scene);
-  const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
+  const auto spec = scene::parse_cell(request.cell);
+  const auto cell = exact::ConvexCell::from_doubles(spec.points);
   const auto pvs = scene::read_pvs(request.pvs, mesh.triangles.size());
 
   validate::Judgement judgement;
+  validate::Surroundings around{request.scene, spec.points, {}, {}, {}};
   {
     ProgressBar bar("clues check");
     options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
@@ -37,8 +40,13 @@ int run_check(const CheckRequest& request) {
     validate::JudgeOptions judge_options;
     judge_options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("witnesses", done, total); };
     judgement = validate::judge_pvs(mesh, map, pvs, judge_options);
+    judgement.chains = validate::find_chains(mesh, map, validate::undecided(judgement));
+    around.counts = validate::count_weights(judgement);
+    around.areas = validate::area_weights(judgement, mesh);
+    around.first_order_fractions = validate::first_order_fractions(mesh, map);
   }
-  std::fputs((request.json ? validate::to_json_text(judgement) : validate::to_text(judgement)).c_str(), stdout);
+  std::fputs((request.json ? validate::to_json_text(judgement, around) : validate::to_text(judgement, around)).c_str(),
+             stdout);
   if (!judgement.contradictions.empty()) return oracle_contradiction;
   switch (judgement.verdict) {
     case validate::Verdict::sound:
@@ -73,7 +81,13 @@ void add_check_command(CLI::App& program, int& status) {
           "  sound      every missing triangle is proved to be hidden.\n"
           "  undecided  a missing triangle is visible to the first-order method, but no free sight line was found.\n"
           "  Listed triangles are exact (visible, with proof), first-order (no sight line was found) or loose "
-          "(hidden).\n\n") +
+          "(hidden).\n"
+          "  For a first-order triangle the proof that the method must list it is a chain of points, each on the free\n"
+          "  continuation of a sight line through the one before; where one was found it is printed.\n"
+          "  Qo and Qu are the over- and underestimate of Bittner et al. (2005): triangles (or area) listed and "
+          "hidden, and\n"
+          "  visible and missing, over visible ones; from the lowest to the highest value that the undecided "
+          "allow.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt\n"

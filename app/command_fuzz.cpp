@@ -14,6 +14,7 @@
 #include "fuzz/campaign/finding_folder.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/campaign/oracle.h"
+#include "fuzz/campaign/promote.h"
 #include "scene/error.h"
 
 namespace clues::app {
@@ -39,6 +40,7 @@ void catch_interrupts() {
 struct FuzzRequest {
   fuzz::CampaignOptions options;
   std::string subject = "reference";
+  std::vector<std::string> scenes;
   std::uint64_t cases = 0, seconds = 0;
 };
 
@@ -48,6 +50,7 @@ int run_fuzz(FuzzRequest& request) {
   if (request.seconds > 0) options.time = std::chrono::seconds(request.seconds);
   if (!options.cases && !options.time) options.time = std::chrono::seconds(60);
   const auto subject = fuzz::make_subject(request.subject);
+  options.given = fuzz::read_given_scenes(request.scenes);
   ProgressBar bar("clues fuzz");
   const auto begin = std::chrono::steady_clock::now();
   std::uint64_t first = UINT64_MAX;
@@ -68,7 +71,7 @@ int run_fuzz(FuzzRequest& request) {
 }
 
 struct FolderRequest {
-  std::string folder, subject;
+  std::string folder, subject, suite, id;
   std::uint64_t steps = fuzz::ShrinkLimits{}.steps, seconds = 60;
 };
 
@@ -78,6 +81,10 @@ std::unique_ptr<fuzz::Subject> subject_of(const FolderRequest& request, const fu
 
 int run_replay(const FolderRequest& request) {
   const auto saved = fuzz::load_finding(request.folder);
+  if (!request.suite.empty()) {
+    fuzz::promote(saved.finding, request.id, request.suite);
+    std::printf("%s: has the case %s now, with proofs\n", request.suite.c_str(), request.id.c_str());
+  }
   const auto subject = subject_of(request, saved);
   const std::string flaw = fuzz::flaw_of(saved.finding, *subject);
   if (!flaw.empty()) {
@@ -120,10 +127,11 @@ std::string fuzz_footer() {
       "  reference      the exact first-order reference of clues (default)\n"
       "  COMMAND LINE   a program, run once for each scene; {scene}, {cell} and {pvs} stand for an OFF file, an OBJ "
       "file of\n"
-      "                 the cell's points, and the list of visible triangle ids that it has to write, one a line.\n"
-      "                 Without these words the three files are appended. It has 60 s, and must exit with 0.\n"
+      "                 the cell's points, and the list of visible triangle ids that it has to write, one a line;\n"
+      "                 {mode} for sheet or solid (without it, answer as for sheet). Without these words the three\n"
+      "                 files are appended. It has 60 s, and must exit with 0.\n"
       "\nGENERATORS\n";
-  for (const auto& g : fuzz::all_generators()) text += fmt::format("  {:<22} {}\n", g.name, g.degeneracy);
+  for (const auto& g : fuzz::all_generators({})) text += fmt::format("  {:<22} {}\n", g.name, g.degeneracy);
   text += "\nORACLES\n";
   for (const auto& o : fuzz::all_oracles()) text += fmt::format("  {:<22} {}\n", o->name(), o->what());
   return text +
@@ -131,6 +139,8 @@ std::string fuzz_footer() {
          "  clues fuzz --time 600 --jobs 2 --out fuzz-out\n"
          "  clues fuzz --subject './bake {scene} {cell} -o {pvs}' --seed 7 --cases 1000 --errors 5\n"
          "  clues fuzz --generator axis_boxes --oracle sight-lines --cases 200\n"
+         "  clues fuzz --generator umbrellas:1 --cases 50            # gaps of one ulp only\n"
+         "  clues fuzz --scenes vectors --scenes meshes --time 600\n"
          "\nFILES\n"
          "  DIR/findings.sqlite, and a folder for each finding (docs/fuzzing.md)\n"
          "\nEXIT CODES\n"
@@ -162,7 +172,12 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   fuzz->add_option("--jobs", options.jobs, "Processes that work at once (default 1)")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
-  fuzz->add_option("--generator", options.generators, "Only this generator; may be repeated")->type_name("NAME");
+  fuzz->add_option("--generator", options.generators,
+                   "Only this generator; may be repeated. NAME:D: with its dial at D, 0 to 7")
+      ->type_name("NAME");
+  fuzz->add_option("--scenes", request->scenes,
+                   "A mesh, a vector file or a folder of them, to be cut up or mutated; may be repeated")
+      ->type_name("PATH");
   fuzz->add_option("--oracle", options.oracles, "Only this oracle; may be repeated")->type_name("NAME");
   fuzz->add_option("--errors", options.errors, "Stop at this many different findings; 0: never (default)")
       ->type_name("N");
@@ -174,11 +189,22 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   auto* replay = program.add_subcommand("replay", "Verify a finding of clues fuzz");
   replay->add_option("FINDING", folder->folder, "Its folder")->required();
   add_subject(*replay, folder->subject, "Ask this subject instead of the one that the finding names");
+  auto* suite = replay
+                    ->add_option("--promote", folder->suite,
+                                 "Also add the scene to the conformance suite in this folder, as a case of found.json")
+                    ->type_name("SUITE");
+  auto* id =
+      replay->add_option("--id", folder->id, "The id of the new case, such as gap-beside-a-pillar")->type_name("ID");
+  suite->needs(id);
+  id->needs(suite);
   replay->footer(
       "DESCRIPTION\n"
       "  Refuses files that were changed after they were saved; checks the witness exactly; asks the subject again.\n"
+      "  With --promote, what is visible and hidden in the new case is proved as `clues lint` does; where that fails\n"
+      "  the suite stays as it was.\n"
       "\nEXAMPLES\n"
       "  clues replay fuzz-out/sight-lines-hidden-visible-axis_boxes\n"
+      "  clues replay fuzz-out/sight-lines-hidden-visible-axis_boxes --promote vectors --id gap-beside-a-box\n"
       "\nEXIT CODES\n"
       "  0 the subject no longer fails   1 reproduced   2 bad usage or input, or the finding was changed");
   replay->callback([folder, &status] { status = run_replay(*folder); });

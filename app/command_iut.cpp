@@ -1,12 +1,17 @@
 // clues iut: the reference, or a shared library, as an implementation under test: a speaker of docs/protocol.md.
+#include <tbb/task_arena.h>
+
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/common.h"
 #include "exact/convex_cell.h"
+#include "fastpath/visibility/first_order.h"
+#include "reference/visibility/first_order.h"
 #include "scene/error.h"
 #include "validate/conform/library_host.h"
 #include "validate/conform/server.h"
@@ -18,18 +23,37 @@ struct IutRequest {
   std::string kernel, library;
 };
 
-void serve_reference(MethodOptions method) {
-  method.threads = 1;  // `clues conform --jobs` starts as many of us as it likes
-  auto options = method.to_reference();
+// One thread: `clues conform --jobs` starts as many of us as it likes.
+std::vector<std::uint32_t> exact_pvs(const validate::Request& request) {
+  reference::Options options;
+  options.threads = 1;
+  options.mode = request.mode == validate::CaseMode::solid ? reference::Mode::solid : reference::Mode::sheet;
+  return reference::first_order_visibility(request.mesh, exact::ConvexCell::from_doubles(request.cell), options)
+      .visible;
+}
+
+std::vector<std::uint32_t> fast_pvs(const validate::Request& request) {
+  fastpath::LocalMapOptions options;
+  if (request.mode == validate::CaseMode::solid) {
+    fastpath::require_solid(request.mesh);
+    options.mode = fastpath::SideMode::solid;
+  }
+  tbb::task_arena arena(1);
+  return arena.execute(
+      [&] { return fastpath::first_order_visibility(fastpath::Bvh(request.mesh), request.cell, options).visible; });
+}
+
+void serve_kernel(const std::string& kernel) {
+  MethodOptions method;
+  method.kernel = kernel;
+  method.check();
   validate::Implementation about;
-  about.name = "clues first-order reference";
+  about.name = kernel == "fast" ? "clues fast path" : "clues first-order reference";
   about.version = CLUES_VERSION;
   about.language = "C++";
   validate::serve(std::cin, stdout, about, [&](const validate::Request& request) {
-    options.mode = request.mode == validate::CaseMode::solid ? reference::Mode::solid : reference::Mode::sheet;
     validate::Answer answer;
-    const auto cell = exact::ConvexCell::from_doubles(request.cell);
-    answer.visible = reference::first_order_visibility(request.mesh, cell, options).visible;
+    answer.visible = kernel == "fast" ? fast_pvs(request) : exact_pvs(request);
     return answer;
   });
 }
@@ -42,9 +66,7 @@ int run_iut(const IutRequest& request) {
     if (!request.library.empty()) {
       validate::serve_library(request.library, std::cin);
     } else {
-      MethodOptions method;
-      method.kernel = request.kernel;
-      serve_reference(method);
+      serve_kernel(request.kernel);
     }
   } catch (const validate::ProtocolError& error) {
     throw scene::Error(scene::ErrorCode::malformed,
@@ -59,7 +81,8 @@ void add_iut_command(CLI::App& program, int& status) {
   auto* command =
       program.add_subcommand("iut", "Be an implementation under test: speak JSON lines on standard input and output");
   auto request = std::make_shared<IutRequest>();
-  command->add_option("--kernel", request->kernel, "Answer with the first-order reference: exact")->type_name("NAME");
+  command->add_option("--kernel", request->kernel, "Answer ourselves: exact (the first-order reference) or fast")
+      ->type_name("NAME");
   command->add_option("--library", request->library, "Answer with the function clues_iut_pvs of a shared library")
       ->type_name("LIB.so");
   command->footer(

@@ -14,11 +14,10 @@
 #include <vector>
 
 #include "app/cell_folder.h"
+#include "app/cell_mapper.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/progress.h"
-#include "app/umbra_output.h"
-#include "reference/visibility/first_order.h"
 #include "scene/atomic_file.h"
 #include "scene/cell_spec.h"
 #include "scene/error.h"
@@ -32,88 +31,45 @@ namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
 
-struct MapRequest {
-  std::string scene, cell, cells, out;
-  bool with_map = false, with_states = false, json = false, resume = false;
-  MethodOptions method;
-  UmbraRequest umbra;
-};
-
-struct MappedCell {
-  std::string name;
-  std::string bytes;    // what goes into the file
-  std::string summary;  // one line of the table
-  std::string umbra_bytes, umbra_summary;
-};
-
-constexpr const char* table_head = "triangles  wholly  partly  hidden  visible area  fallbacks  cell\n";
-
-std::string table_line(const std::string& name, const reference::VisibilityMap& map) {
-  const auto census = take_census(map);
-  const double share =
-      census.area_facing_estimate > 0 ? 100 * census.area_visible_estimate / census.area_facing_estimate : 0;
-  return fmt::format("{:>9}  {:>6}  {:>6}  {:>6}  {:>10.2f} %  {:>9}  {}\n", map.complex.input_triangles, census.wholly,
-                     census.partly, census.hidden, share, map.statistics.conservative_fallbacks, name);
-}
-
-bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" || out.extension() == ".txt"; }
-
-MappedCell to_mapped_cell(const reference::VisibilityMap& map, const std::string& sha256, const scene::CellSpec& spec,
-                          const MapRequest& request) {
-  auto result = reference::to_result(map, spec, request.with_map, request.with_states);
-  result.scene_file = fs::path(request.scene).filename().string();
-  result.scene_sha256 = sha256;
-  const bool plain = request.cells.empty() && wants_plain_list(request.out);
-  return {spec.name, plain ? scene::to_pvs_text(result.visible) : scene::to_json_text(result),
-          table_line(spec.name, map), "", ""};
-}
-
-MappedCell map_cell(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& spec,
-                    const reference::Options& options, const MapRequest& request) {
-  const auto cell = exact::ConvexCell::from_doubles(spec.points);
-  return to_mapped_cell(reference::first_order_visibility(mesh, cell, options), sha256, spec, request);
-}
-
-MappedCell map_one(const scene::TriangleMesh& mesh, const std::string& sha256, const scene::CellSpec& cell,
-                   reference::Options options, const MapRequest& request) {
-  ProgressBar bar("clues map");
-  options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
-    bar.show(stage, done, total);
-  };
-  if (request.umbra.file.empty()) return map_cell(mesh, sha256, cell, options, request);
-  const reference::Omega omega(mesh, exact::ConvexCell::from_doubles(cell.points), options);
-  bar.show("umbra", 0, 1);
-  MappedCell mapped = to_mapped_cell(omega.map(), sha256, cell, request);
-  UmbraOutput umbra = make_umbra(omega, mesh, cell, request.scene, sha256, request.umbra, options.threads);
-  mapped.umbra_bytes = std::move(umbra.bytes);
-  mapped.umbra_summary = std::move(umbra.summary);
-  return mapped;
+// --method backprojected is short for --refine backprojection; with --refine cell both are wanted.
+validate::Refinement wanted_refinement(const MapRequest& request) {
+  const auto refinement = request.refine.refinement(validate::Refinement::none);
+  if (request.method.method != "backprojected") return refinement;
+  return refinement == validate::Refinement::cells || refinement == validate::Refinement::both
+             ? validate::Refinement::both
+             : validate::Refinement::backprojection;
 }
 
 // Everything that the results depend on.
 std::string request_text(const MapRequest& request, const std::string& sha256) {
-  return nlohmann::json{{"format", "clues-cells/1"},       {"scene_sha256", sha256},
-                        {"cells", request.cells},          {"mode", request.method.mode},
-                        {"method", request.method.method}, {"kernel", request.method.kernel},
-                        {"map", request.with_map},         {"render_states", request.with_states}}
+  return nlohmann::json{{"format", "clues-cells/1"},
+                        {"scene_sha256", sha256},
+                        {"cells", request.cells},
+                        {"mode", request.method.mode},
+                        {"method", request.asked_method},
+                        {"refine", request.refine.refine},
+                        {"max_depth", request.refine.max_depth},
+                        {"tolerance_area", request.refine.tolerance_area},
+                        {"kernel", request.method.kernel},
+                        {"map", request.with_map},
+                        {"render_states", request.with_states},
+                        {"formulation", request.method.formulation}}
              .dump(2) +
          "\n";
 }
 
 // Maps the cells, each by one thread so that none waits for another, and gives each result to `finished` at once, one at a time.
 template <class Finished>
-void map_many(const scene::TriangleMesh& mesh, const std::string& sha256, const std::vector<scene::CellSpec>& cells,
-              const std::vector<std::size_t>& wanted, reference::Options options, const MapRequest& request,
-              const Finished& finished) {
+void map_many(const CellMapper& mapper, const std::vector<scene::CellSpec>& cells,
+              const std::vector<std::size_t>& wanted, int threads, const Finished& finished) {
   ProgressBar bar("clues map");
   bar.show("cells", cells.size() - wanted.size(), cells.size());
   std::mutex mutex;
   std::size_t done = cells.size() - wanted.size();
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  options.threads = 1;
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
   arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
-      MappedCell mapped = map_cell(mesh, sha256, cells[wanted[i]], options, request);
+      MappedCell mapped = mapper.map(cells[wanted[i]], 1, {});
       const std::lock_guard lock(mutex);
       finished(wanted[i], std::move(mapped));
       bar.show("cells", ++done, cells.size());
@@ -122,9 +78,8 @@ void map_many(const scene::TriangleMesh& mesh, const std::string& sha256, const 
 }
 
 // With a folder to write to: results go there as they are finished, and what is there already is not made again.
-std::vector<MappedCell> map_into_folder(const scene::TriangleMesh& mesh, const std::string& sha256,
-                                        const std::vector<scene::CellSpec>& cells, const reference::Options& options,
-                                        const MapRequest& request) {
+std::vector<MappedCell> map_into_folder(const CellMapper& mapper, const std::string& sha256,
+                                        const std::vector<scene::CellSpec>& cells, const MapRequest& request) {
   const CellFolder folder(request.out, request_text(request, sha256), request.resume);
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -132,10 +87,11 @@ std::vector<MappedCell> map_into_folder(const scene::TriangleMesh& mesh, const s
   }
   std::vector<MappedCell> mapped(cells.size());
   std::size_t kept = cells.size() - wanted.size();
-  if (kept > 0)
+  if (kept > 0) {
     std::fputs(fmt::format("clues map: {} of {} cells were there already\n", kept, cells.size()).c_str(), stderr);
+  }
   try {
-    map_many(mesh, sha256, cells, wanted, options, request, [&](std::size_t i, MappedCell&& cell) {
+    map_many(mapper, cells, wanted, request.method.threads, [&](std::size_t i, MappedCell&& cell) {
       folder.put(cell.name, cell.bytes);
       ++kept;
       mapped[i].summary = std::move(cell.summary);
@@ -152,22 +108,34 @@ std::vector<MappedCell> map_into_folder(const scene::TriangleMesh& mesh, const s
   return mapped;
 }
 
-std::vector<MappedCell> map_cells(const scene::TriangleMesh& mesh, const std::string& sha256,
-                                  const std::vector<scene::CellSpec>& cells, const reference::Options& options,
-                                  const MapRequest& request) {
-  if (request.cells.empty()) return {map_one(mesh, sha256, cells[0], options, request)};
-  if (!request.out.empty()) return map_into_folder(mesh, sha256, cells, options, request);
+std::vector<MappedCell> map_cells(const CellMapper& mapper, const std::string& sha256,
+                                  const std::vector<scene::CellSpec>& cells, const MapRequest& request) {
   std::vector<MappedCell> mapped(cells.size());
+  if (request.cells.empty()) {
+    ProgressBar bar("clues map");
+    const auto show = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
+      bar.show(stage, done, total);
+    };
+    mapped[0] = mapper.map(cells[0], request.method.threads, show);
+    return mapped;
+  }
+  if (!request.out.empty()) return map_into_folder(mapper, sha256, cells, request);
   std::vector<std::size_t> all(cells.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  map_many(mesh, sha256, cells, all, options, request,
+  map_many(mapper, cells, all, request.method.threads,
            [&](std::size_t i, MappedCell&& cell) { mapped[i] = std::move(cell); });
   return mapped;
 }
 
 int run_map(MapRequest request) {
   while (request.out.size() > 1 && request.out.back() == '/') request.out.pop_back();  // "cells/" is the folder "cells"
-  auto options = request.method.to_reference();
+  request.refinement = wanted_refinement(request);
+  request.asked_method = request.method.method;
+  if (request.method.method == "backprojected") request.method.method = "first-order";  // refined afterwards
+  request.method.check();
+  if (request.refinement != validate::Refinement::none && !request.umbra.file.empty()) {
+    throw Error(ErrorCode::unsupported, "--umbra is for first-order maps; leave out --refine and --method");
+  }
   if (request.cell.empty() == request.cells.empty()) {
     throw Error(ErrorCode::bad_argument, "give one of --cell and --cells (see `clues map --help`)");
   }
@@ -183,11 +151,19 @@ int run_map(MapRequest request) {
     throw Error(ErrorCode::bad_argument,
                 request.out + ": a plain list cannot hold --map; name the output *.clues.json");
   }
+  if (!request.overlap_graph.empty()) {
+    if (many) throw Error(ErrorCode::bad_argument, "--overlap-graph is for one cell; use --cell");
+    require_writable_parent(request.overlap_graph);
+  }
   const auto mesh = scene::read_mesh(request.scene);
   const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
-  const auto mapped = map_cells(mesh, scene::sha256_of_file(request.scene), cells, options, request);
+  const std::string sha256 = scene::sha256_of_file(request.scene);
+  const auto mapper =
+      request.method.kernel == "fast" ? fast_mapper(mesh, sha256, request) : exact_mapper(mesh, sha256, request);
+  const auto mapped = map_cells(*mapper, sha256, cells, request);
 
   if (!request.umbra.file.empty()) scene::write_file_atomically(request.umbra.file, mapped[0].umbra_bytes);
+  if (!request.overlap_graph.empty()) scene::write_file_atomically(request.overlap_graph, mapped[0].overlap_graph);
   if (!request.out.empty()) {
     if (!many) scene::write_file_atomically(request.out, mapped[0].bytes);
   } else if (request.json) {
@@ -196,7 +172,7 @@ int run_map(MapRequest request) {
     std::fputs((text + (many ? "]\n" : "")).c_str(), stdout);
     return fine;
   }
-  std::string table = table_head;
+  std::string table = mapper->table_head();
   for (const auto& cell : mapped) table += cell.summary + cell.umbra_summary;
   std::fputs(table.c_str(), request.json ? stderr : stdout);
   return fine;
@@ -204,15 +180,28 @@ int run_map(MapRequest request) {
 
 }  // namespace
 
+bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" || out.extension() == ".txt"; }
+
+std::string bytes_of(scene::Result result, const MapRequest& request, const std::string& sha256) {
+  result.scene_file = fs::path(request.scene).filename().string();
+  result.scene_sha256 = sha256;
+  const bool plain = request.cells.empty() && wants_plain_list(request.out);
+  return plain ? scene::to_pvs_text(result.visible) : scene::to_json_text(result);
+}
+
 void add_map_command(CLI::App& program, int& status) {
-  auto* command =
-      program.add_subcommand("map", "Compute the exact first-order visibility map of a scene for a view cell");
+  auto* command = program.add_subcommand("map", "Compute the first-order visibility map of a scene for a view cell");
   auto request = std::make_shared<MapRequest>();
   command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL")->required();
   command->add_option("--cell", request->cell, "One view cell")->type_name("SPEC");
   command->add_option("--cells", request->cells, "Many view cells: grid:NXxNYxNZ:box:x0,y0,z0,x1,y1,z1")
       ->type_name("SPEC");
   request->method.add_to(*command);
+  command
+      ->add_option("--overlap-graph", request->overlap_graph,
+                   "Write here, for GraphViz, which occluders overlap which as the cell sees them, and the cycles")
+      ->type_name("FILE.dot");
+  request->refine.add_to(*command);
   command->add_flag("--map", request->with_map,
                     "Put the regions, segments and wedges into the result too, in exact coordinates");
   command->add_flag("--render-states", request->with_states,
@@ -232,7 +221,9 @@ void add_map_command(CLI::App& program, int& status) {
       std::string("DESCRIPTION\n"
                   "  Lists the triangles of which some point may be seen from some point of the cell. No visible "
                   "triangle is ever\n"
-                  "  left out; the answer may hold some that only look visible to the method (first-order).\n"
+                  "  left out; the answer may hold some that only look visible to the method (first-order). Refinement "
+                  "takes out\n"
+                  "  more of these, at a cost; clues precision says how many may be left.\n"
                   "  A table counts the triangles whose sides facing the cell are seen wholly, partly, or not at all.\n"
                   "  The same input gives the same bytes, whatever --threads says. An existing file OUT is replaced "
                   "as a whole, or,\n"
@@ -244,6 +235,8 @@ void add_map_command(CLI::App& program, int& status) {
       "  clues map town.obj --cell box:0,0,1,2,2,2\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --map -o town.clues.json\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --umbra town.umbra.json\n"
+      "  clues map town.obj --cell box:0,0,1,2,2,2 --formulation traversal --overlap-graph town.dot\n"
+      "  clues map town.obj --cell box:0,0,1,2,2,2 --method backprojected --max-depth 2\n"
       "  clues map town.obj --cells grid:4x4x1:box:0,0,1,8,8,2 -o cells/\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   3 the umbra is not closed where a limit was reached   4 an oracle "

@@ -15,6 +15,7 @@ struct Unfinished : std::runtime_error {
 };
 
 void add_map_command(CLI::App& program, int& status);
+void add_precision_command(CLI::App& program, int& status);
 void add_check_command(CLI::App& program, int& status);
 void add_query_command(CLI::App& program, int& status);
 void add_verify_command(CLI::App& program, int& status);
@@ -22,6 +23,7 @@ void add_conform_command(CLI::App& program, int& status);
 void add_iut_command(CLI::App& program, int& status);
 void add_lint_command(CLI::App& program, int& status);
 void add_fuzz_commands(CLI::App& program, int& status);  // fuzz, replay, shrink
+void add_report_command(CLI::App& program, int& status);
 void add_demo_command(CLI::App& program, int& status);
 
 }  // namespace clues::app

@@ -28,33 +28,91 @@ void MethodOptions::add_to(CLI::App& command) {
           "sheet: both sides of a triangle can be seen (default). solid: only fronts can; the mesh must be closed\n"
           "and consistently oriented")
       ->type_name("sheet|solid");
-  command.add_option("--method", method, "first-order (default, and the only one in this version)")->type_name("NAME");
-  command.add_option("--kernel", kernel, "exact (default, and the only one in this version)")->type_name("NAME");
+  command
+      .add_option("--method", method,
+                  "first-order (default); clues map also has backprojected, which is --refine backprojection")
+      ->type_name("NAME");
+  command
+      .add_option("--kernel", kernel,
+                  "exact (default), or fast: doubles with exact decisions where these do not suffice")
+      ->type_name("NAME");
+  command
+      .add_option("--formulation", formulation,
+                  "plain (default): all of the scene at once. traversal: outward from what is visible, without a look "
+                  "at what is\n"
+                  "hidden behind it. Two ways to one map")
+      ->type_name("plain|traversal");
   command.add_option("--threads", threads, "How many threads may work; 0: all cores (default). The answer is the same")
       ->type_name("N");
 }
 
-reference::Options MethodOptions::to_reference() const {
-  reference::Options options;
+void MethodOptions::check() const {
   if (mode != "sheet" && mode != "solid") {
     throw Error(ErrorCode::bad_argument, "--mode " + mode + ": no such mode; use sheet or solid");
   }
   if (method == "backprojected") {
-    throw Error(ErrorCode::unsupported, "--method backprojected is not in this version; use --method first-order");
+    throw Error(ErrorCode::unsupported, "--method backprojected is for clues map; use --method first-order here");
   }
   if (method != "first-order") {
     throw Error(ErrorCode::bad_argument, "--method " + method + ": no such method; use first-order");
   }
-  if (kernel == "fast") {
-    throw Error(ErrorCode::unsupported, "--kernel fast is not in this version; use --kernel exact");
+  if (kernel != "exact" && kernel != "fast") {
+    throw Error(ErrorCode::bad_argument, "--kernel " + kernel + ": no such kernel; use exact or fast");
   }
-  if (kernel != "exact") throw Error(ErrorCode::bad_argument, "--kernel " + kernel + ": no such kernel; use exact");
   if (threads < 0 || threads > 4096) {
     throw Error(ErrorCode::bad_argument, fmt::format("--threads {}: use 0 (all cores) to 4096", threads));
   }
+  if (formulation != "plain" && formulation != "traversal") {
+    throw Error(ErrorCode::bad_argument,
+                "--formulation " + formulation + ": no such formulation; use plain or traversal");
+  }
+}
+
+reference::Options MethodOptions::to_reference() const {
+  check();
+  if (kernel == "fast")
+    throw Error(ErrorCode::unsupported, "--kernel fast: exact numbers are needed here; use --kernel exact");
+  reference::Options options;
+  options.formulation = formulation == "traversal" ? reference::Formulation::traversal : reference::Formulation::plain;
   options.mode = mode == "solid" ? reference::Mode::solid : reference::Mode::sheet;
   options.threads = threads;
   return options;
+}
+
+void RefineChoice::add_to(CLI::App& command) {
+  command
+      .add_option("--refine", refine,
+                  "How the first-order map is refined. cell: by cutting the cell. backprojection: by cutting it along\n"
+                  "the wedges adjusted to what their edges see of it. both: one after the other")
+      ->type_name("cell|backprojection|both");
+  command
+      .add_option("--max-depth", max_depth,
+                  "How often a part of the cell may be cut again (default 4); the work may double with each depth")
+      ->type_name("N");
+  command
+      .add_option(
+          "--tolerance-area", tolerance_area,
+          "Done when no more than this area, in units of the scene, is neither known to be visible nor known to\n"
+          "be hidden (default 0)")
+      ->type_name("X");
+}
+
+reference::RefineOptions RefineChoice::to_reference() const {
+  if (max_depth < 0 || max_depth > 16) {
+    throw Error(ErrorCode::bad_argument, fmt::format("--max-depth {}: use 0 to 16", max_depth));
+  }
+  if (!(tolerance_area >= 0)) {
+    throw Error(ErrorCode::bad_argument, fmt::format("--tolerance-area {}: use 0 or more", tolerance_area));
+  }
+  return {max_depth, tolerance_area};
+}
+
+validate::Refinement RefineChoice::refinement(validate::Refinement otherwise) const {
+  if (refine.empty()) return otherwise;
+  if (refine == "cell") return validate::Refinement::cells;
+  if (refine == "backprojection") return validate::Refinement::backprojection;
+  if (refine == "both") return validate::Refinement::both;
+  throw Error(ErrorCode::bad_argument, "--refine " + refine + ": no such refinement; use cell, backprojection or both");
 }
 
 void require_writable_parent(const std::filesystem::path& path) {

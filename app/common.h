@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "reference/visibility/first_order.h"
+#include "reference/visibility/subdivision.h"
+#include "validate/precision.h"
 
 namespace clues::app {
 
@@ -16,10 +18,23 @@ struct MethodOptions {
   std::string mode = "sheet";
   std::string method = "first-order";
   std::string kernel = "exact";
+  std::string formulation = "plain";
   int threads = 0;
 
   void add_to(CLI::App& command);
-  reference::Options to_reference() const;  // throws Error bad_argument, unsupported
+  void check() const;                       // throws Error bad_argument, unsupported
+  reference::Options to_reference() const;  // the same; unsupported for the fast kernel
+};
+
+// How far a map is refined (D20, D21): on `map` and `precision`.
+struct RefineChoice {
+  std::string refine;  // "cell", "backprojection", "both"; empty: the command's default
+  int max_depth = 4;
+  double tolerance_area = 0;
+
+  void add_to(CLI::App& command);
+  reference::RefineOptions to_reference() const;                          // throws Error bad_argument
+  validate::Refinement refinement(validate::Refinement otherwise) const;  // throws Error bad_argument
 };
 
 // The two paragraphs about SPEC and exit codes that every footer needs.

@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   int status = app::fine;
   app::add_map_command(program, status);
+  app::add_precision_command(program, status);
   app::add_check_command(program, status);
   app::add_query_command(program, status);
   app::add_verify_command(program, status);
@@ -51,6 +52,7 @@ int main(int argc, char** argv) {
   app::add_iut_command(program, status);
   app::add_lint_command(program, status);
   app::add_fuzz_commands(program, status);
+  app::add_report_command(program, status);
   app::add_demo_command(program, status);
   try {
     program.parse(argc, argv);

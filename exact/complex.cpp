@@ -13,10 +13,12 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "exact/complex_internal.h"
 #include "exact/kernel.h"
+#include "scene/error.h"
 
 namespace clues::exact {
 namespace {
@@ -119,23 +121,29 @@ void compact(Complex& complex) {
 }  // namespace
 
 Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell) {
+  std::vector<Point3> points(mesh.points.size());
+  std::transform(mesh.points.begin(), mesh.points.end(), points.begin(), to_exact);
+  return build_complex(points, mesh.triangles, cell);
+}
+
+Complex build_complex(const std::vector<Point3>& points, const std::vector<Corners>& input, const ConvexCell* cell) {
   Complex complex;
-  complex.input_triangles = mesh.triangles.size();
+  complex.input_triangles = input.size();
 
   PointPool pool;
-  std::vector<std::uint32_t> point_of(mesh.points.size());
-  std::vector<bool> used(mesh.points.size(), false);
-  for (const auto& t : mesh.triangles) {
+  std::vector<std::uint32_t> point_of(points.size());
+  std::vector<bool> used(points.size(), false);
+  for (const auto& t : input) {
     for (const std::uint32_t c : t) used[c] = true;
   }
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    if (used[i]) point_of[i] = pool.id_of(to_exact(mesh.points[i]));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (used[i]) point_of[i] = pool.id_of(points[i]);
   }
 
   std::vector<Sheet> sheets;
   std::map<Corners, std::size_t> sheet_of;
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& in = mesh.triangles[t];
+  for (std::uint32_t t = 0; t < input.size(); ++t) {
+    const auto& in = input[t];
     const Corners corners{point_of[in[0]], point_of[in[1]], point_of[in[2]]};
     if (CGAL::collinear(pool[corners[0]], pool[corners[1]], pool[corners[2]])) {
       complex.degenerate.push_back(t);
@@ -274,6 +282,18 @@ std::vector<std::uint32_t> triangles_not_solid(const Complex& complex) {
   std::sort(bad.begin(), bad.end());
   bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
   return bad;
+}
+
+void require_solid(const Complex& complex) {
+  const std::vector<std::uint32_t> bad = triangles_not_solid(complex);
+  if (bad.empty()) return;
+  std::string list;
+  for (std::size_t i = 0; i < bad.size() && i < 5; ++i) list += (i ? ", " : "") + std::to_string(bad[i]);
+  throw scene::Error(scene::ErrorCode::not_solid,
+                     "solid mode needs a closed, consistently oriented mesh, but triangle" +
+                         std::string(bad.size() > 1 ? "s " : " ") + list + (bad.size() > 5 ? ", ..." : "") + " (" +
+                         std::to_string(bad.size()) +
+                         " in all) have an edge that is open or turned over; close the mesh, or use sheet mode");
 }
 
 }  // namespace clues::exact

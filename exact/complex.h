@@ -47,9 +47,16 @@ struct Complex {
 // O(n log n + k) box tests for k box contacts, then the exact cuts: quadratic where every triangle meets every other.
 Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell = nullptr);
 
+// The same for exact points.
+Complex build_complex(const std::vector<Point3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                      const ConvexCell* cell = nullptr);
+
 // D4: closed and consistently oriented: every edge has exactly two sides leaving it for each entering it. Returns the ids of
 // input triangles at offending edges (empty: solid mode is allowed). Whether a cell cut the complex does not matter to whether there are any: a cut
 // closed mesh is closed.
 std::vector<std::uint32_t> triangles_not_solid(const Complex& complex);
+
+// Throws scene::Error not_solid, which names some of these triangles, if there are any.
+void require_solid(const Complex& complex);
 
 }  // namespace clues::exact

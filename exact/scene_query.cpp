@@ -30,18 +30,22 @@ bool meets_cell(const TriangleCorners& t, const ConvexCell& cell) {
   return false;
 }
 
-SceneQuery::SceneQuery(const Complex& complex, const ConvexCell& cell) : complex_(&complex), cell_(&cell) {
+SceneQuery::SceneQuery(const Complex& complex, const ConvexCell& cell, const std::vector<bool>& occluders)
+    : complex_(&complex), cell_(&cell) {
   CGAL::Bbox_3 cell_box;
   for (const Point3& s : cell.vertices()) cell_box += s.bbox();
   bounds_ = cell_box;
   std::vector<CGAL::Bbox_3> boxes;
   boxes.reserve(complex.pieces.size());
-  for (const Piece& piece : complex.pieces) {
-    const auto& c = piece.corners;
-    boxes.push_back(complex.points[c[0]].bbox() + complex.points[c[1]].bbox() + complex.points[c[2]].bbox());
-    bounds_ += boxes.back();
-    meets_cell_.push_back(CGAL::do_overlap(boxes.back(), cell_box) &&
+  for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
+    const auto& c = complex.pieces[t].corners;
+    const CGAL::Bbox_3 box = complex.points[c[0]].bbox() + complex.points[c[1]].bbox() + complex.points[c[2]].bbox();
+    bounds_ += box;
+    meets_cell_.push_back(CGAL::do_overlap(box, cell_box) &&
                           exact::meets_cell({complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]}, cell));
+    if (complex.in_cell[t] || (!occluders.empty() && !occluders[t])) continue;
+    boxes.push_back(box);
+    occluders_.push_back(t);
   }
   tree_ = BoxTree(std::move(boxes));
 }

@@ -29,8 +29,9 @@ bool meets_cell(const TriangleCorners& triangle, const ConvexCell& cell);
 
 class SceneQuery {
  public:
-  // Keeps references: complex and cell must outlive it.
-  SceneQuery(const Complex& complex, const ConvexCell& cell);
+  // Keeps references: complex and cell must outlive it. `occluders`, one for each piece, leaves the others out of all queries; empty: all pieces
+  // outside int V.
+  SceneQuery(const Complex& complex, const ConvexCell& cell, const std::vector<bool>& occluders = {});
 
   // The clean crossings of the open segment (v,p), v in int V. A piece whose plane contains p is not crossed (it can only be met
   // at p). Crossings inside int V do not count (D3). A piece in whose plane the segment runs, and meets it, is degenerate - or
@@ -44,7 +45,7 @@ class SceneQuery {
   template <class Test>
   std::vector<std::uint32_t> candidates(const Test& may_meet) const {
     std::vector<std::uint32_t> found = tree_.candidates(may_meet);
-    std::erase_if(found, [this](std::uint32_t t) { return complex_->in_cell[t]; });
+    for (std::uint32_t& t : found) t = occluders_[t];
     return found;
   }
 
@@ -57,7 +58,8 @@ class SceneQuery {
  private:
   const Complex* complex_;
   const ConvexCell* cell_;
-  BoxTree tree_;
+  BoxTree tree_;                          // over occluders_
+  std::vector<std::uint32_t> occluders_;  // ascending
   std::vector<bool> meets_cell_;
   CGAL::Bbox_3 bounds_;
 };

@@ -29,7 +29,7 @@ bool is_whole_number(std::string_view token) {
   return !token.empty() && token.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
-std::vector<std::uint32_t> read_list(std::string_view bytes, const std::string& file, std::uint64_t triangles) {
+std::vector<std::uint32_t> list_ids(std::string_view bytes, const std::string& file, std::uint64_t triangles) {
   LineReader lines(file, bytes, {});
   std::vector<std::uint32_t> ids;
   while (lines.next()) {
@@ -78,7 +78,7 @@ void check_head(const Json& json, const std::string& file, std::uint64_t triangl
   }
 }
 
-std::vector<std::uint32_t> read_result(std::string_view bytes, const std::string& file, std::uint64_t triangles) {
+std::vector<std::uint32_t> result_ids(std::string_view bytes, const std::string& file, std::uint64_t triangles) {
   const auto json = parse_json(bytes, file);
   check_head(json, file, triangles);
   const auto visible = json.find("visible");
@@ -96,15 +96,26 @@ std::vector<std::uint32_t> read_result(std::string_view bytes, const std::string
   return ids;
 }
 
-}  // namespace
-
-std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, std::uint64_t triangles) {
-  const auto bytes = read_file_bytes(path);
-  const auto file = path.string();
-  auto ids = path.extension() == ".json" ? read_result(bytes, file, triangles) : read_list(bytes, file, triangles);
+std::vector<std::uint32_t> sorted_unique(std::vector<std::uint32_t> ids) {
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   return ids;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> parse_pvs_list(std::string_view bytes, const std::string& file, std::uint64_t triangles) {
+  return sorted_unique(list_ids(bytes, file, triangles));
+}
+
+std::vector<std::uint32_t> parse_result_pvs(std::string_view bytes, const std::string& file, std::uint64_t triangles) {
+  return sorted_unique(result_ids(bytes, file, triangles));
+}
+
+std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, std::uint64_t triangles) {
+  const auto bytes = read_file_bytes(path);
+  return path.extension() == ".json" ? parse_result_pvs(bytes, path.string(), triangles)
+                                     : parse_pvs_list(bytes, path.string(), triangles);
 }
 
 std::string to_pvs_text(const std::vector<std::uint32_t>& visible) {

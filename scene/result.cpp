@@ -13,8 +13,17 @@ const char* side_name(bool front) { return front ? "front" : "back"; }
 
 // Doubles round-trip; one past the range of doubles (its exact text stands beside it) becomes null.
 Json to_json(const MapRegion& region) {
-  return {{"triangle", region.triangle},           {"side", side_name(region.front)},   {"visible", region.visible},
-          {"area_fraction", region.area_fraction}, {"rings_exact", region.rings_exact}, {"rings", region.rings}};
+  Json json = {{"triangle", region.triangle},
+               {"side", side_name(region.front)},
+               {"visible", region.visible},
+               {"rings", region.rings}};
+  if (region.area_fraction.empty()) {
+    json["area_estimate"] = region.area_estimate;
+  } else {
+    json["area_fraction"] = region.area_fraction;
+    json["rings_exact"] = region.rings_exact;
+  }
+  return json;
 }
 
 Json to_json(const MapMesh& mesh) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/mesh.h"
@@ -16,7 +17,9 @@ struct MapRegion {
   std::uint32_t triangle = 0;
   bool front = true;
   bool visible = true;
-  std::string area_fraction;                                         // exact part of the triangle's area, "p/q"
+  std::string
+      area_fraction;  // exact part of the triangle's area, "p/q"; empty when only the estimate is known, and then there are no exact rings
+  double area_estimate = 0;                                          // when there is no fraction
   std::vector<std::vector<std::array<std::string, 3>>> rings_exact;  // outer ring first, then holes
   std::vector<std::vector<Point>> rings;
   std::vector<std::string> render_states;  // "NO_BACKFACE_CULL", "NO_Z_COMPARE", "NO_Z_WRITE", as far as they hold
@@ -78,6 +81,9 @@ std::string to_json_text(const Result& result);
 // Sorted and unique. Throws Error: file errors, malformed (file and line), index_out_of_range when an id is
 // >= triangles.
 std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, std::uint64_t triangles);
+// The same from bytes; `file` is for messages only.
+std::vector<std::uint32_t> parse_pvs_list(std::string_view bytes, const std::string& file, std::uint64_t triangles);
+std::vector<std::uint32_t> parse_result_pvs(std::string_view bytes, const std::string& file, std::uint64_t triangles);
 std::string to_pvs_text(const std::vector<std::uint32_t>& visible);
 
 // Lower-case hex SHA-256 of a file's bytes.

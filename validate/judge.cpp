@@ -1,10 +1,7 @@
 // D19: looks for a confirmed witness wherever the first-order map says "visible", and weighs the PVS with what it found.
 #include "validate/judge.h"
 
-#include <CGAL/intersections.h>
-
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "exact/point_occlusion.h"
@@ -86,13 +83,6 @@ class Judge {
   std::vector<std::vector<Seat>> seats_;  // per input triangle, the sides that count in the mode
 };
 
-double area_estimate(const scene::TriangleMesh& mesh, std::uint32_t triangle) {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  const auto p = exact::to_exact(mesh.points[a]), q = exact::to_exact(mesh.points[b]),
-             r = exact::to_exact(mesh.points[c]);
-  return std::sqrt(CGAL::to_double(CGAL::squared_area(p, q, r)));
-}
-
 }  // namespace
 
 Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::VisibilityMap& map,
@@ -131,8 +121,6 @@ Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::Visibility
                 : in_omega ? TriangleVerdict::missing_undecided
                            : TriangleVerdict::hidden;
     }
-    const double area = listed ? area_estimate(mesh, t) : 0;
-    result.area_listed_estimate += area;
     switch (verdict) {
       case TriangleVerdict::hidden:
         break;
@@ -147,11 +135,9 @@ Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::Visibility
         break;
       case TriangleVerdict::first_order:
         ++result.first_order;
-        result.area_first_order_estimate += area;
         break;
       case TriangleVerdict::loose:
         ++result.loose;
-        result.area_loose_estimate += area;
         break;
     }
     if (options.progress) options.progress(t + 1, total);
@@ -160,6 +146,15 @@ Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::Visibility
                    : result.missing_undecided > 0 ? Verdict::undecided
                                                   : Verdict::sound;
   return result;
+}
+
+std::vector<std::uint32_t> undecided(const Judgement& judgement) {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t t = 0; t < judgement.triangles.size(); ++t) {
+    const TriangleVerdict v = judgement.triangles[t];
+    if (v == TriangleVerdict::first_order || v == TriangleVerdict::missing_undecided) found.push_back(t);
+  }
+  return found;
 }
 
 }  // namespace clues::validate

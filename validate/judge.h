@@ -12,6 +12,7 @@
 #include "exact/kernel.h"
 #include "reference/visibility/first_order.h"
 #include "scene/mesh.h"
+#include "validate/chain.h"
 
 namespace clues::validate {
 
@@ -43,9 +44,8 @@ struct Judgement {
   std::vector<std::uint32_t> meet_cell;    // visible without a witness (D3), ascending
   std::uint64_t missing_visible = 0, missing_undecided = 0;
   std::uint64_t exact = 0, first_order = 0, loose = 0;
-  double area_listed_estimate = 0;       // of all listed triangles
-  double area_first_order_estimate = 0;  // of listed triangles in Omega without a witness
-  double area_loose_estimate = 0;        // of listed triangles outside Omega: certainly too much
+  std::vector<Chain>
+      chains;  // of triangles in Omega without a witness, ascending by triangle; filled in by who wants them (chain_search.h)
   // Hidden by the map, and yet with a confirmed witness: the reference is wrong. Must stay empty.
   std::vector<Witness> contradictions;
 };
@@ -62,5 +62,8 @@ struct JudgeOptions {
 // points_per_region oracle calls per visible region; far fewer where the first sight lines are free.
 Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::VisibilityMap& map,
                     const std::vector<std::uint32_t>& pvs, const JudgeOptions& options = {});
+
+// The triangles in Omega without a witness, ascending.
+std::vector<std::uint32_t> undecided(const Judgement& judgement);
 
 }  // namespace clues::validate

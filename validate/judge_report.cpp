@@ -41,7 +41,41 @@ std::string id_list(const std::vector<std::uint32_t>& ids, std::size_t limit) {
   return text;
 }
 
-double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
+std::string chain_lines(const Chain& chain) {
+  std::string text = fmt::format("  triangle {}, {} side:\n", chain.triangle, chain.front ? "front" : "back");
+  for (std::size_t i = 0; i < chain.links.size(); ++i) {
+    text += fmt::format("    {} from {} to {}\n", i == 0 ? "seen" : "and on", to_string_exact(chain.links[i].v),
+                        to_string_exact(chain.links[i].x));
+  }
+  return text;
+}
+
+json chain_json(const Chain& chain) {
+  json links = json::array();
+  for (const ChainLink& link : chain.links) links.push_back({{"v", point_json(link.v)}, {"x", point_json(link.x)}});
+  return {{"triangle", chain.triangle}, {"side", chain.front ? "front" : "back"}, {"links", links}};
+}
+
+std::string bounds_text(const std::optional<Bounds>& bounds) {
+  if (!bounds) return "-";
+  if (bounds->at_least == bounds->at_most) return fmt::format("{:.4g}", bounds->at_least);
+  return fmt::format("{:.4g} to {:.4g}", bounds->at_least, bounds->at_most);
+}
+
+json bounds_json(const std::optional<Bounds>& bounds) {
+  if (!bounds) return nullptr;
+  return {{"at_least", bounds->at_least}, {"at_most", bounds->at_most}};
+}
+
+json weights_json(const Weights& w) {
+  return {{"visible_listed", w.visible_listed},
+          {"visible_missing", w.visible_missing},
+          {"undecided_listed", w.undecided_listed},
+          {"undecided_missing", w.undecided_missing},
+          {"hidden_listed", w.hidden_listed},
+          {"overestimate_qo", bounds_json(over_estimate(w))},
+          {"underestimate_qu", bounds_json(under_estimate(w))}};
+}
 
 }  // namespace
 
@@ -80,7 +114,7 @@ std::string to_string_exact(const exact::Point3& p) {
                      exact::to_string_exact(p.z()));
 }
 
-std::string to_text(const Judgement& judgement, std::size_t limit) {
+std::string to_text(const Judgement& judgement, const Surroundings& around, std::size_t limit) {
   std::string text = fmt::format("verdict: {}\n", to_string(judgement.verdict));
   const auto missing = with_verdict(judgement, TriangleVerdict::missing_visible);
   if (!missing.empty()) {
@@ -107,10 +141,16 @@ std::string to_text(const Judgement& judgement, std::size_t limit) {
       fmt::format("listed: {} triangles: {} exact, {} first-order (no witness found), {} loose (certainly hidden)\n",
                   judgement.exact + judgement.first_order + judgement.loose, judgement.exact, judgement.first_order,
                   judgement.loose);
-  text += fmt::format(
-      "overestimate: at least {} triangles ({:.2f} % of the listed area), at most {} ({:.2f} %)\n", judgement.loose,
-      percent(judgement.area_loose_estimate, judgement.area_listed_estimate), judgement.loose + judgement.first_order,
-      percent(judgement.area_loose_estimate + judgement.area_first_order_estimate, judgement.area_listed_estimate));
+  const auto undecided_count = judgement.first_order + judgement.missing_undecided;
+  if (undecided_count > 0) {
+    text += fmt::format("first-order visible without a sight line: {}, with a chain that proves it: {}\n",
+                        undecided_count, judgement.chains.size());
+    for (std::size_t i = 0; i < judgement.chains.size() && i < limit; ++i) text += chain_lines(judgement.chains[i]);
+  }
+  text += fmt::format("overestimate Qo = {}, in area {}\n", bounds_text(over_estimate(around.counts)),
+                      bounds_text(over_estimate(around.areas)));
+  text += fmt::format("underestimate Qu = {}, in area {}\n", bounds_text(under_estimate(around.counts)),
+                      bounds_text(under_estimate(around.areas)));
   if (!judgement.contradictions.empty()) {
     text += "CONTRADICTION: the reference map hides what a confirmed sight line sees; please report this:\n";
     for (std::size_t i = 0; i < judgement.contradictions.size() && i < limit; ++i) {
@@ -120,8 +160,12 @@ std::string to_text(const Judgement& judgement, std::size_t limit) {
   return text;
 }
 
-std::string to_json_text(const Judgement& judgement) {
-  json verdicts = json::array(), witnesses = json::array(), contradictions = json::array();
+std::string to_json_text(const Judgement& judgement, const Surroundings& around) {
+  json verdicts = json::array(), witnesses = json::array(), contradictions = json::array(), chains = json::array(),
+       fractions = json::array();
+  for (const Chain& chain : judgement.chains) chains.push_back(chain_json(chain));
+  for (const auto& [front, back] : around.first_order_fractions)
+    fractions.push_back({exact::to_string_exact(front), exact::to_string_exact(back)});
   for (const auto verdict : judgement.triangles) verdicts.push_back(to_string(verdict));
   for (const auto& w : judgement.witnesses) witnesses.push_back(witness_json(w));
   for (const auto& w : judgement.contradictions) contradictions.push_back(witness_json(w));
@@ -133,10 +177,12 @@ std::string to_json_text(const Judgement& judgement) {
                       {"exact", judgement.exact},
                       {"first_order", judgement.first_order},
                       {"loose", judgement.loose}}},
-                    {"area",
-                     {{"listed", judgement.area_listed_estimate},
-                      {"first_order", judgement.area_first_order_estimate},
-                      {"loose", judgement.area_loose_estimate}}},
+                    {"triangles_measured", weights_json(around.counts)},
+                    {"area_measured", weights_json(around.areas)},
+                    {"first_order_fractions", fractions},
+                    {"scene", around.scene},
+                    {"cell", around.cell},
+                    {"chains", chains},
                     {"meet_cell", judgement.meet_cell},
                     {"triangles", verdicts},
                     {"witnesses", witnesses},

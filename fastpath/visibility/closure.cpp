@@ -350,7 +350,8 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
   Closure result;
   do {
     ++closer.counts.passes;
-    result.map = make_map(closer.part_mesh());
+    result.part_mesh = closer.part_mesh();
+    result.map = make_map(result.part_mesh);
     result.part = closer.part();
     result.visible.clear();
     for (const std::uint32_t i : result.map->visible()) result.visible.push_back(result.part[i]);

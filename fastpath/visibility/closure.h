@@ -18,13 +18,9 @@
 
 #include "fastpath/bvh.h"
 #include "fastpath/cell.h"
+#include "fastpath/visibility/box.h"
 
 namespace clues::fastpath {
-
-// A closed axis-aligned box, low <= high.
-struct Box {
-  Point low{}, high{};
-};
 
 // The map of a small scene for a cell, as the closure asks for it. The questions may come from several threads at once.
 class PartialMap {
@@ -58,6 +54,7 @@ struct ClosureCounts {
 struct Closure {
   std::vector<std::uint32_t> part;     // K: ids of the scene, ascending; triangle i of the map is part[i]
   std::vector<std::uint32_t> visible;  // the PVS: ids of the scene, ascending
+  scene::TriangleMesh part_mesh;
   std::shared_ptr<const PartialMap> map;
   ClosureCounts counts;
 };

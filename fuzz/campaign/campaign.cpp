@@ -23,7 +23,8 @@ constexpr std::chrono::milliseconds look_up{200};
 
 std::string plan_of(const CampaignOptions& options, const std::vector<NamedGenerator>& generators,
                     const std::vector<const Oracle*>& oracles, const Subject& subject) {
-  json plan{{"seed", options.seed}, {"first", options.first}, {"subject", subject.name()}};
+  json plan{
+      {"seed", options.seed}, {"first", options.first}, {"subject", subject.name()}, {"scenes", options.given.hashes}};
   for (const auto& g : generators) plan["generators"].push_back(g.name);
   for (const Oracle* o : oracles) plan["oracles"].push_back(o->name());
   return plan.dump();
@@ -34,7 +35,7 @@ class Campaign {
   Campaign(const CampaignOptions& options, const Subject& subject)
       : options_(options),
         subject_(subject),
-        generators_(generators_named(options.generators)),
+        generators_(generators_named(options.generators, options.given)),
         oracles_(oracles_named(options.oracles)),
         store_(made(options.out) / "findings.sqlite", plan_of(options, generators_, oracles_, subject)) {}
 
@@ -148,7 +149,7 @@ class Campaign {
   }
 
   void save(const StoredFinding& stored, const validate::WorkerReply& reply) {
-    SavedFinding saved{stored.finding, stored.finding, subject_.name(), 0};
+    SavedFinding saved{stored.finding, stored.finding, subject_.name(), options_.given.paths, 0};
     if (reply.finished) {
       const json in = json::parse(reply.text);
       saved.finding = finding_from_json_text(in.at("finding").get<std::string>());

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fuzz/campaign/given_files.h"
 #include "fuzz/campaign/shrink.h"
 #include "fuzz/campaign/store.h"
 
@@ -19,8 +20,9 @@ namespace clues::fuzz {
 struct CampaignOptions {
   std::uint64_t seed = 1, first = 0;
   std::vector<std::string> generators, oracles;  // empty: all
-  std::optional<std::uint64_t> cases;            // in all, those of earlier runs included
-  std::optional<std::chrono::seconds> time;      // of this run, before shrinking
+  GivenScenes given;
+  std::optional<std::uint64_t> cases;        // in all, those of earlier runs included
+  std::optional<std::chrono::seconds> time;  // of this run, before shrinking
   int jobs = 1;
   std::uint64_t errors = 0;  // stop at so many different findings; 0: never
   std::filesystem::path out = "fuzz-out";

@@ -22,6 +22,7 @@ namespace {
 reference::VisibilityMap guide_for(const Case& scene) {
   reference::Options options;
   options.threads = 1;
+  if (scene.solid) options.mode = reference::Mode::solid;
   return reference::first_order_visibility(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
 }
 
@@ -49,7 +50,7 @@ bool strictly_inside(const validate::ExactTriangle& t, const Point3& p) {
 }  // namespace
 
 Exam::Exam(const Case& scene, const Subject& subject, Outcome& outcome)
-    : scene_(scene), subject_(subject), outcome_(outcome), answer_(subject.answer(scene.mesh, scene.cell)) {
+    : scene_(scene), subject_(subject), outcome_(outcome), answer_(subject.answer(scene)) {
   if (!answer_.map) guide_ = guide_for(scene);
   for (const auto& p : map().complex.pieces) {
     const auto& points = map().complex.points;
@@ -124,6 +125,7 @@ bool in_hidden_region(const reference::VisibilityMap& map, std::uint32_t triangl
 }
 
 bool Exam::denies(const Witness& w) const {
+  if (scene_.solid && !w.front) return false;
   return !lists(w.triangle) || (answer_.map && in_hidden_region(*answer_.map, w.triangle, w.front, w.p));
 }
 

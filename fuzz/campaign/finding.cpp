@@ -20,6 +20,7 @@ json to_json(const Finding& f) {
            {"cell", f.where.cell},
            {"triangles", f.where.mesh.triangles},
            {"explanation", f.explanation}};
+  if (f.where.solid) out["solid"] = true;
   if (f.triangle) out["triangle"] = *f.triangle;
   if (f.witness) {
     out["witness"] = {
@@ -39,6 +40,7 @@ Finding to_finding(const json& in) {
   in.at("triangles").get_to(f.where.mesh.triangles);
   in.at("cell").get_to(f.where.cell);
   in.at("explanation").get_to(f.explanation);
+  f.where.solid = in.value("solid", false);
   for (const auto& t : f.where.mesh.triangles) {
     f.where.mesh.face_of.push_back(static_cast<std::uint32_t>(f.where.mesh.face_of.size()));
     for (const auto corner : t) {

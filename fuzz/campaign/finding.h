@@ -18,6 +18,7 @@ struct Case {
   std::uint64_t seed = 0, index = 0;
   scene::TriangleMesh mesh;
   std::vector<scene::Point> cell;
+  bool solid = false;  // asked in solid mode (D4): only fronts count
 };
 
 // A sight line that proves triangle `triangle` visible on its front or back side: v in int V, p on the triangle (D5, D6).

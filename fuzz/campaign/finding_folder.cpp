@@ -103,19 +103,23 @@ void save_finding(const SavedFinding& saved, const fs::path& folder) {
              {"generator", f.where.generator},
              {"seed", f.where.seed},
              {"index", f.where.index},
+             {"mode", f.where.solid ? "solid" : "sheet"},
              {"subject", saved.subject},
+             {"scenes", saved.scenes},
              {"shrink_steps", saved.steps},
              {"triangles", f.where.mesh.triangles.size()},
              {"triangles_original", saved.original.where.mesh.triangles.size()}};
   write_case(f, part, about["sha256"]);
   write_case(saved.original, part / "original", about["sha256_original"]);
   scene::write_file_atomically(part / "finding.json", about.dump(2) + "\n");
+  std::string scenes;
+  for (const auto& path : saved.scenes) scenes += " --scenes " + quoted(path);
   scene::write_file_atomically(
       part / "command.txt",
       fmt::format("# verify this finding:\nclues replay {}\n# make the original again:\n"
-                  "clues fuzz --subject {} --seed {} --generator {} --first {} --cases 1{} --out again\n",
+                  "clues fuzz --subject {} --seed {} --generator {} --first {} --cases 1{}{} --out again\n",
                   folder.filename().string(), quoted(saved.subject), f.where.seed, f.where.generator, f.where.index,
-                  f.oracle == "subject" ? "" : " --oracle " + f.oracle));
+                  f.oracle == "subject" ? "" : " --oracle " + f.oracle, scenes));
   fs::remove_all(folder, error);
   fs::rename(part, folder, error);
   if (error) throw Error(ErrorCode::file_unwritable, folder.string() + ": cannot be made: " + error.message());
@@ -134,8 +138,10 @@ SavedFinding load_finding(const fs::path& folder) {
       about.at("generator").get_to(f->where.generator);
       about.at("seed").get_to(f->where.seed);
       about.at("index").get_to(f->where.index);
+      f->where.solid = about.at("mode") == "solid";
     }
     about.at("subject").get_to(saved.subject);
+    about.at("scenes").get_to(saved.scenes);
     about.at("shrink_steps").get_to(saved.steps);
     read_case(saved.finding, folder, about.at("sha256"));
     read_case(saved.original, folder / "original", about.at("sha256_original"));

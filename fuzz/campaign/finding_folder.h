@@ -12,7 +12,8 @@ namespace clues::fuzz {
 struct SavedFinding {
   Finding finding;  // shrunk, or as it was found
   Finding original;
-  std::string subject;  // make_subject() knows it, or it is a test's own
+  std::string subject;              // make_subject() knows it, or it is a test's own
+  std::vector<std::string> scenes;  // --scenes of the campaign
   std::uint64_t steps = 0;
 };
 

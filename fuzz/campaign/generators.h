@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fuzz/campaign/finding.h"
+#include "fuzz/campaign/given_files.h"
 
 namespace clues::fuzz {
 
@@ -16,9 +17,11 @@ struct NamedGenerator {
   std::function<Case(std::uint64_t seed, std::uint64_t index)> make;
 };
 
-const std::vector<NamedGenerator>& all_generators();
+// `given` must outlive them. mesh_pieces makes something only where a mesh is given.
+std::vector<NamedGenerator> all_generators(const GivenScenes& given);
 
-// Those with these names, in the order of all_generators(); all of them when there is no name. Throws scene::Error bad_argument.
-std::vector<NamedGenerator> generators_named(const std::vector<std::string>& names);
+// Those with these names, in the order of all_generators(); without a name all, mesh_pieces only where a mesh is given. NAME:D is a generator with its dial
+// at D, 0 to 7 (fuzz/generators/parts.h): its scene n is scene 8 n + D of NAME. Throws scene::Error bad_argument.
+std::vector<NamedGenerator> generators_named(const std::vector<std::string>& names, const GivenScenes& given);
 
 }  // namespace clues::fuzz

@@ -1,6 +1,6 @@
 // Relations between scenes. A witness of one scene (D6) is carried to a changed scene in which the same triangle must be visible; the subject is asked
-// again there. Only E is monotone, so witnesses are compared, not PVS - but for changes that leave the geometry as it was, where an exact subject
-// must give the same answer.
+// again there. Only E is monotone under such changes, so witnesses are compared, not PVS - but where the geometry stays as it was, an exact subject must
+// give the same answer, and where the cell is cut, it may not see more from a part than from the whole (D21).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include "exact/scene_query.h"
 #include "exact/witness.h"
 #include "fuzz/campaign/oracle.h"
+#include "fuzz/generators/parts.h"
 
 namespace clues::fuzz {
 namespace {
@@ -27,10 +28,11 @@ struct Changed {
   double factor = 1;  // new point = factor * old point + offset
   Point offset{};
   bool same_geometry = false;  // the visible set is the same, and so is Omega
+  bool part_of_cell = false;   // Omega is a part of what it was
 };
 
 Changed unchanged(const Case& scene) {
-  Changed out{scene, {}, 1, {}, false};
+  Changed out{scene, {}, 1, {}, false, false};
   for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) out.heirs.push_back({t});
   return out;
 }
@@ -111,11 +113,56 @@ Changed with_a_larger_cell(const Case& scene, Random& random) {
   return out;
 }
 
+// The cell, cut into pyramids from a point c inside: the hulls of c and all points but one cover it (a ray from c leaves through a facet, and no facet has all
+// points). One of them.
+Changed with_a_part_of_the_cell(const Case& scene, const exact::ConvexCell& cell, Random& random) {
+  Changed out = unchanged(scene);
+  const Point c = exact::to_double_estimate(cell.center());
+  if (scene.cell.size() < 2 || !cell.interior_contains(exact::to_exact(c))) return out;
+  out.scene.cell[static_cast<std::size_t>(random.between(0, static_cast<int>(scene.cell.size()) - 1))] = c;
+  out.part_of_cell = true;
+  return out;
+}
+
+// Source and target swapped: the witness' triangle becomes the cell, and a small triangle around v the target.
+struct Swapped {
+  Case scene;
+  Witness witness;
+};
+Swapped swapped(const Case& scene, const Witness& w) {
+  Swapped out{scene, w};
+  auto& mesh = out.scene.mesh;
+  out.scene.cell.clear();
+  for (const auto c : scene.mesh.triangles[w.triangle]) out.scene.cell.push_back(scene.mesh.points[c]);
+  const Point v = exact::to_double_estimate(w.v), p = exact::to_double_estimate(w.p);
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (std::abs(p[i] - v[i]) > std::abs(p[axis] - v[axis])) axis = i;
+  }
+  const double size = std::abs(p[axis] - v[axis]) / 64;
+  const auto corner = [&](int a, int b) {
+    Point q = v;
+    q[(axis + 1) % 3] += a * size;
+    q[(axis + 2) % 3] += b * size;
+    return q;
+  };
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), {corner(-1, -1), corner(2, -1), corner(-1, 2)});
+  out.witness.triangle = static_cast<std::uint32_t>(mesh.triangles.size());
+  mesh.triangles.push_back({first, first + 1, first + 2});
+  mesh.face_of.push_back(static_cast<std::uint32_t>(mesh.face_of.size()));
+  out.witness.front = p[axis] > v[axis];  // the corners turn counter-clockwise seen from beyond
+  out.witness.v = w.p;
+  out.witness.p = exact::to_exact(v);
+  return out;
+}
+
 class Metamorphic : public Oracle {
  public:
   const char* name() const override { return "metamorphic"; }
   const char* what() const override {
-    return "permuted, split, scaled, moved, with a triangle less or a larger cell: what was seen is still seen";
+    return "permuted, split, scaled, moved, a triangle less, the cell larger or cut, cell and target swapped: what was "
+           "seen is still seen";
   }
 
   std::vector<const char*> needs() const override {
@@ -125,20 +172,27 @@ class Metamorphic : public Oracle {
             "relations: scale",
             "relations: move",
             "relations: remove",
-            "relations: grow the cell"};
+            "relations: grow the cell",
+            "relations: cut the cell",
+            "relations: swap cell and target"};
   }
 
   void examine(Exam& exam) const override {
     Random random = exam.random(name());
     const auto witnesses = some_witnesses(exam, random);
-    const int first = random.between(0, 5);
-    for (const int relation : {first, (first + random.between(1, 5)) % 6}) {
-      if (ask_again(exam, relation, random, witnesses)) return;
-    }
+    // In solid mode the mesh must stay closed.
+    static constexpr int all[] = {permute, split_one, scale, move, grow, cut, remove, swap};
+    static constexpr int closed[] = {permute, scale, move, grow, cut};
+    const int relation = exam.scene().solid ? closed[random.between(0, 4)] : all[random.between(0, 7)];
+    exam.count(std::string("relations: ") + relations[relation]);
+    if (relation != swap) return ask_again(exam, relation, random, witnesses);
+    if (!witnesses.empty()) ask_swapped(exam, any(witnesses, random));
   }
 
  private:
-  static constexpr const char* relations[] = {"permute", "split", "scale", "move", "remove", "grow the cell"};
+  enum Relation { permute, split_one, scale, move, remove, grow, cut, swap };
+  static constexpr const char* relations[] = {"permute", "split",         "scale",        "move",
+                                              "remove",  "grow the cell", "cut the cell", "swap cell and target"};
 
   static std::vector<Witness> some_witnesses(Exam& exam, Random& random) {
     std::vector<Witness> out;
@@ -146,7 +200,9 @@ class Metamorphic : public Oracle {
     for (const auto& r : exam.map().regions) {
       if (!r.visible || out.size() >= 6 || random.one_in(3)) continue;
       const auto& plane = exam.map().complex.planes[r.piece];
-      const Point3& v = exam.cell().center();
+      std::vector<int> weights;
+      for (std::size_t k = 0; k < exam.cell().vertices().size(); ++k) weights.push_back(random.between(1, 16));
+      const Point3 v = exam.cell().interior_point(weights);
       if (plane.oriented_side(v) != (r.front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE)) continue;
       if (!query.is_free(v, r.sample)) continue;
       const auto& o = exam.map().complex.pieces[r.piece].origins.front();
@@ -157,36 +213,66 @@ class Metamorphic : public Oracle {
     return out;
   }
 
-  static Changed change(const Case& scene, int relation, Random& random) {
+  static Changed change(const Exam& exam, int relation, Random& random) {
+    const Case& scene = exam.scene();
     switch (relation) {
-      case 0:
+      case permute:
         return permuted(scene, random);
-      case 1:
+      case split_one:
         return split(scene, random);
-      case 2:
+      case scale:
         return moved(scene, std::ldexp(1, random.between(-40, 40)), {});
-      case 3:
+      case move:
         return moved(scene, 1,
                      {random.between(-64, 64) / 16.0, random.between(-64, 64) / 16.0, random.between(-64, 64) / 16.0});
-      case 4:
+      case remove:
         return without_a_triangle(scene, random);
-      default:
+      case grow:
         return with_a_larger_cell(scene, random);
+      default:
+        return with_a_part_of_the_cell(scene, exam.cell(), random);
     }
   }
 
-  // True when it found something.
-  bool ask_again(Exam& exam, int relation, Random& random, const std::vector<Witness>& witnesses) const {
-    const Changed changed = change(exam.scene(), relation, random);
-    exam.count(std::string("relations: ") + relations[relation]);
-    Answer answer;
+  static std::optional<Answer> answer_to(Exam& exam, const Case& scene) {
     try {
-      answer = exam.subject().answer(changed.scene.mesh, changed.scene.cell);
+      return exam.subject().answer(scene);
     } catch (const NoAnswer& error) {
-      exam.file(without_answer(changed.scene, error.what()));
-      return true;
+      exam.file(without_answer(scene, error.what()));
+      return std::nullopt;
     }
-    const auto lists = [&](std::uint32_t t) { return std::binary_search(answer.pvs.begin(), answer.pvs.end(), t); };
+  }
+
+  // A carried witness that the answer denies. Of the parts of a triangle at most one has p; a triangle that the cell touches needs no witness.
+  bool denied(Exam& exam, const Case& scene, const exact::ConvexCell& cell, const Answer& answer, const Witness& w,
+              const char* relation) const {
+    const bool listed = std::binary_search(answer.pvs.begin(), answer.pvs.end(), w.triangle);
+    if (listed && !(answer.map && in_hidden_region(*answer.map, w.triangle, w.front, w.p))) return false;
+    if (scene.solid && !w.front) return false;
+    if (!exact::check_witness(scene.mesh, cell, w.triangle, w.front, w.v, w.p).valid) return false;
+    Finding f;
+    f.oracle = name();
+    f.verdict = listed ? "hidden-region/visible" : "hidden/visible";
+    f.where = scene;
+    f.triangle = w.triangle;
+    f.witness = to_text(w);
+    f.explanation = fmt::format("after the change '{}' a triangle that was seen is called hidden", relation);
+    exam.file(std::move(f));
+    return true;
+  }
+
+  void ask_swapped(Exam& exam, const Witness& witness) const {
+    const Swapped changed = swapped(exam.scene(), witness);
+    const auto answer = answer_to(exam, changed.scene);
+    if (!answer) return;
+    const auto cell = exact::ConvexCell::from_doubles(changed.scene.cell);
+    denied(exam, changed.scene, cell, *answer, changed.witness, relations[swap]);
+  }
+
+  void ask_again(Exam& exam, int relation, Random& random, const std::vector<Witness>& witnesses) const {
+    const Changed changed = change(exam, relation, random);
+    const auto answer = answer_to(exam, changed.scene);
+    if (!answer) return;
     const auto cell = exact::ConvexCell::from_doubles(changed.scene.cell);
     for (const Witness& w : witnesses) {
       const auto carry = [&](const Point3& p) {
@@ -194,36 +280,23 @@ class Metamorphic : public Oracle {
                       changed.factor * p.z() + changed.offset[2]);
       };
       for (const std::uint32_t heir : changed.heirs[w.triangle]) {
-        const Witness carried{heir, w.front, carry(w.v), carry(w.p)};
-        const bool denied =
-            !lists(heir) || (answer.map && in_hidden_region(*answer.map, heir, carried.front, carried.p));
-        if (!denied) continue;
-        // Of the parts of a triangle at most one has p; a triangle that the larger cell touches needs no witness.
-        if (!exact::check_witness(changed.scene.mesh, cell, heir, carried.front, carried.v, carried.p).valid) continue;
-        Finding f;
-        f.oracle = name();
-        f.verdict = lists(heir) ? "hidden-region/visible" : "hidden/visible";
-        f.where = changed.scene;
-        f.triangle = heir;
-        f.witness = to_text(carried);
-        f.explanation =
-            fmt::format("after the change '{}' a triangle that was seen is called hidden", relations[relation]);
-        exam.file(std::move(f));
-        return true;
+        if (denied(exam, changed.scene, cell, *answer, {heir, w.front, carry(w.v), carry(w.p)}, relations[relation]))
+          return;
       }
     }
-    if (!changed.same_geometry || !answer.map) return false;
+    if (!answer->map || answer->map->statistics.conservative_fallbacks > 0) return;
     for (std::uint32_t t = 0; t < changed.heirs.size(); ++t) {
-      if (exam.lists(t) == lists(changed.heirs[t].front())) continue;
+      if (changed.heirs[t].empty()) continue;
+      const bool before = exam.lists(t),
+                 after = std::binary_search(answer->pvs.begin(), answer->pvs.end(), changed.heirs[t].front());
+      if (!(changed.same_geometry ? before != after : changed.part_of_cell && after && !before)) continue;
       Finding f;
       f.oracle = name();
       f.verdict = "answer/other-answer";
       f.where = exam.scene();
       f.explanation = fmt::format("the change '{}' changes the answer about triangle {}", relations[relation], t);
-      exam.file(std::move(f));
-      return true;
+      return exam.file(std::move(f));
     }
-    return false;
   }
 };
 

@@ -92,6 +92,7 @@ class ExactVisibleSet : public Oracle {
     exam.count("scenes decided completely");
     validate::VisibleSetOptions options;
     options.trust_map = false;
+    if (exam.scene().solid) options.mode = reference::Mode::solid;
     const auto set = validate::exact_visible_set(exam.scene().mesh, exam.cell(), options);
     for (const auto& t : set.triangles) {
       if (t.witness && exam.claim(name(), *t.witness, "the exact visible set has a triangle that is not listed"))
@@ -148,6 +149,9 @@ Outcome judge_case(const Case& scene, const Subject& subject, const std::vector<
   try {
     Exam exam(scene, subject, outcome);
     for (const Oracle* oracle : oracles) oracle->examine(exam);
+  } catch (const InputRefused& error) {  // made for a mode, and not fit for it
+    outcome.contradictions.push_back(
+        fmt::format("{} {} of seed {}: {}", scene.generator, scene.index, scene.seed, error.what()));
   } catch (const NoAnswer& error) {
     outcome.findings.push_back(without_answer(scene, error.what()));
   } catch (const scene::Error& error) {  // of an oracle, or of the reference as a guide

@@ -23,6 +23,7 @@ const Oracle* oracle_of(const Finding& f) {
 
 // The verdict that the subject's answer earns with this witness; empty when it is no witness or nothing is denied.
 std::string verdict_of(const Case& scene, const Answer& answer, const Witness& w) {
+  if (scene.solid && !w.front) return {};
   const bool listed = std::binary_search(answer.pvs.begin(), answer.pvs.end(), w.triangle);
   if (listed && !(answer.map && in_hidden_region(*answer.map, w.triangle, w.front, w.p))) return {};
   const auto cell = exact::ConvexCell::from_doubles(scene.cell);
@@ -71,7 +72,7 @@ std::optional<Finding> again(const Finding& f, const Case& candidate, const Subj
       return std::nullopt;
     }
     if (f.witness) {
-      if (auto found = by_witness(f, candidate, subject.answer(candidate.mesh, candidate.cell))) return found;
+      if (auto found = by_witness(f, candidate, subject.answer(candidate))) return found;
     }
     // A witness that came from another scene is looked for with the lines and points of this one.
     std::vector<const Oracle*> ask;
@@ -243,7 +244,7 @@ std::string flaw_of(const Finding& f, const Subject& subject) {
   if (!checked.valid) return "the witness is no proof: " + checked.reason;
   Answer answer;
   try {
-    answer = subject.answer(f.where.mesh, f.where.cell);
+    answer = subject.answer(f.where);
   } catch (const NoAnswer& error) {
     return std::string("the subject gives no answer: ") + error.what();
   }

@@ -9,6 +9,7 @@
 #include "exact/scene_query.h"
 #include "fastpath/segment_queries.h"
 #include "fuzz/campaign/oracle.h"
+#include "fuzz/generators/parts.h"
 
 namespace clues::fuzz {
 namespace {
@@ -30,22 +31,27 @@ class Shooter {
       const Point v = mix(exam_.scene().cell);
       if (exam_.cell().interior_contains(exact::to_exact(v))) viewpoints_.push_back(v);
     }
+    // Extremal lines leave the cell near its corners.
+    const Point c = exact::to_double_estimate(exam_.cell().center());
+    for (int tries = 0; tries < 24 && near_corners_.size() < 8; ++tries) {
+      Point v = any(exam_.scene().cell);
+      const double t = std::ldexp(1, -random_.between(1, 20));
+      for (std::size_t i = 0; i < 3; ++i) v[i] += t * (c[i] - v[i]);
+      if (exam_.cell().interior_contains(exact::to_exact(v))) near_corners_.push_back(v);
+    }
   }
 
   void shoot() {
     if (!viewpoints_.empty()) {
-      for (int i = 0; i < 96; ++i) shoot_at("random", mix(exam_.scene().mesh.points));
-      for (int i = 0; i < 64; ++i) shoot_at("through vertices", off_by_a_little(any(exam_.scene().mesh.points)));
-      for (int i = 0; i < 96; ++i) shoot_at("beside edges", off_by_a_little(on_an_edge()));
-      const auto& segments = exam_.map().segments;
-      std::vector<const reference::DmSegment*> borders;
-      for (const auto& s : segments) {
-        if (s.boundary) borders.push_back(&s);
-      }
+      for (int i = 0; i < 96; ++i) shoot_at("random", mix(exam_.scene().mesh.points), viewpoints_);
+      for (int i = 0; i < 64; ++i)
+        shoot_at("through vertices", off_by_a_little(any(exam_.scene().mesh.points)), viewpoints_);
+      for (int i = 0; i < 96; ++i) shoot_at("beside edges", off_by_a_little(on_an_edge()), viewpoints_);
+      const auto borders = borders_of_what_is_denied();
       for (int i = 0; i < 96 && !borders.empty(); ++i) {
-        const auto* s = any(borders);
-        const FT t(random_.between(0, 16) / 16.0);
-        shoot_at("toward borders", off_by_a_little(exact::to_double_estimate(s->a + t * (s->b - s->a))));
+        const auto& [a, b] = any(borders);
+        shoot_at("toward borders", off_by_a_little(between(a, b, random_.between(0, 16) / 16.0)),
+                 random_.one_in(2) ? near_corners_ : viewpoints_);
       }
     }
     at_denied_points();
@@ -59,7 +65,26 @@ class Shooter {
  private:
   template <class T>
   const T& any(const std::vector<T>& from) {
-    return from[static_cast<std::size_t>(random_.between(0, static_cast<int>(from.size()) - 1))];
+    return fuzz::any(from, random_);
+  }
+
+  // Where labels change on surfaces, and the outlines of triangles that the answer lacks: what is wrong about an answer is wrong there first.
+  std::vector<std::array<Point, 2>> borders_of_what_is_denied() const {
+    std::vector<std::array<Point, 2>> out;
+    for (const auto& s : exam_.map().segments) {
+      if (s.boundary) out.push_back({exact::to_double_estimate(s.a), exact::to_double_estimate(s.b)});
+    }
+    const auto& mesh = exam_.scene().mesh;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (exam_.lists(t)) continue;
+      for (std::size_t i = 0; i < 3; ++i)
+        out.push_back({mesh.points[mesh.triangles[t][i]], mesh.points[mesh.triangles[t][(i + 1) % 3]]});
+    }
+    return out;
+  }
+
+  static Point between(const Point& a, const Point& b, double t) {
+    return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
   }
 
   Point mix(const std::vector<Point>& points) {
@@ -79,8 +104,7 @@ class Shooter {
     const scene::Triangle& t = any(mesh.triangles);
     const auto i = static_cast<std::size_t>(random_.between(0, 2));
     const Point &a = mesh.points[t[i]], &b = mesh.points[t[(i + 1) % 3]];
-    const double s = random_.between(0, 64) / 64.0;
-    return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
+    return between(a, b, random_.between(0, 64) / 64.0);
   }
 
   // Nothing, an ulp, or 2^-10 to 2^-40 in some coordinates.
@@ -94,8 +118,9 @@ class Shooter {
   }
 
   // From the cell past q; what it hits is visible.
-  void shoot_at(const char* aim, const Point& q) {
-    const Point& v = any(viewpoints_);
+  void shoot_at(const char* aim, const Point& q, const std::vector<Point>& from_where) {
+    if (from_where.empty()) return;
+    const Point& v = any(from_where);
     Point end;
     for (std::size_t i = 0; i < 3; ++i) end[i] = v[i] + 4 * (q[i] - v[i]);
     exam_.count(std::string("sight lines ") + aim);
@@ -148,7 +173,7 @@ class Shooter {
   fastpath::Bvh bvh_;
   fastpath::Cell cell_;
   fastpath::SegmentQueries queries_;
-  std::vector<Point> viewpoints_;  // in int V
+  std::vector<Point> viewpoints_, near_corners_;  // in int V
   bool found_region_ = false, found_triangle_ = false;
 };
 

@@ -27,6 +27,11 @@ const std::map<std::string, PlantedBug> planted_bugs{{"wrong_wedge_side", Plante
                                                      {"no_rule_3", PlantedBug::no_rule_3},
                                                      {"rounded_comparison", PlantedBug::rounded_comparison}};
 
+[[noreturn]] void throw_no_answer(const Error& error) {
+  if (error.code() == ErrorCode::not_solid) throw InputRefused(error.what());
+  throw NoAnswer(error.what());
+}
+
 class ReferenceSubject : public Subject {
  public:
   ReferenceSubject(std::string name, PlantedBug bug) : name_(std::move(name)) {
@@ -34,12 +39,14 @@ class ReferenceSubject : public Subject {
     options_.planted_bug = bug;
   }
 
-  Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) const override {
+  Answer answer(const Case& scene) const override {
+    reference::Options options = options_;
+    if (scene.solid) options.mode = reference::Mode::solid;
     Answer out;
     try {
-      out.map = reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(cell), options_);
+      out.map = reference::first_order_visibility(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
     } catch (const Error& error) {
-      throw NoAnswer(error.what());
+      throw_no_answer(error);
     }
     out.pvs = out.map->visible;
     return out;
@@ -49,6 +56,25 @@ class ReferenceSubject : public Subject {
  private:
   std::string name_;
   reference::Options options_;
+};
+
+class FunctionSubject : public Subject {
+ public:
+  FunctionSubject(std::string name, std::function<std::vector<std::uint32_t>(const Case&)> pvs)
+      : name_(std::move(name)), pvs_(std::move(pvs)) {}
+
+  Answer answer(const Case& scene) const override {
+    try {
+      return {pvs_(scene), std::nullopt};
+    } catch (const Error& error) {
+      throw_no_answer(error);
+    }
+  }
+  std::string name() const override { return name_; }
+
+ private:
+  std::string name_;
+  std::function<std::vector<std::uint32_t>(const Case&)> pvs_;
 };
 
 class CommandSubject : public Subject {
@@ -61,23 +87,24 @@ class CommandSubject : public Subject {
     if (!placed) words_.insert(words_.end(), {"{scene}", "{cell}", "{pvs}"});
   }
 
-  Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) const override {
+  Answer answer(const Case& scene) const override {
     const scene::TemporaryFolder folder;
     const std::string pvs = folder.file("pvs.txt");
-    scene::write_file_atomically(folder.file("scene.off"), scene::to_off_text(mesh));
-    scene::write_file_atomically(folder.file("cell.obj"), points_as_obj(cell));
+    scene::write_file_atomically(folder.file("scene.off"), scene::to_off_text(scene.mesh));
+    scene::write_file_atomically(folder.file("cell.obj"), points_as_obj(scene.cell));
     std::vector<std::string> words = words_;
     for (std::string& word : words) {
       replace(word, "{scene}", folder.file("scene.off"));
       replace(word, "{cell}", folder.file("cell.obj"));
       replace(word, "{pvs}", pvs);
+      replace(word, "{mode}", scene.solid ? "solid" : "sheet");
     }
     validate::ChildProcess child(words, 0);
     const auto end = child.finish(validate::ChildProcess::Clock::now() + time_limit);
     if (end.killed_here) throw NoAnswer(fmt::format("no answer within {} s", time_limit.count()));
     if (end.exit_code != 0) throw NoAnswer(validate::describe(end) + ": " + child.stderr_tail());
     try {
-      return {scene::read_pvs(pvs, mesh.triangles.size()), std::nullopt};
+      return {scene::read_pvs(pvs, scene.mesh.triangles.size()), std::nullopt};
     } catch (const Error& error) {
       throw NoAnswer(error.what());
     }
@@ -97,6 +124,10 @@ class CommandSubject : public Subject {
 };
 
 }  // namespace
+
+std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<std::uint32_t>(const Case&)> pvs) {
+  return std::make_unique<FunctionSubject>(std::move(name), std::move(pvs));
+}
 
 std::unique_ptr<Subject> make_subject(const std::string& text) {
   if (text == "reference") return std::make_unique<ReferenceSubject>(text, PlantedBug::none);

@@ -2,15 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "exact/convex_cell.h"
+#include "fuzz/campaign/finding.h"
 #include "reference/visibility/first_order.h"
-#include "scene/mesh.h"
 
 namespace clues::fuzz {
 
@@ -25,16 +25,25 @@ class NoAnswer : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The subject does not take such scenes: no mesh for solid mode, for instance.
+class InputRefused : public NoAnswer {
+ public:
+  using NoAnswer::NoAnswer;
+};
+
 class Subject {
  public:
   virtual ~Subject() = default;
-  virtual Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) const = 0;
-  virtual std::string name() const = 0;  // make_subject(name()) is the same subject
+  virtual Answer answer(const Case& scene) const = 0;  // throws NoAnswer
+  virtual std::string name() const = 0;                // make_subject(name()) is the same subject
 };
 
 // "reference": the exact reference. "reference:BUG": with a planted bug, for the tests. Anything else is a command line (words and quotes as in
-// a shell), in which {scene}, {cell} and {pvs} stand for an OFF file, an OBJ file of the cell's points and the file that it has to write;
-// without any of these words, the three are appended. Throws scene::Error bad_argument.
+// a shell), in which {scene}, {cell} and {pvs} stand for an OFF file, an OBJ file of the cell's points and the file that it has to write, {mode} for
+// sheet or solid; without any of these words, the first three are appended. Throws scene::Error bad_argument.
 std::unique_ptr<Subject> make_subject(const std::string& text);
+
+// A function of this process that returns a PVS, ascending. It may throw scene::Error: then it gave no answer.
+std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<std::uint32_t>(const Case&)> pvs);
 
 }  // namespace clues::fuzz

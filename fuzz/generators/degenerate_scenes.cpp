@@ -4,66 +4,12 @@
 #include <cmath>
 
 #include "fuzz/generators/grid_mesh.h"
-#include "fuzz/generators/random.h"
+#include "fuzz/generators/parts.h"
 
 namespace clues::fuzz {
 namespace {
 
 using scene::Point;
-
-Random random_of(std::uint64_t seed, std::uint64_t index, std::uint64_t salt) {
-  return Random(Random(Random(seed ^ (salt << 32)).next() ^ index).next());
-}
-
-Point& any(std::vector<Point>& points, Random& random) {
-  return points[static_cast<std::size_t>(random.between(0, static_cast<int>(points.size()) - 1))];
-}
-
-// One of the random scenes of at most 30 triangles, to be spoilt.
-GeneratedScene base_scene(Random& random) {
-  while (true) {
-    const auto kind = all_kinds[static_cast<std::size_t>(random.between(0, static_cast<int>(all_kinds.size()) - 1))];
-    GeneratedScene scene = generate(kind, random.next(), 0);
-    if (scene.mesh.triangles.size() <= 30) return scene;
-  }
-}
-
-void add(scene::TriangleMesh& mesh, const Point& a, const Point& b, const Point& c) {
-  const auto first = static_cast<std::uint32_t>(mesh.points.size());
-  mesh.points.insert(mesh.points.end(), {a, b, c});
-  mesh.face_of.push_back(static_cast<std::uint32_t>(mesh.face_of.size()));
-  mesh.triangles.push_back({first, first + 1, first + 2});
-}
-
-void add_quad(scene::TriangleMesh& mesh, const Point& a, const Point& b, const Point& c, const Point& d) {
-  add(mesh, a, b, c);
-  add(mesh, a, c, d);
-}
-
-std::vector<Point> box_of(const Point& lo, const Point& hi) {
-  std::vector<Point> corners;
-  for (unsigned i = 0; i < 8; ++i)
-    corners.push_back({i & 1 ? hi[0] : lo[0], i & 2 ? hi[1] : lo[1], i & 4 ? hi[2] : lo[2]});
-  return corners;
-}
-
-double off(Random& random, double x) {  // itself, an ulp away, or 2^-20 to 2^-40 away
-  switch (random.between(0, 4)) {
-    case 0:
-      return std::nextafter(x, -1e300);
-    case 1:
-      return std::nextafter(x, 1e300);
-    case 2:
-      return x + std::ldexp(random.one_in(2) ? 1 : -1, -random.between(20, 40));
-    default:
-      return x;
-  }
-}
-
-// A wall far behind, so that shadows fall on something.
-void add_receiver(scene::TriangleMesh& mesh, double x) {
-  add_quad(mesh, {x, -2, -2}, {x, -2, 10}, {x, 10, 10}, {x, 10, -2});
-}
 
 GeneratedScene slivers(std::uint64_t seed, std::uint64_t index) {
   Random random = random_of(seed, index, 1);
@@ -71,7 +17,8 @@ GeneratedScene slivers(std::uint64_t seed, std::uint64_t index) {
   for (int n = random.between(2, 6); n > 0; --n) {
     const Point a = any(scene.mesh.points, random), b = any(scene.mesh.points, random);
     Point c;
-    for (std::size_t i = 0; i < 3; ++i) c[i] = off(random, a[i] / 2 + b[i] / 2);  // now and then without area
+    for (std::size_t i = 0; i < 3; ++i)
+      c[i] = off(random, a[i] / 2 + b[i] / 2, dial_of(index));  // now and then without area
     add(scene.mesh, a, b, c);
   }
   return scene;
@@ -80,7 +27,7 @@ GeneratedScene slivers(std::uint64_t seed, std::uint64_t index) {
 GeneratedScene duplicates(std::uint64_t seed, std::uint64_t index) {
   Random random = random_of(seed, index, 2);
   GeneratedScene scene = base_scene(random);
-  for (int n = random.between(1, 6); n > 0; --n) {
+  for (int n = 1 + dial_of(index); n > 0; --n) {
     scene::Triangle t =
         scene.mesh
             .triangles[static_cast<std::size_t>(random.between(0, static_cast<int>(scene.mesh.triangles.size()) - 1))];
@@ -94,7 +41,7 @@ GeneratedScene duplicates(std::uint64_t seed, std::uint64_t index) {
 GeneratedScene ulp_perturbed(std::uint64_t seed, std::uint64_t index) {
   Random random = random_of(seed, index, 3);
   GeneratedScene scene = base_scene(random);
-  for (int n = random.between(1, 8); n > 0; --n) {
+  for (int n = 1 + dial_of(index); n > 0; --n) {
     double& x =
         any(random.one_in(4) ? scene.cell : scene.mesh.points, random)[static_cast<std::size_t>(random.between(0, 2))];
     x = std::nextafter(x, random.one_in(2) ? 1e300 : -1e300);
@@ -105,7 +52,7 @@ GeneratedScene ulp_perturbed(std::uint64_t seed, std::uint64_t index) {
 GeneratedScene scaled_and_moved(std::uint64_t seed, std::uint64_t index) {
   Random random = random_of(seed, index, 4);
   GeneratedScene scene = base_scene(random);
-  const double factor = std::ldexp(1, random.between(-80, 80));
+  const double factor = std::ldexp(1, random.between(-10, 10) * (1 + dial_of(index)));
   Point offset;  // in units of the scene; far away coordinates lose their last bits, and the scene is what is left
   for (double& x : offset) x = random.one_in(2) ? 0 : std::ldexp(random.between(-9, 9), random.between(0, 44));
   for (auto* points : {&scene.mesh.points, &scene.cell}) {
@@ -119,7 +66,7 @@ GeneratedScene scaled_and_moved(std::uint64_t seed, std::uint64_t index) {
 GeneratedScene cyclic_overlap(std::uint64_t seed, std::uint64_t index) {
   Random random = random_of(seed, index, 5);
   GeneratedScene scene;
-  const int n = random.between(3, 8);
+  const int n = 3 + dial_of(index) % 6;
   // Corners of a polygon around (4, 4), in sixteenths; bar i reaches from corner i, in front, past corner i + 1, behind.
   std::vector<std::array<double, 2>> corners;
   for (int i = 0; i < n; ++i) {
@@ -145,12 +92,12 @@ GeneratedScene cyclic_overlap(std::uint64_t seed, std::uint64_t index) {
 GeneratedScene nearly_closed(std::uint64_t seed, std::uint64_t index) {
   Random random = random_of(seed, index, 6);
   GeneratedScene scene;
-  const int columns = random.between(2, 3), rows = random.between(1, 3);
+  const int dial = dial_of(index), columns = random.between(2, 3), rows = random.between(1, 3);
   for (int i = 0; i < columns; ++i) {
     for (int j = 0; j < rows; ++j) {
-      const double x = random.one_in(2) ? 2 : off(random, 2 + random.between(0, 2) / 4.0);
-      const double y0 = off(random, 8.0 * i / columns), y1 = off(random, 8.0 * (i + 1) / columns);
-      const double z0 = off(random, 8.0 * j / rows), z1 = off(random, 8.0 * (j + 1) / rows);
+      const double x = random.one_in(2) ? 2 : off(random, 2 + random.between(0, 2) / 4.0, dial);
+      const double y0 = off(random, 8.0 * i / columns, dial), y1 = off(random, 8.0 * (i + 1) / columns, dial);
+      const double z0 = off(random, 8.0 * j / rows, dial), z1 = off(random, 8.0 * (j + 1) / rows, dial);
       add_quad(scene.mesh, {x, y0, z0}, {x, y0, z1}, {x, y1, z1}, {x, y1, z0});
     }
   }
@@ -163,14 +110,14 @@ GeneratedScene nearly_closed(std::uint64_t seed, std::uint64_t index) {
 GeneratedScene t_junctions(std::uint64_t seed, std::uint64_t index) {
   Random random = random_of(seed, index, 7);
   GeneratedScene scene;
-  const bool crack = random.one_in(2);
+  const int dial = dial_of(index);
   for (int column = 0; column < 3; ++column) {
     const int rows = random.between(1, 4);
     const double bend = random.between(-8, 8) / 16.0;  // columns fold along their common lines
     for (int row = 0; row < rows; ++row) {
       if (random.one_in(6)) continue;
       const double z0 = 8.0 * row / rows, z1 = 8.0 * (row + 1) / rows, y0 = 2.5 * column, y1 = 2.5 * (column + 1);
-      const auto x = [&](double at) { return crack ? off(random, at) : at; };
+      const auto x = [&](double at) { return off(random, at, dial); };
       add_quad(scene.mesh, {x(2), y0, z0}, {x(2), y0, z1}, {x(column == 2 ? 2 + bend : 2), y1, z1},
                {x(column == 2 ? 2 + bend : 2), y1, z0});
     }
@@ -186,7 +133,7 @@ GeneratedScene coplanar_walls(std::uint64_t seed, std::uint64_t index) {
   Random random = random_of(seed, index, 8);
   GeneratedScene scene;
   GridMesh mesh(1);
-  for (int n = random.between(3, 9); n > 0; --n) {
+  for (int n = 2 + dial_of(index); n > 0; --n) {
     const auto axis = static_cast<std::size_t>(random.between(0, 2));
     GridPoint a;
     a[axis] = random.between(1, 3);
@@ -217,7 +164,7 @@ GeneratedScene touching_cells(std::uint64_t seed, std::uint64_t index) {
   Random random = random_of(seed, index, 9);
   GeneratedScene scene = base_scene(random);
   const Point q = any(scene.mesh.points, random);
-  const int shared = random.between(0, 3);  // coordinates in which q is on the border
+  const int shared = dial_of(index) % 4;  // coordinates in which q is on the border
   Point lo, hi;
   for (std::size_t i = 0; i < 3; ++i) {
     lo[i] = q[i] - random.between(1, 40) / 16.0;
@@ -241,15 +188,19 @@ GeneratedScene flat_cells(std::uint64_t seed, std::uint64_t index) {
 
 const std::vector<DegenerateGenerator>& degenerate_generators() {
   static const std::vector<DegenerateGenerator> all{
-      {"slivers", "triangles of next to no width between vertices of another scene; some without area", slivers},
-      {"duplicates", "triangles twice, also turned over", duplicates},
-      {"ulp_perturbed", "an exactly degenerate scene with a few coordinates one ulp off", ulp_perturbed},
-      {"scaled_and_moved", "scales from 2^-80 to 2^80, offsets up to 2^47 scene units", scaled_and_moved},
-      {"cyclic_overlap", "3 to 8 bars, each in front of the next", cyclic_overlap},
-      {"nearly_closed", "panels that meet, overlap or gape by one ulp to 2^-20", nearly_closed},
-      {"t_junctions", "walls whose columns are cut differently, with cracks of an ulp", t_junctions},
-      {"coplanar_walls", "grid-aligned rectangles in common planes, the cell's faces among them", coplanar_walls},
-      {"touching_cells", "cells that touch a vertex or have geometry inside", touching_cells},
+      {"slivers",
+       "triangles of next to no width (dial: none, an ulp, 2^-40 to 2^-10) between vertices of another scene", slivers},
+      {"duplicates", "1 to 8 triangles (dial) twice, also turned over", duplicates},
+      {"ulp_perturbed", "an exactly degenerate scene with 1 to 8 coordinates (dial) one ulp off", ulp_perturbed},
+      {"scaled_and_moved", "scales from 2^-80 to 2^80 (dial), offsets up to 2^47 scene units", scaled_and_moved},
+      {"cyclic_overlap", "3 to 8 bars (dial), each in front of the next", cyclic_overlap},
+      {"nearly_closed", "panels that meet (dial 0), or overlap and gape by one ulp (1) or 2^-40 to 2^-10",
+       nearly_closed},
+      {"t_junctions", "walls whose columns are cut differently, with cracks of nothing, an ulp, 2^-40 to 2^-10 (dial)",
+       t_junctions},
+      {"coplanar_walls", "2 to 9 grid-aligned rectangles (dial) in common planes, the cell's faces among them",
+       coplanar_walls},
+      {"touching_cells", "cells with a vertex inside, on a face, an edge or a corner (dial modulo 4)", touching_cells},
       {"flat_cells", "points, segments and polygons as cells", flat_cells}};
   return all;
 }

@@ -15,7 +15,8 @@ struct DegenerateGenerator {
   GeneratedScene (*make)(std::uint64_t seed, std::uint64_t index);
 };
 
-// Each a pure function of seed and index: at most 80 triangles, finite coordinates. Triangles without area occur where `what` says so.
+// Each a pure function of seed and index: at most 80 triangles, finite coordinates; only slivers have triangles without area. The strength of the
+// degeneracy, where there is a dial, is dial_of(index).
 const std::vector<DegenerateGenerator>& degenerate_generators();
 
 }  // namespace clues::fuzz

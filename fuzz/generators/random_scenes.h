@@ -22,6 +22,7 @@ struct GeneratedScene {
   std::string name;  // "<kind>-<seed>-<index>"
   scene::TriangleMesh mesh;
   std::vector<scene::Point> cell;
+  bool solid = false;  // meant for solid mode (D4)
 };
 
 // A pure function of its arguments: 4 to 60 non-degenerate triangles with coordinates in multiples of 1/16, |x| <= 32, and

@@ -78,4 +78,12 @@ std::vector<AnticoneFacet> anticone_facets(const Point3& x, const exact::ConvexC
   return facets;
 }
 
+bool may_reach(const Point3& x, const exact::ConvexCell& cell, const std::vector<Point3>& corners) {
+  const std::vector<AnticoneFacet> facets = anticone_facets(x, cell);
+  return std::none_of(facets.begin(), facets.end(), [&](const AnticoneFacet& f) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Point3& q) { return f.plane.oriented_side(q) == CGAL::ON_NEGATIVE_SIDE; });
+  });
+}
+
 }  // namespace clues::reference

@@ -21,4 +21,7 @@ struct AnticoneFacet {
 // a flat V, or V is a point. O(cell edges * cell vertices).
 std::vector<AnticoneFacet> anticone_facets(const exact::Point3& x, const exact::ConvexCell& cell);
 
+// Whether the anti-cone of x may reach a convex figure with these corners: false only if a facet's plane keeps it out.
+bool may_reach(const exact::Point3& x, const exact::ConvexCell& cell, const std::vector<exact::Point3>& corners);
+
 }  // namespace clues::reference

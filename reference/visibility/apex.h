@@ -57,6 +57,7 @@ class Apex {
   // The sectors that exist by the probes so far and were not given before in this round.
   std::vector<std::size_t> new_sectors();
   void start_round();
+  bool probed() const { return !probes_.empty(); }  // in this round
 
   int generation = 0;  // of its wedges; at a CSV: -1 until one is found in this round
 

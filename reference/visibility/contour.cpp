@@ -58,6 +58,7 @@ std::vector<ContourEdge> contour_edges(const exact::Complex& complex, const exac
   std::vector<ContourEdge> contour;
   for (std::uint32_t e = 0; e < complex.edges.size(); ++e) {
     const exact::Edge& edge = complex.edges[e];
+    if (edge.pieces.empty()) continue;  // of a part of a complex
     const Point3 &a = complex.points[edge.a], &b = complex.points[edge.b];
     for (SupportingPlane& support : supporting_planes(a, b, cell)) {
       const Vector3 n = support.plane.orthogonal_vector();

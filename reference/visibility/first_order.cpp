@@ -12,47 +12,64 @@
 #include "reference/visibility/omega.h"
 #include "reference/visibility/regions.h"
 #include "reference/visibility/render_states.h"
-#include "scene/error.h"
+#include "reference/visibility/traversal/traversal.h"
 
 namespace clues::reference {
 
 namespace {
 
-void require_solid(const exact::Complex& complex) {
-  const std::vector<std::uint32_t> bad = exact::triangles_not_solid(complex);
-  if (bad.empty()) return;
-  std::string list;
-  for (std::size_t i = 0; i < bad.size() && i < 5; ++i) list += (i ? ", " : "") + std::to_string(bad[i]);
-  throw scene::Error(scene::ErrorCode::not_solid,
-                     "solid mode needs a closed, consistently oriented mesh, but triangle" +
-                         std::string(bad.size() > 1 ? "s " : " ") + list + (bad.size() > 5 ? ", ..." : "") + " (" +
-                         std::to_string(bad.size()) +
-                         " in all) have an edge that is open or turned over; close the mesh, or use sheet mode");
+exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, Mode mode) {
+  exact::Complex complex = exact::build_complex(mesh, &cell);
+  if (mode == Mode::solid) exact::require_solid(complex);
+  return complex;
 }
 
 bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode::sheet || o.same_side == front; }
 
 }  // namespace
 
-Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options) {
-  map_.reset(new VisibilityMap{exact::build_complex(mesh, &cell), cell, options.mode, {}, {}, {}, {}, {}});
+Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options)
+    : Omega(complex_for(mesh, cell, options.mode), cell, options, {}) {}
+
+Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Options& options,
+             const std::vector<bool>& wanted) {
+  map_.reset(new VisibilityMap{std::move(complex), cell, options.mode, options.formulation, {}, {}, {}, {}, {}});
   VisibilityMap& map = *map_;
-  if (options.mode == Mode::solid) require_solid(map.complex);
   if (options.progress) options.progress("refine", map.complex.pieces.size(), map.complex.pieces.size());
   map.statistics.refined_triangles = map.complex.refined_triangles;
 
   scene_ = std::make_unique<exact::SceneQuery>(map.complex, map.cell);
-  const exact::SceneQuery& scene = *scene_;
   tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
   arena.execute([&] {
-    fixpoint_ = std::make_unique<Fixpoint>(find_wedges(scene, options, map.statistics));
+    std::vector<bool> visited;
+    if (options.formulation == Formulation::traversal) {
+      Traversal t = traverse(*scene_, options, map.statistics);
+      part_ = std::move(t.part);
+      scene_ = std::move(t.scene);
+      fixpoint_ = std::make_unique<Fixpoint>(std::move(t.fixpoint));
+      visited = std::move(t.visited);
+    } else {
+      fixpoint_ = std::make_unique<Fixpoint>(find_wedges(*scene_, options, map.statistics));
+    }
     for (const ValidPiece& p : fixpoint_->wedges.pieces()) map.wedges.push_back(p.wedge);
-    make_regions(scene, *fixpoint_, options, map);
+    make_regions(*scene_, *fixpoint_, {visited, wanted}, options, map);
   });
   assert(options.planted_bug != PlantedBug::none || map.statistics.walk_disagreements == 0);  // D14
+  find_visible(*scene_, map);
+}
 
-  // D15: the PVS. D3: a triangle that meets the cell is visible.
-  std::vector<bool> visible(mesh.triangles.size(), false);
+VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
+                                     const Options& options) {
+  return Omega(mesh, cell, options).take_map();
+}
+
+VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exact::ConvexCell& cell,
+                                        const Options& options, const std::vector<bool>& wanted) {
+  return Omega(complex, cell, options, wanted).take_map();
+}
+
+void find_visible(const exact::SceneQuery& scene, VisibilityMap& map) {
+  std::vector<bool> visible(map.complex.input_triangles, false);
   for (const Region& r : map.regions) {
     if (!r.visible) continue;
     for (const exact::Origin& o : map.complex.pieces[r.piece].origins) {
@@ -63,14 +80,10 @@ Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, con
     if (!scene.meets_cell(t)) continue;
     for (const exact::Origin& o : map.complex.pieces[t].origins) visible[o.triangle] = true;
   }
+  map.visible.clear();
   for (std::uint32_t t = 0; t < visible.size(); ++t) {
     if (visible[t]) map.visible.push_back(t);
   }
-}
-
-VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
-                                     const Options& options) {
-  return Omega(mesh, cell, options).take_map();
 }
 
 std::vector<std::uint8_t> VisibilityMap::triangle_state() const {
@@ -89,6 +102,7 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   scene::Result result;
   result.scene_triangles = map.complex.input_triangles;
   result.cell = cell.points;
+  result.method = map.method;
   result.mode = map.mode == Mode::solid ? "solid" : "sheet";
   result.visible = map.visible;
   const Statistics& s = map.statistics;
@@ -110,6 +124,16 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   put("sv_me", s.sv_me);
   put("walk_disagreements", s.walk_disagreements);
   put("walks", s.walks);
+  if (map.formulation == Formulation::traversal) {
+    put("traversal_by_order", s.by_order);
+    put("traversal_clusters", s.clusters);
+    put("traversal_passes", s.passes);
+    put("traversal_shaft_tests", s.shaft_tests);
+    put("traversal_sight_lines", s.sight_lines);
+    put("traversal_surfaces_seen", s.surfaces_seen);
+    put("traversal_surfaces_visited", s.surfaces_visited);
+    put("traversal_wedges_built", s.wedges_built);
+  }
   if (!with_map) return result;
 
   result.has_map = true;

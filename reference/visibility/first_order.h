@@ -11,6 +11,7 @@
 #include "exact/complex.h"
 #include "exact/convex_cell.h"
 #include "exact/kernel.h"
+#include "exact/scene_query.h"
 #include "reference/visibility/wedge.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh.h"
@@ -20,6 +21,10 @@ namespace clues::reference {
 
 enum class Mode { sheet, solid };  // D4
 
+// Two ways to one map. plain looks at the whole scene at once; traversal (traversal/traversal.h) goes outward from what is visible and
+// never looks at what is hidden behind what it has met, beyond asking whether it is dark.
+enum class Formulation { plain, traversal };
+
 // Told from time to time; stages "refine", "wedges", "regions". Called from one thread at a time.
 using Progress = std::function<void(const std::string& stage, std::uint64_t done, std::uint64_t total)>;
 
@@ -28,6 +33,7 @@ enum class PlantedBug { none, wrong_wedge_side, retested_csv, no_rule_3, rounded
 
 struct Options {
   Mode mode = Mode::sheet;
+  Formulation formulation = Formulation::plain;
   int generation_limit =
       16;           // D17: wedges of a later generation are not built; what they could show is labelled visible
   int threads = 0;  // 0: as many as the machine has; the result does not depend on it
@@ -66,17 +72,28 @@ struct Statistics {
   std::uint64_t walk_disagreements = 0;  // D14; must stay 0
   std::uint64_t rounds = 0;
   std::uint64_t conservative_fallbacks = 0;  // D17
+  std::uint64_t wedges_built = 0;            // wedges whose valid part was looked for
+  // Of the traversal alone:
+  std::uint64_t surfaces_visited = 0;  // pieces that blocked anything, of all passes
+  std::uint64_t surfaces_seen = 0;     // those of them that a sight line reached
+  std::uint64_t sight_lines = 0;
+  std::uint64_t shaft_tests = 0;  // boxes and surfaces asked for whether they are dark
+  std::uint64_t passes = 0;
+  std::uint64_t by_order = 0;  // passes in which no sight line helped, and the overlap order decided
+  std::uint64_t clusters = 0;  // overlap cycles that were visited as one
 };
 
 struct VisibilityMap {
   exact::Complex complex;
   exact::ConvexCell cell;
   Mode mode = Mode::sheet;
+  Formulation formulation = Formulation::plain;
   std::vector<Wedge> wedges;  // the valid pieces
   std::vector<DmSegment> segments;
   std::vector<Region> regions;         // by piece, front before back
   std::vector<std::uint32_t> visible;  // the PVS: input triangle ids, ascending
   Statistics statistics;
+  std::string method = "first-order";  // or how it was refined (D20, D21)
 
   // Whether any visible region / any hidden region of input triangle t exists (partly visible: both), on sides that count in
   // the mode.
@@ -86,6 +103,17 @@ struct VisibilityMap {
 // Throws scene::Error not_solid when mode is solid and the mesh is not closed and consistently oriented.
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                      const Options& options);
+
+// The sides of the pieces of a complex, numbered.
+inline std::size_t side_index(std::uint32_t piece, bool front) { return 2 * std::size_t{piece} + (front ? 0 : 1); }
+
+// The map of a cell, or of a part of it, in a complex that was cut for the whole cell: what lies in the whole cell does not occlude,
+// also where it is outside the part (D21). Regions only of the sides wanted (per side_index; empty: all); the mode is not checked against the mesh.
+VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exact::ConvexCell& cell,
+                                        const Options& options, const std::vector<bool>& wanted = {});
+
+// D15: the PVS by the map's regions. D3: a triangle that meets the cell is visible.
+void find_visible(const exact::SceneQuery& scene, VisibilityMap& map);
 
 // The result file's contents; scene_file and scene_sha256 are left to the caller. with_map adds regions, segments and wedges.
 // With render_states its regions carry those too (render_states.h).

@@ -73,7 +73,9 @@ class Search {
       changed = round();
     }
     count();
-    return {std::move(wedges_), std::move(beyond_limit_)};
+    Fixpoint out{std::move(wedges_), std::move(beyond_limit_), {}, {}};
+    find_lit(out);
+    return out;
   }
 
  private:
@@ -384,6 +386,14 @@ class Search {
   }
 
   void count() {
+    for (const auto& of_edge : edge_wedges_)
+      statistics_.wedges_built += static_cast<std::uint64_t>(
+          std::count_if(of_edge.begin(), of_edge.end(), [](const auto& on) { return on != nullptr; }));
+    const auto built = [this](Apex& apex) {
+      for (const ApexSector& s : apex.sectors()) statistics_.wedges_built += s.on_wedge != nullptr;
+    };
+    for (const auto& [key, apex] : csvs_) built(*apex);
+    for (const auto& [key, apex] : corners_) built(*apex);
     for (const ValidPiece& p : wedges_.pieces()) {
       statistics_.sv_me += p.wedge.kind == WedgeKind::sv_me;
       statistics_.se_me += p.wedge.kind == WedgeKind::se_me;
@@ -398,6 +408,20 @@ class Search {
     statistics_.conservative_fallbacks += beyond_limit_.size();
     for (const Source& s : sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
     for (const VertexSource& s : vertex_sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
+  }
+
+  void find_lit(Fixpoint& out) const {
+    for (const Source& s : sources_) {
+      if (s.lit) out.lit_edges.push_back(contours_[s.contour].edge);
+    }
+    for (const auto& [key, apex] : csvs_) {
+      if (apex->probed()) out.lit_edges.push_back(key.first);
+    }
+    for (const auto& [point, apex] : corners_) {
+      if (apex->probed()) out.lit_points.push_back(point);
+    }
+    std::sort(out.lit_edges.begin(), out.lit_edges.end());
+    out.lit_edges.erase(std::unique(out.lit_edges.begin(), out.lit_edges.end()), out.lit_edges.end());
   }
 
   struct CsvLess {

@@ -18,6 +18,8 @@ namespace clues::reference {
 struct Fixpoint {
   WedgeSet wedges;
   std::vector<exact::Point3> beyond_limit;  // apexes whose wedges the generation limit left out (D17)
+  // Edges and points of the complex at which a visible source lies or a valid wedge piece arrives.
+  std::vector<std::uint32_t> lit_edges, lit_points;
 };
 
 Fixpoint find_wedges(const exact::SceneQuery& scene, const Options& options, Statistics& statistics);

@@ -16,8 +16,11 @@ class Omega {
  public:
   // As first_order_visibility.
   Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options);
+  // As first_order_visibility_in.
+  Omega(exact::Complex complex, const exact::ConvexCell& cell, const Options& options, const std::vector<bool>& wanted);
 
   const VisibilityMap& map() const { return *map_; }
+  // What wedges and labels refer to: all surfaces, or those that the traversal visited.
   const exact::SceneQuery& scene() const { return *scene_; }
   const Fixpoint& fixpoint() const { return *fixpoint_; }
 
@@ -25,6 +28,7 @@ class Omega {
 
  private:
   std::unique_ptr<VisibilityMap> map_;
+  std::unique_ptr<exact::Complex> part_;  // the traversal's
   std::unique_ptr<exact::SceneQuery> scene_;
   std::unique_ptr<Fixpoint> fixpoint_;
 };

@@ -2,7 +2,6 @@
 
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arrangement_2.h>
-#include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -10,8 +9,8 @@
 #include <map>
 #include <mutex>
 
-#include "exact/simple_point.h"
 #include "reference/visibility/anticone.h"
+#include "reference/visibility/flat_faces.h"
 #include "reference/visibility/walk.h"
 #include "scene/error.h"
 
@@ -60,66 +59,13 @@ Segments2 without_overlaps(const Segments2& segments) {
   return out;
 }
 
-// Twice the signed area of a ring.
-FT twice_area(const std::vector<Point2>& ring) {
-  FT sum(0);
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    sum += a.x() * b.y() - a.y() * b.x();
-  }
-  return sum;
-}
-
-// Whether p, on no edge, is inside by the even-odd rule. Rings may touch themselves and each other; an edge walked twice counts for nothing.
-bool inside(const std::vector<std::vector<Point2>>& rings, const Point2& p) {
-  bool odd = false;
-  for (const auto& ring : rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      const bool a_above = a.y() > p.y(), b_above = b.y() > p.y();
-      if (a_above == b_above) continue;
-      odd ^= CGAL::orientation(a, b, p) == (b_above ? CGAL::LEFT_TURN : CGAL::RIGHT_TURN);
-    }
-  }
-  return odd;
-}
-
-// A short rational point inside triangle abc; `which` chooses among several.
-Point2 inner_point(const Point2& a, const Point2& b, const Point2& c, std::size_t which) {
-  const Point2 p =
-      CGAL::barycenter(a, FT(3 + static_cast<int>(which) % 5), b, FT(4 + static_cast<int>(which) % 7), c, FT(5));
-  const CGAL::Orientation o = CGAL::orientation(a, b, c);
-  for (int level = 0; level < exact::kSimpleLevels; ++level) {
-    const Point2 q(exact::simple_near(p.x(), level), exact::simple_near(p.y(), level));
-    if (CGAL::orientation(a, b, q) == o && CGAL::orientation(b, c, q) == o && CGAL::orientation(c, a, q) == o) return q;
-  }
-  return p;
-}
-
-// A point inside the face: of a triangle of its constrained triangulation, which one depends on `which`.
-Point2 inner_point(const std::vector<std::vector<Point2>>& rings, std::size_t which) {
-  if (rings.size() == 1 && rings[0].size() == 3) return inner_point(rings[0][0], rings[0][1], rings[0][2], which);
-  using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>,
-                                                   CGAL::Constrained_triangulation_face_base_2<Kernel>>;
-  CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::No_constraint_intersection_requiring_constructions_tag>
-      cdt;
-  for (const auto& ring : rings) cdt.insert_constraint(ring.begin(), ring.end(), true);
-  std::vector<std::pair<FT, Point2>> by_size;
-  for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
-    const Point2 a = f->vertex(0)->point(), b = f->vertex(1)->point(), c = f->vertex(2)->point();
-    const Point2 p = inner_point(a, b, c, which);
-    if (inside(rings, p)) by_size.emplace_back(CGAL::abs(CGAL::area(a, b, c)), p);
-  }
-  if (by_size.empty()) throw scene::Error(scene::ErrorCode::internal, "regions: a face without an inner point");
-  std::sort(by_size.begin(), by_size.end());
-  return by_size[by_size.size() - 1 - which % by_size.size()].second;
-}
-
 class SideMapper {
  public:
-  SideMapper(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options)
+  SideMapper(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const std::vector<bool>& visited,
+             const Options& options)
       : scene_(scene),
         fixpoint_(fixpoint),
+        visited_(visited),
         options_(options),
         walker_(scene, options.planted_bug != PlantedBug::no_rule_3) {
     for (const ValidPiece& piece : fixpoint.wedges.pieces()) {
@@ -141,23 +87,23 @@ class SideMapper {
   Output map_side(std::uint32_t t, bool front) const {
     Output out;
     const exact::Complex& complex = scene_.complex();
-    const auto& corners = complex.pieces[t].corners;
-    const exact::Plane3& plane = complex.planes[t];
-    const PlaneFrame frame(plane);
-    const std::array<Point3, 3> p{complex.points[corners[0]], complex.points[corners[1]], complex.points[corners[2]]};
-    const Kernel::Triangle_2 triangle(frame(p[0]), frame(p[1]), frame(p[2]));
-    const auto lift = [&](const Point2& q) {  // affine: barycentric coordinates carry over
-      const FT area = CGAL::area(triangle[0], triangle[1], triangle[2]);
-      const FT u = CGAL::area(q, triangle[1], triangle[2]) / area, w = CGAL::area(triangle[0], q, triangle[2]) / area;
-      return exact::collapsed(p[2] + u * (p[0] - p[2]) + w * (p[1] - p[2]));
-    };
+    const TriangleFrame flat_triangle(complex, t);
+    const auto& p = flat_triangle.corners();
+    const Kernel::Triangle_2& triangle = flat_triangle.flat();
+    const auto lift = [&](const Point2& q) { return flat_triangle.lift(q); };
 
+    if (!visited_.empty() && !visited_[t]) {  // lies in no point of Omega
+      Region r{t, front, false, {{p[0], p[1], p[2]}}, FT(1), {}};
+      r.sample = lift(inner_point({{triangle[0], triangle[1], triangle[2]}}, 0));
+      out.regions.push_back(std::move(r));
+      return out;
+    }
     if (complex.in_cell[t]) {  // D3
       Region r{t, front, true, {{p[0], p[1], p[2]}}, FT(1), CGAL::centroid(p[0], p[1], p[2])};
       out.regions.push_back(std::move(r));
       return out;
     }
-    const Segments2 flat = without_overlaps(segments_on({t, front}, frame, triangle));
+    const Segments2 flat = without_overlaps(segments_on({t, front}, flat_triangle.frame(), triangle));
     if (flat.empty()) {
       Region r{t, front, false, {{p[0], p[1], p[2]}}, FT(1), {}};
       finish(r, {{triangle[0], triangle[1], triangle[2]}}, lift, out);
@@ -228,23 +174,6 @@ class SideMapper {
       if (before1 == CGAL::LEFT_TURN) traces_[{r.piece, front_is_ccw}].push_back({r.u.p, r.w.p});
       if (after0 == CGAL::LEFT_TURN) traces_[{r.piece, !front_is_ccw}].push_back({r.u.p, r.w.p});
     }
-  }
-
-  // Antennas into a face are walked twice; they bound nothing.
-  static std::vector<Point2> without_spurs(std::vector<Point2> ring) {
-    for (bool changed = true; changed && ring.size() >= 3;) {
-      changed = false;
-      for (std::size_t i = 0; i < ring.size() && ring.size() >= 3; ++i) {
-        const std::size_t n = ring.size();
-        if (ring[(i + n - 1) % n] == ring[(i + 1) % n]) {
-          const std::size_t j = (i + 1) % n;
-          ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(std::max(i, j)));
-          ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(std::min(i, j)));
-          changed = true;
-        }
-      }
-    }
-    return ring;
   }
 
   Segments2 segments_on(const SideKey& key, const PlaneFrame& frame, const Kernel::Triangle_2& triangle) const {
@@ -318,19 +247,13 @@ class SideMapper {
 
   // D17: what the wedges left out by the generation limit could show lies in the anti-cones of their apexes.
   bool beyond_limit(const Region& r) const {
-    for (const Point3& x : fixpoint_.beyond_limit) {
-      bool outside = false;
-      for (const AnticoneFacet& f : anticone_facets(x, scene_.cell())) {
-        outside |= std::all_of(r.rings[0].begin(), r.rings[0].end(),
-                               [&](const Point3& q) { return f.plane.oriented_side(q) == CGAL::ON_NEGATIVE_SIDE; });
-      }
-      if (!outside) return true;
-    }
-    return false;
+    return std::any_of(fixpoint_.beyond_limit.begin(), fixpoint_.beyond_limit.end(),
+                       [&](const Point3& x) { return may_reach(x, scene_.cell(), r.rings[0]); });
   }
 
   const exact::SceneQuery& scene_;
   const Fixpoint& fixpoint_;
+  const std::vector<bool>& visited_;
   const Options& options_;
   Walker walker_;
   std::map<SideKey, std::vector<Segment3>> traces_;
@@ -338,9 +261,9 @@ class SideMapper {
 
 }  // namespace
 
-void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options,
-                  VisibilityMap& map) {
-  const SideMapper mapper(scene, fixpoint, options);
+void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const RegionScope& scope,
+                  const Options& options, VisibilityMap& map) {
+  const SideMapper mapper(scene, fixpoint, scope.visited, options);
   const auto& pieces = map.complex.pieces;
   std::vector<SideKey> sides;
   for (std::uint32_t t = 0; t < pieces.size(); ++t) {
@@ -348,7 +271,7 @@ void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, cons
       const bool counts =
           map.mode == Mode::sheet || std::any_of(pieces[t].origins.begin(), pieces[t].origins.end(),
                                                  [&](const exact::Origin& o) { return o.same_side == front; });
-      if (counts) sides.emplace_back(t, front);
+      if (counts && (scope.wanted.empty() || scope.wanted[side_index(t, front)])) sides.emplace_back(t, front);
     }
   }
   std::vector<SideMapper::Output> outputs(sides.size());

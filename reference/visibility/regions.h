@@ -7,7 +7,15 @@
 
 namespace clues::reference {
 
+// Which regions are asked for.
+struct RegionScope {
+  const std::vector<bool>&
+      visited;  // per piece; the others have no visible region and get one hidden region on each side. Empty: all
+  const std::vector<bool>& wanted;  // per side_index; the others get no region. Empty: all
+};
+
 // Fills map.regions, map.segments and the counters of regions and walks. Sides that do not count in the mode are left out.
-void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const Options& options, VisibilityMap& map);
+void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, const RegionScope& scope,
+                  const Options& options, VisibilityMap& map);
 
 }  // namespace clues::reference

@@ -84,6 +84,7 @@ std::vector<VertexSource> vertex_sources(const exact::SceneQuery& scene, const W
   const std::vector<Point3>& cell = scene.cell().vertices();
   std::vector<VertexSource> sources;
   for (std::uint32_t p = 0; p < complex.points.size(); ++p) {
+    if (complex.point_pieces[p].empty()) continue;  // of a part of a complex, or inside the cell
     const Apex& apex = corner(p);
     const Point3& x = complex.points[p];
     std::vector<Vector3> directions;

@@ -60,6 +60,17 @@ class WedgeSet {
     return worst;
   }
 
+  // The pieces whose boxes the test cannot exclude, ascending.
+  template <class Test>
+  std::vector<std::uint32_t> candidates(const Test& may_meet) const {
+    std::vector<std::uint32_t> found;
+    for (const Batch& b : batches_) {
+      for (const std::uint32_t i : b.tree.candidates(may_meet))
+        found.push_back(static_cast<std::uint32_t>(b.begin) + i);
+    }
+    return found;
+  }
+
   // The pieces lying in the plane of complex piece t whose H- is t's front (or back) side.
   const std::vector<std::uint32_t>& upon(std::uint32_t t, bool front) const;
   // The pieces whose plane contains edge e.

@@ -19,9 +19,11 @@ TEST(Help, EveryCommandHasDescriptionExamplesAndExitCodes) {
   const TestFolder folder;
   for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"},
                                                     {"map", "--help"},
+                                                    {"precision", "--help"},
                                                     {"check", "--help"},
                                                     {"query", "--help"},
                                                     {"verify", "--help"},
+                                                    {"report", "--help"},
                                                     {"demo", "--help"}}) {
     const auto ran = run_clues(arguments, folder.path());
     EXPECT_EQ(ran.exit_code, 0);
@@ -62,6 +64,48 @@ TEST(Map, PlainListByExtension) {
   EXPECT_THAT(read_all(folder.file("out.pvs")), HasSubstr("0\n1\n2\n4\n"));
 }
 
+TEST(Map, RefinedMapsHoldTheVisibleTrianglesAndSayHowTheyWereMade) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const auto& [arguments, method] :
+       {std::pair<std::vector<std::string>, std::string>{{"--refine", "cell"}, "subdivided"},
+        {{"--method", "backprojected"}, "backprojected"},
+        {{"--method", "backprojected", "--refine", "cell", "--tolerance-area", "0.5"}, "backprojected"}}) {
+    std::vector<std::string> all{"map", "scene.off", "--cell", screen_cell, "--json", "--map", "--max-depth", "1"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const auto ran = run_clues(all, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const auto result = json::parse(ran.out);
+    EXPECT_EQ(result["method"], method);
+    EXPECT_EQ(result["visible"], json({0, 1, 2, 4}));
+    EXPECT_TRUE(result.contains("regions"));
+  }
+}
+
+TEST(Precision, ReportsTableJsonAndPicture) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const std::vector<std::string> command{"precision", "scene.off", "--cell", screen_cell, "--max-depth", "1"};
+  const auto table = run_clues(command, folder.path());
+  ASSERT_EQ(table.exit_code, 0) << table.err;
+  EXPECT_THAT(table.out, AllOf(HasSubstr("witnessed"), HasSubstr("exactly known")));
+  std::string first;
+  for (const std::string threads : {"1", "3"}) {
+    auto more = command;
+    more.insert(more.end(), {"--json", "--threads", threads, "-o", "report.json", "--svg", "excess.svg"});
+    const auto ran = run_clues(more, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    if (first.empty()) first = ran.out;
+    EXPECT_EQ(ran.out, first) << threads;
+  }
+  const auto report = json::parse(first);
+  EXPECT_EQ(read_all(folder.file("report.json")), first);
+  EXPECT_EQ(report["format"], "clues-precision/1");
+  EXPECT_EQ(report["depths"][0]["depth"], 0);
+  EXPECT_GE(report["triangles"].size(), 4U);
+  EXPECT_THAT(read_all(folder.file("excess.svg")), HasSubstr("<polyline"));
+}
+
 TEST(Map, SameBytesInEveryRunAndForEveryThreadCount) {
   const TestFolder folder;
   folder.write("scene.off", screen_scene);
@@ -73,6 +117,37 @@ TEST(Map, SameBytesInEveryRunAndForEveryThreadCount) {
     if (first.empty()) first = ran.out;
     EXPECT_EQ(ran.out, first) << threads;
   }
+}
+
+TEST(Map, TheTraversalGivesTheSameRegions) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  std::vector<json> results;
+  for (const char* formulation : {"plain", "traversal"}) {
+    const auto ran = run_clues(
+        {"map", "scene.off", "--cell", screen_cell, "--formulation", formulation, "--map", "--json"}, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    results.push_back(json::parse(ran.out));
+  }
+  EXPECT_FALSE(results[0]["stats"].contains("traversal_surfaces_visited"));
+  EXPECT_TRUE(results[1]["stats"].contains("traversal_surfaces_visited"));
+  for (auto& result : results) result.erase("stats");
+  EXPECT_EQ(results[0], results[1]);
+  const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "--formulation", "sideways"}, folder.path());
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("use plain or traversal"));
+}
+
+TEST(Map, WritesTheOverlapGraph) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "--overlap-graph", "out.dot"}, folder.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(read_all(folder.file("out.dot")), AllOf(HasSubstr("digraph overlap"), HasSubstr(" -> ")));
+  const auto many = run_clues(
+      {"map", "scene.off", "--cells", "grid:1x1x1:box:0,0,0,1,1,1", "--overlap-graph", "many.dot"}, folder.path());
+  EXPECT_EQ(many.exit_code, 2);
+  EXPECT_EQ(folder.names(), (std::vector<std::string>{"out.dot", "scene.off"}));
 }
 
 TEST(Map, ManyCellsMakeOneFileEachAndTheSameBytes) {
@@ -121,6 +196,41 @@ TEST(Map, AStoppedRunOverManyCellsGoesOn) {
   EXPECT_EQ(read_all(second), whole);
 }
 
+TEST(Map, TheFastKernelGivesTheSamePvs) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const std::vector<std::string> command{"map", "scene.off", "--cell", screen_cell, "-o"};
+  for (const auto& [kernel, out] : {std::pair{"exact", "exact.pvs"}, {"fast", "fast.pvs"}}) {
+    auto arguments = command;
+    for (const char* more : {out, "--kernel", kernel}) arguments.emplace_back(more);
+    const auto ran = run_clues(arguments, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("fallbacks"));
+  }
+  EXPECT_EQ(read_all(folder.file("fast.pvs")), read_all(folder.file("exact.pvs")));
+
+  const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "--kernel", "fast", "--json"}, folder.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto result = json::parse(ran.out);
+  EXPECT_EQ(result["kernel"], "fast");
+  EXPECT_EQ(result["stats"]["conservative_fallbacks"], 0);
+}
+
+TEST(Map, TheFastKernelRefusesWhatItCannotDo) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--umbra", "u.json"},
+                                               {"--formulation", "traversal"},
+                                               {"--map", "--render-states"},
+                                               {"--overlap-graph", "g.dot"}}) {
+    std::vector<std::string> arguments{"map", "scene.off", "--cell", screen_cell, "--kernel", "fast"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const auto ran = run_clues(arguments, folder.path());
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("--kernel exact"));
+  }
+}
+
 TEST(Check, OwnPvsIsSound) {
   const TestFolder folder;
   folder.write("scene.off", screen_scene);
@@ -157,7 +267,9 @@ TEST(Check, HiddenTriangleInTheListIsLoose) {
   folder.write("pvs.txt", "0\n1\n2\n3\n4\n");
   const auto ran = run_clues({"check", "scene.off", "--cell", screen_cell, "--pvs", "pvs.txt"}, folder.path());
   EXPECT_EQ(ran.exit_code, 0) << ran.out;
-  EXPECT_THAT(ran.out, AllOf(HasSubstr("verdict: sound"), HasSubstr("1 loose")));
+  EXPECT_THAT(ran.out,
+              AllOf(HasSubstr("verdict: sound"), HasSubstr("1 loose"), HasSubstr("overestimate Qo = 0.25, in area"),
+                    HasSubstr("underestimate Qu = 0, in area 0\n")));
 }
 
 TEST(Check, TriangleThatMeetsTheCellIsVisible) {

@@ -28,6 +28,34 @@ TEST(FuzzCommand, FindsAProgramThatHidesEverything) {
   EXPECT_NE(tampered.err.find("scene.off"), std::string::npos) << tampered.err;
 }
 
+// A finding becomes a proved case of a suite; where that cannot be, the suite stays as it was.
+TEST(FuzzCommand, PromotesAFindingToACaseOfASuite) {
+  const TestFolder folder;
+  const std::string out = folder.file("out"), suite = folder.file("suite");
+  ASSERT_EQ(run_clues({"fuzz", "--subject", "sh -c ': > {pvs}'", "--cases", "1", "--errors", "1", "--oracle",
+                       "sight-lines", "--out", out},
+                      folder.path())
+                .exit_code,
+            1);
+  std::filesystem::create_directory(suite);
+  std::filesystem::copy_file(std::string(CLUES_SOURCE_DIR) + "/vectors/needles.json", suite + "/needles.json");
+  ASSERT_EQ(run_clues({"lint", suite, "--write"}, folder.path()).exit_code, 0);
+  const std::string finding = out + "/sight-lines-hidden-visible-loose_triangles";
+  EXPECT_EQ(run_clues({"replay", finding, "--promote", suite}, folder.path()).exit_code, 2);  // no id
+  EXPECT_EQ(run_clues({"replay", finding, "--promote", suite, "--id", "No slug"}, folder.path()).exit_code, 2);
+  EXPECT_FALSE(std::filesystem::exists(suite + "/found.json"));
+  const Ran promoted = run_clues({"replay", finding, "--promote", suite, "--id", "first-find"}, folder.path());
+  EXPECT_EQ(promoted.exit_code, 1) << promoted.err;  // reproduced
+  const std::string found = read_all(suite + "/found.json"), index = read_all(suite + "/index.json");
+  EXPECT_NE(found.find("\"must_be_visible\""), std::string::npos);
+  EXPECT_NE(index.find("first-find"), std::string::npos);
+  EXPECT_EQ(run_clues({"lint", suite}, folder.path()).exit_code, 0);
+  EXPECT_EQ(run_clues({"replay", finding, "--promote", suite, "--id", "first-find"}, folder.path()).exit_code, 2);
+  EXPECT_EQ(read_all(suite + "/found.json"), found);
+  EXPECT_EQ(run_clues({"replay", finding, "--promote", suite, "--id", "second-find"}, folder.path()).exit_code, 1);
+  EXPECT_EQ(run_clues({"lint", suite}, folder.path()).exit_code, 0);
+}
+
 TEST(FuzzCommand, SaysWhatNeverOccurred) {
   const TestFolder folder;
   const Ran ran = run_clues({"fuzz", "--cases", "1", "--out", folder.file("out")}, folder.path());
@@ -38,15 +66,18 @@ TEST(FuzzCommand, SaysWhatNeverOccurred) {
 TEST(FuzzCommand, BadUsage) {
   const TestFolder folder;
   const std::string out = folder.file("out");
-  for (const std::vector<std::string>& words :
-       std::vector<std::vector<std::string>>{{"fuzz", "--generator", "none", "--cases", "1", "--out", out},
-                                             {"fuzz", "--oracle", "none", "--cases", "1", "--out", out},
-                                             {"fuzz", "--subject", "reference:none", "--cases", "1", "--out", out},
-                                             {"fuzz", "--cases", "0", "--out", out},
-                                             {"fuzz", "--jobs", "0", "--out", out},
-                                             {"fuzz", "--cases", "1", "--out", "/proc/nowhere"},
-                                             {"replay", folder.file("nothing")},
-                                             {"shrink", folder.file("nothing")}}) {
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+           {"fuzz", "--generator", "none", "--cases", "1", "--out", out},
+           {"fuzz", "--oracle", "none", "--cases", "1", "--out", out},
+           {"fuzz", "--subject", "reference:none", "--cases", "1", "--out", out},
+           {"fuzz", "--cases", "0", "--out", out},
+           {"fuzz", "--jobs", "0", "--out", out},
+           {"fuzz", "--cases", "1", "--out", "/proc/nowhere"},
+           {"fuzz", "--generator", "umbrellas:8", "--cases", "1", "--out", out},
+           {"fuzz", "--generator", "mesh_pieces", "--cases", "1", "--out", out},
+           {"fuzz", "--scenes", folder.file("none.off"), "--cases", "1", "--out", out},
+           {"replay", folder.file("nothing")},
+           {"shrink", folder.file("nothing")}}) {
     const Ran ran = run_clues(words, folder.path());
     EXPECT_EQ(ran.exit_code, 2) << words[1] << " " << words.back();
     EXPECT_FALSE(ran.err.empty());

@@ -8,14 +8,15 @@ namespace clues::fuzz {
 
 class EverythingHidden : public Subject {
  public:
-  Answer answer(const scene::TriangleMesh&, const std::vector<scene::Point>&) const override { return {}; }
+  Answer answer(const Case&) const override { return {}; }
   std::string name() const override { return "everything-hidden"; }
 };
 
 // All but one triangle, which one depends on the coordinates and not on the order.
 class HidesOneTriangle : public Subject {
  public:
-  Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>&) const override {
+  Answer answer(const Case& scene) const override {
+    const auto& mesh = scene.mesh;
     Answer out;
     std::uint32_t hidden = 0;
     double most = -1e300;
@@ -36,10 +37,11 @@ class HidesOneTriangle : public Subject {
 // What the cell's centre sees of every triangle's centroid and three points near its corners.
 class FromTheCentre : public Subject {
  public:
-  Answer answer(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) const override {
+  Answer answer(const Case& scene) const override {
+    const auto& mesh = scene.mesh;
     Answer out;
     const auto complex = exact::build_complex(mesh);
-    const auto hull = exact::ConvexCell::from_doubles(cell);
+    const auto hull = exact::ConvexCell::from_doubles(scene.cell);
     const exact::SceneQuery query(complex, hull);
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       std::array<exact::Point3, 3> c;

@@ -5,8 +5,8 @@ usage: run.py SOURCE WORK [--only NAME,...] [--out FILE]
 
 SOURCE is a checkout, WORK a folder for a copy of it with its own build (kept, so that a second run is quick). For each mutation of mutations.py:
 change the copy, build `clues`, and put the mutated reference to the suite through its own door (`clues conform --impl 'clues iut --kernel exact'`).
-Caught: an unsound answer, a crash or a time-out - or an answer looser than the one of the unchanged reference. Survived: the same summary as without
-the mutation. A mutation that does not build, or whose text is not found, is an error: repair mutations.py.
+Caught: an unsound answer, a crash or a time-out. Looser: a larger answer than that of the unchanged reference, and nothing worse. Survived: every answer
+is the same as without the mutation. A mutation that does not build, or whose text is not found, is an error: repair mutations.py.
 """
 import argparse
 import json
@@ -80,8 +80,8 @@ def main():
             path.write_text(original)
         rows.append((name, verdict, len(seen), seen[0] if seen else ""))
         print(f"{name:45} {verdict:15} {len(seen):4} {seen[0] if seen else ''}", flush=True)
-    caught = sum(1 for r in rows if r[1] in ("caught", "looser"))
-    summary = f"{caught} of {len(rows)} caught"
+    caught, looser = (sum(1 for r in rows if r[1] == verdict) for verdict in ("caught", "looser"))
+    summary = f"{caught} of {len(rows)} caught, {looser} more answer more than the unchanged reference"
     print(summary)
     if options.out:
         lines = [f"| {n} | {v} | {k} | {c} |" for n, v, k, c in rows]

@@ -11,6 +11,7 @@
 #include "exact/witness.h"
 #include "fuzz/generators/random_scenes.h"
 #include "validate/judge_report.h"
+#include "validate/measures.h"
 
 namespace clues::validate {
 namespace {
@@ -43,14 +44,39 @@ TEST(Judge, ExactPvsIsSoundAndTight) {
   EXPECT_EQ(judgement.verdict, Verdict::sound);
   EXPECT_EQ(judgement.exact, 4U);
   EXPECT_EQ(judgement.loose + judgement.first_order, 0U);
-  EXPECT_EQ(judgement.area_loose_estimate, 0);
 }
 
 TEST(Judge, HiddenTriangleListedIsLooseButSound) {
   const auto judgement = Judged{}.with({0, 1, 2, 3, 4});
   EXPECT_EQ(judgement.verdict, Verdict::sound);
   EXPECT_EQ(judgement.triangles[3], TriangleVerdict::loose);
-  EXPECT_DOUBLE_EQ(judgement.area_loose_estimate, .5);
+  const Weights areas = area_weights(judgement, screen_scene());
+  EXPECT_EQ(areas.hidden_listed, .5);
+  EXPECT_EQ(areas.visible_listed, 1600 + 72 + .5);
+  EXPECT_EQ(over_estimate(count_weights(judgement))->at_least, .25);
+  EXPECT_EQ(over_estimate(areas)->at_most, .5 / 1672.5);
+  EXPECT_EQ(under_estimate(areas)->at_most, 0);
+}
+
+TEST(Judge, TheUndecidedWidenTheBounds) {
+  const Weights w{8, 2, 3, 1, 5};
+  EXPECT_EQ(over_estimate(w)->at_least, 5.0 / 14);
+  EXPECT_EQ(over_estimate(w)->at_most, 8.0 / 10);
+  EXPECT_EQ(under_estimate(w)->at_least, 2.0 / 13);
+  EXPECT_EQ(under_estimate(w)->at_most, 3.0 / 11);
+  EXPECT_FALSE(over_estimate({0, 0, 3, 1, 5}).has_value());
+}
+
+TEST(Judge, FractionsOfTheFirstOrderMapAreExact) {
+  // The screen hides part of the wall; what it leaves of the two triangles is rational, and the two sides of the screen are all or nothing.
+  const Judged judged;
+  const auto f = first_order_fractions(judged.mesh, judged.map);
+  for (const std::size_t t : {0U, 1U}) {
+    EXPECT_TRUE(f[t][0] > 0 && f[t][0] < 1) << f[t][0];
+    EXPECT_EQ(f[t][1], 0);
+  }
+  EXPECT_EQ(f[2][0] + f[2][1], 1);
+  EXPECT_EQ(f[3][0] + f[3][1], 0);
 }
 
 TEST(Judge, EveryVisibleTriangleIsMissedWithAConfirmedWitness) {
@@ -65,7 +91,7 @@ TEST(Judge, EveryVisibleTriangleIsMissedWithAConfirmedWitness) {
                                       [&](const Witness& w) { return w.triangle == missing; });
     ASSERT_NE(witness, judgement.witnesses.end());
     EXPECT_TRUE(exact::check_witness(judged.mesh, judged.cell, missing, witness->front, witness->v, witness->p).valid);
-    EXPECT_THAT(to_text(judgement), testing::HasSubstr("verdict: unsound"));
+    EXPECT_THAT(to_text(judgement, {}), testing::HasSubstr("verdict: unsound"));
   }
 }
 

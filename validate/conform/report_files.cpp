@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "validate/area.h"
 #include "validate/conform/report.h"
 
 namespace clues::validate {
@@ -30,6 +31,16 @@ Json to_json(const Run& run, const CaseResult& result) {
     json["extra"] = result.extra;
     json["out_of_first_order"] = result.out_of_first_order;
     json["visible_exact"] = result.test->expect->must_be_visible.size();
+    const auto area = [&](const auto& triangles, const auto& id_of) {
+      double sum = 0;
+      for (const auto& t : triangles) sum += area_estimate(result.test->mesh, id_of(t));
+      return sum;
+    };
+    const double visible = area(result.test->expect->must_be_visible, [](const auto& proof) { return proof.triangle; });
+    if (visible > 0) {  // Bittner et al. 2005 in area, rounded (docs/formats.md)
+      json["overestimate_qo_area"] = area(result.extra, [](std::uint32_t t) { return t; }) / visible;
+      json["underestimate_qu_area"] = area(result.missed, [](const auto* proof) { return proof->triangle; }) / visible;
+    }
   } else {
     json["message"] = result.answer.message;
     if (!result.answer.issue_url.empty()) json["issue_url"] = result.answer.issue_url;

@@ -347,8 +347,12 @@ std::vector<fs::path> vector_files(const fs::path& folder) {
 
 VectorIndex read_vector_index(const fs::path& folder) {
   const auto path = folder / "index.json";
-  const json value = parse_json(scene::read_file_bytes(path), path.string());
-  const Where where{path.string(), ""};
+  return parse_vector_index(scene::read_file_bytes(path), path.string());
+}
+
+VectorIndex parse_vector_index(std::string_view text, const std::string& name) {
+  const json value = parse_json(text, name);
+  const Where where{name, ""};
   const Field root(value, where, "");
   root.object({"format", "active", "withdrawn", "topics", "cases"});
   root["format"].one_of({"clues-vectors-index/1"});

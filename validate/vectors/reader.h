@@ -21,6 +21,7 @@ std::vector<std::filesystem::path> vector_files(
     const std::filesystem::path& folder);  // *.json but index and schema, sorted
 VectorFile read_vector_file(const std::filesystem::path& path, bool drafts = false);
 VectorFile parse_vector_file(std::string_view text, const std::string& name, bool drafts = false);
+VectorIndex parse_vector_index(std::string_view text, const std::string& name);
 VectorIndex read_vector_index(const std::filesystem::path& folder);
 Expectation parse_expectation(std::string_view text, std::uint64_t triangles);
 

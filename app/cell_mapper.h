@@ -1,0 +1,57 @@
+// What `clues map` does with one cell, by either kernel. The cells of a grid are mapped by several threads at once.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/common.h"
+#include "app/umbra_output.h"
+#include "reference/visibility/first_order.h"
+#include "scene/cell_spec.h"
+#include "scene/mesh.h"
+
+namespace clues::app {
+
+struct MapRequest {
+  std::string scene, cell, cells, out, overlap_graph;
+  bool with_map = false, with_states = false, json = false, resume = false;
+  MethodOptions method;
+  std::string asked_method;  // as the user wrote it
+  RefineChoice refine;
+  validate::Refinement refinement = validate::Refinement::none;  // as --method and --refine together say
+  UmbraRequest umbra;
+};
+
+struct MappedCell {
+  std::string name;
+  std::string bytes;          // what goes into the file
+  std::string summary;        // one line of the table
+  std::string overlap_graph;  // GraphViz, where it was asked for
+  std::string umbra_bytes, umbra_summary;
+};
+
+class CellMapper {
+ public:
+  CellMapper() = default;
+  CellMapper(const CellMapper&) = delete;
+  CellMapper& operator=(const CellMapper&) = delete;
+  virtual ~CellMapper() = default;
+
+  // May be called from several threads at once; each call may use `threads` threads itself.
+  virtual MappedCell map(const scene::CellSpec& cell, int threads, const reference::Progress& progress) const = 0;
+  virtual const char* table_head() const = 0;
+};
+
+bool wants_plain_list(const std::filesystem::path& out);  // *.pvs, *.txt
+
+// The bytes of the result file: JSON, or a plain list where the output is named like one.
+std::string bytes_of(scene::Result result, const MapRequest& request, const std::string& sha256);
+
+// Both keep references to mesh and request. The fast one refuses what only the exact one can do (Error unsupported).
+std::unique_ptr<CellMapper> exact_mapper(const scene::TriangleMesh& mesh, const std::string& sha256,
+                                         const MapRequest& request);
+std::unique_ptr<CellMapper> fast_mapper(const scene::TriangleMesh& mesh, const std::string& sha256,
+                                        const MapRequest& request);
+
+}  // namespace clues::app

@@ -1,0 +1,79 @@
+// clues map --kernel exact: the reference, and what is derived from its map.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/cell_mapper.h"
+#include "exact/scene_query.h"
+#include "reference/visibility/bounds.h"
+#include "reference/visibility/omega.h"
+#include "reference/visibility/traversal/overlap.h"
+
+namespace clues::app {
+namespace {
+
+std::string table_line(const std::string& name, const reference::VisibilityMap& map) {
+  const auto census = take_census(map);
+  const double share =
+      census.area_facing_estimate > 0 ? 100 * census.area_visible_estimate / census.area_facing_estimate : 0;
+  return fmt::format("{:>9}  {:>6}  {:>6}  {:>6}  {:>10.2f} %  {:>9}  {}\n", map.complex.input_triangles, census.wholly,
+                     census.partly, census.hidden, share, map.statistics.conservative_fallbacks, name);
+}
+
+std::string overlap_graph_of(const reference::VisibilityMap& map) {
+  const exact::SceneQuery scene(map.complex, map.cell);
+  return reference::to_graphviz(reference::overlap_of_occluders(scene), map.complex);
+}
+
+class ExactMapper : public CellMapper {
+ public:
+  ExactMapper(const scene::TriangleMesh& mesh, std::string sha256, const MapRequest& request)
+      : mesh_(mesh), sha256_(std::move(sha256)), request_(request) {}
+
+  MappedCell map(const scene::CellSpec& spec, int threads, const reference::Progress& progress) const override {
+    auto options = request_.method.to_reference();
+    options.threads = threads;
+    options.progress = progress;
+    const auto cell = exact::ConvexCell::from_doubles(spec.points);
+    if (request_.refinement != validate::Refinement::none) return mapped(refined(cell, options), spec);
+    if (request_.umbra.file.empty()) return mapped(reference::first_order_visibility(mesh_, cell, options), spec);
+    const reference::Omega omega(mesh_, cell, options);
+    if (progress) progress("umbra", 0, 1);
+    MappedCell out = mapped(omega.map(), spec);
+    UmbraOutput umbra = make_umbra(omega, mesh_, spec, request_.scene, sha256_, request_.umbra, threads);
+    out.umbra_bytes = std::move(umbra.bytes);
+    out.umbra_summary = std::move(umbra.summary);
+    return out;
+  }
+  const char* table_head() const override {
+    return "triangles  wholly  partly  hidden  visible area  fallbacks  cell\n";
+  }
+
+ private:
+  reference::VisibilityMap refined(const exact::ConvexCell& cell, const reference::Options& options) const {
+    reference::Bounds bounds(mesh_, cell, options);
+    validate::refine(bounds, request_.refinement, request_.refine.to_reference());
+    return bounds.refined_map(request_.refinement == validate::Refinement::cells ? "subdivided" : "backprojected");
+  }
+  MappedCell mapped(const reference::VisibilityMap& map, const scene::CellSpec& spec) const {
+    return {spec.name,
+            bytes_of(reference::to_result(map, spec, request_.with_map, request_.with_states), request_, sha256_),
+            table_line(spec.name, map),
+            request_.overlap_graph.empty() ? "" : overlap_graph_of(map),
+            "",
+            ""};
+  }
+
+  const scene::TriangleMesh& mesh_;
+  std::string sha256_;
+  const MapRequest& request_;
+};
+
+}  // namespace
+
+std::unique_ptr<CellMapper> exact_mapper(const scene::TriangleMesh& mesh, const std::string& sha256,
+                                         const MapRequest& request) {
+  return std::make_unique<ExactMapper>(mesh, sha256, request);
+}
+
+}  // namespace clues::app

@@ -1,0 +1,138 @@
+// The fast path in generated cities: PVS of one street cell, time and growth from 3,000 to 1,000,000 triangles; against the exact reference where that is bearable;
+// and the same visible part with more and more hidden city behind it. All threads unless a number is given.
+#include <fmt/core.h>
+#include <sys/resource.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "exact/convex_cell.h"
+#include "fastpath/visibility/first_order.h"
+#include "fuzz/generators/city.h"
+#include "reference/visibility/first_order.h"
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::uint64_t kSeed = 1;
+
+template <class Work>
+double median_seconds(int repeats, const Work& work) {
+  std::vector<double> seconds;
+  for (int i = 0; i < repeats; ++i) {
+    const auto start = Clock::now();
+    work();
+    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  return seconds[seconds.size() / 2];
+}
+
+void cities() {
+  fmt::print("{:>10} {:>8} {:>9} {:>8} {:>8} {:>7} {:>7} {:>7} {:>9} {:>9} {:>10} {:>9} {:>8}\n", "triangles", "tree s",
+             "median s", "growth", "visible", "part", "passes", "boxes", "wedges", "exact", "fallbacks", "peak MiB",
+             "ratio");
+  double last_time = 0, last_size = 0;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  for (const std::uint32_t size : {300U, 1000U, 3000U, 10000U, 100000U, 1000000U}) {
+    const auto mesh = clues::fuzz::make_city(size, kSeed);
+    const auto cell = clues::fuzz::street_cell(size, kSeed);
+    const auto start = Clock::now();
+    const clues::fastpath::Bvh bvh(mesh);
+    const double tree = std::chrono::duration<double>(Clock::now() - start).count();
+    clues::fastpath::FirstOrder fast;
+    const double time = median_seconds(5, [&] { fast = clues::fastpath::first_order_visibility(bvh, cell, {}); });
+    double exact = 0;
+    if (size <= 3000) {
+      clues::reference::Options options;
+      options.threads = tbb::this_task_arena::max_concurrency();
+      const auto exact_cell = clues::exact::ConvexCell::from_doubles(cell);
+      std::vector<std::uint32_t> visible;
+      exact = median_seconds(size <= 1000 ? 3 : 1, [&] {
+        visible = clues::reference::first_order_visibility(mesh, exact_cell, options).visible;
+      });
+      if (visible != fast.visible)
+        fmt::print("the two do not agree: {} and {} visible\n", visible.size(), fast.visible.size());
+    }
+    const auto n = static_cast<double>(mesh.triangles.size());
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    fmt::print("{:>10} {:>8.2f} {:>9.3f} {:>8} {:>8} {:>7} {:>7} {:>7} {:>9} {:>9} {:>10} {:>9.0f} {:>8}\n", n, tree,
+               time,
+               last_size > 0 ? fmt::format("n^{:.2f}", std::log(time / last_time) / std::log(n / last_size)) : "-",
+               fast.visible.size(), fast.part.size(), fast.closure.passes, fast.closure.boxes_opened,
+               fast.counts.wedges, fast.counts.exact_decisions, fast.conservative_fallbacks,
+               static_cast<double>(usage.ru_maxrss) / 1024, exact > 0 ? fmt::format("{:.0f}", exact / time) : "-");
+    last_time = time;
+    last_size = n;
+  }
+}
+
+// A town under a closed roof, and beside it, wholly hidden, another that is doubled six times.
+clues::scene::TriangleMesh town_beside_hidden_city(std::uint32_t hidden) {
+  auto mesh = clues::fuzz::make_city(1000, kSeed);
+  const auto append = [&](const clues::scene::TriangleMesh& other, double shift) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const auto& p : other.points) mesh.points.push_back({p[0] + shift, p[1], p[2]});
+    for (const auto& t : other.triangles) mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  };
+  clues::scene::Point low = mesh.points[0], high = low;
+  for (const auto& p : mesh.points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i] - 8);
+      high[i] = std::max(high[i], p[i] + 8);
+    }
+  }
+  clues::scene::TriangleMesh roof;
+  for (unsigned i = 0; i < 8; ++i) {
+    roof.points.push_back(
+        {(i & 1U) != 0 ? high[0] : low[0], (i & 2U) != 0 ? high[1] : low[1], (i & 4U) != 0 ? high[2] : low[2]});
+  }
+  for (const auto& q : {std::array{0U, 1U, 3U, 2U},
+                        {4U, 5U, 7U, 6U},
+                        {0U, 1U, 5U, 4U},
+                        {2U, 3U, 7U, 6U},
+                        {0U, 2U, 6U, 4U},
+                        {1U, 3U, 7U, 5U}}) {
+    roof.triangles.push_back({q[0], q[1], q[2]});
+    roof.triangles.push_back({q[0], q[2], q[3]});
+  }
+  append(roof, 0);
+  append(clues::fuzz::make_city(hidden, kSeed), 2 * (high[0] - low[0]));
+  mesh.face_of.resize(mesh.triangles.size());
+  return mesh;
+}
+
+void hidden_depth() {
+  fmt::print(
+      "\na town of 1000 triangles under a roof, and a hidden city beside it\n{:>10} {:>9} {:>8} {:>8} {:>7} {:>8}\n",
+      "triangles", "median s", "to first", "visible", "part", "wedges");
+  double first = 0;
+  const auto cell = clues::fuzz::street_cell(1000, kSeed);
+  for (std::uint32_t hidden = 2000; hidden <= 128000; hidden *= 2) {
+    const auto mesh = town_beside_hidden_city(hidden);
+    const clues::fastpath::Bvh bvh(mesh);
+    clues::fastpath::FirstOrder fast;
+    const double time = median_seconds(7, [&] { fast = clues::fastpath::first_order_visibility(bvh, cell, {}); });
+    if (first == 0) first = time;
+    fmt::print("{:>10} {:>9.3f} {:>8.2f} {:>8} {:>7} {:>8}\n", mesh.triangles.size(), time, time / first,
+               fast.visible.size(), fast.part.size(), fast.counts.wedges);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tbb::task_arena arena(argc > 1 ? std::atoi(argv[1]) : tbb::task_arena::automatic);
+  fmt::print("{} threads\n", arena.max_concurrency());
+  arena.execute([] {
+    cities();
+    hidden_depth();
+  });
+}

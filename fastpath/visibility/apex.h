@@ -1,0 +1,79 @@
+// D12 at one contour vertex x, a mesh vertex or a point inside a mesh edge (CSV): which sectors of the border of the anti-cone A(x) carry
+// an SE-MV wedge.
+//
+// On a small sphere around x every incident piece is an arc, and the arcs cut the free space into faces. What is known to be visible next to x is
+// given as probes, directions with visible space. A sector exists if a probe lies in the face of the points just off the sector inside A(x):
+// from a visible point beside x sight lines go on in all directions of A(x). Around a point of an edge this is decided exactly; around
+// a vertex the face is taken, which may give a sector too many and never one too few. A sector is left out where visible space surely
+// reaches its other side too: there it bounds nothing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fastpath/visibility/on_wedge.h"
+
+namespace clues::fastpath {
+
+// A direction from x, towards `to`, moved a little to `aside` and by much less to `off`, with visible space beside x.
+struct Probe {
+  enum class Kind : std::uint8_t {
+    sight,    // to a point near x that is visible
+    contour,  // along a visible contour edge to its other end, off its supporting plane into H-
+    csv,      // back to the centre of a valid piece that passes x, beside its ray, off into H-
+  };
+  Kind kind = Kind::sight;
+  const ExactPoint* to = nullptr;
+  const Plane* plane = nullptr;         // contour, csv
+  int aside = 0;                        // csv: +1 counter-clockwise about the plane's normal, -1 clockwise
+  const ExactPoint* lit_end = nullptr;  // csv on an edge: the edge's end in H-
+  bool operator==(const Probe&) const = default;
+};
+
+struct ApexSector {
+  const Plane* plane = nullptr;
+  const ExactPoint *ray0 = nullptr, *ray1 = nullptr;
+  SpotName name0, name1;
+};
+
+class Apex {
+ public:
+  // x: mesh vertex `id`, or a point inside mesh edge `id`.
+  Apex(const LocalScene& scene, Pool& pool, bool on_edge, std::uint32_t id, const ExactPoint* x);
+
+  const ExactPoint* x() const { return x_; }
+  bool on_edge() const { return on_edge_; }
+  std::uint32_t id() const { return id_; }
+  const std::vector<ApexSector>& sectors() const { return sectors_; }
+
+  // The sectors that exist given these probes, ascending.
+  std::vector<std::uint32_t> existing(const std::vector<Probe>& probes) const;
+
+  // At a mesh vertex: whether the cell is seen from x without an incident piece between any two of the sight lines.
+  bool sees_cell_in_one_part() const;
+  // The faces of directions, as numbers: equal for equal faces.
+  std::vector<int> faces_of(const std::vector<const ExactPoint*>& to) const;
+
+ private:
+  template <class NT>
+  class Star;
+  template <class NT>
+  std::vector<std::uint32_t> existing_in(const std::vector<Probe>& probes) const;
+
+  struct Arc {
+    std::uint32_t a = 0, b = 0;  // mesh vertices: the arc runs between their directions
+    std::uint32_t edge = 0;      // the mesh edge ab
+  };
+  void find_arcs();
+  void find_sectors(Pool& pool);
+  void split(Pool& pool, const Plane* plane, const ExactPoint* ray0, const ExactPoint* ray1);
+
+  const LocalScene* scene_;
+  bool on_edge_;
+  std::uint32_t id_;
+  const ExactPoint* x_;
+  std::vector<Arc> arcs_;
+  std::vector<ApexSector> sectors_;
+};
+
+}  // namespace clues::fastpath

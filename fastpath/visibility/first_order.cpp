@@ -1,0 +1,100 @@
+#include "fastpath/visibility/first_order.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "exact/complex.h"
+
+namespace clues::fastpath {
+namespace {
+
+class EnginePart : public PartialMap {
+ public:
+  explicit EnginePart(LocalMap map) : map_(std::move(map)) {}
+
+  std::vector<std::uint32_t> visible() const override { return map_.visible(); }
+  bool certainly_hidden(const Point& p) const override { return map_.label(p) == LocalMap::Label::hidden; }
+  bool wedge_may_touch(const Box& box) const override { return map_.piece_may_touch(box); }
+  bool wedge_may_touch(const Corners& triangle) const override { return map_.piece_may_touch(triangle); }
+
+  const LocalMap& map() const { return map_; }
+
+ private:
+  LocalMap map_;
+};
+
+// The box of the scene, widened by far more than what boxes and points of the closure may be off.
+Box outside_of(const Bvh& bvh) {
+  const LocalFrame& frame = bvh.frame();
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.low[i] = frame.center[i] - 2 / frame.scale;
+    box.high[i] = frame.center[i] + 2 / frame.scale;
+  }
+  return box;
+}
+
+}  // namespace
+
+FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options) {
+  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
+  const Box outside = outside_of(bvh);
+  // What light meets, on either side: the closure asks for that in solid mode too.
+  LocalMapOptions sheet = options;
+  sheet.mode = SideMode::sheet;
+  const bool solid = options.mode == SideMode::solid;
+  sheet.regions = options.regions && !solid;
+  Closure closure = close_over_visible(bvh, Cell(cell), [&](const scene::TriangleMesh& part) {
+    return std::make_shared<const EnginePart>(make_local_map(part, exact_cell, sheet, &outside));
+  });
+  const auto& engine = static_cast<const EnginePart&>(*closure.map);
+  const LocalMap map = solid ? make_local_map(closure.part_mesh, exact_cell, options, &outside) : engine.map();
+
+  FirstOrder result;
+  for (const std::uint32_t t : map.visible()) result.visible.push_back(closure.part[t]);
+  result.regions = map.regions();
+  for (LocalRegion& region : result.regions) region.triangle = closure.part[region.triangle];
+  result.counts = map.counts();
+  result.closure = closure.counts;
+  result.conservative_fallbacks = map.counts().conservative_fallbacks + engine.map().conservative_labels();
+  result.part = std::move(closure.part);
+  return result;
+}
+
+void require_solid(const scene::TriangleMesh& mesh) {
+  // Every edge is gone through as often in one direction as in the other; corners are the same where their coordinates are. Cutting triangles where they
+  // meet keeps that, so the exact test is for meshes with T-junctions only.
+  std::vector<std::uint32_t> order(mesh.points.size()), corner(mesh.points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto& points = mesh.points;
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return points[a] < points[b]; });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    corner[order[i]] = i > 0 && points[order[i]] == points[order[i - 1]] ? corner[order[i - 1]] : order[i];
+  }
+  struct Way {
+    std::uint32_t low, high;
+    int balance;
+  };
+  std::vector<Way> ways;
+  const auto degenerate = scene::degenerate_triangles(mesh);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (std::binary_search(degenerate.begin(), degenerate.end(), t)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = corner[mesh.triangles[t][k]], b = corner[mesh.triangles[t][(k + 1) % 3]];
+      ways.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
+    }
+  }
+  std::sort(ways.begin(), ways.end(),
+            [](const Way& x, const Way& y) { return std::tie(x.low, x.high) < std::tie(y.low, y.high); });
+  for (std::size_t i = 0; i < ways.size();) {
+    int balance = 0;
+    const std::size_t first = i;
+    for (; i < ways.size() && ways[i].low == ways[first].low && ways[i].high == ways[first].high; ++i)
+      balance += ways[i].balance;
+    if (balance != 0) return exact::require_solid(exact::build_complex(mesh));
+  }
+}
+
+}  // namespace clues::fastpath

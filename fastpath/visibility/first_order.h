@@ -1,0 +1,30 @@
+// First-order visibility of one cell in a scene of any size: the closure (closure.h) over the engine (local_map.h). The door of the fast path.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fastpath/bvh.h"
+#include "fastpath/visibility/closure.h"
+#include "fastpath/visibility/local_map.h"
+
+namespace clues::fastpath {
+
+struct FirstOrder {
+  std::vector<std::uint32_t> visible;  // the PVS (D15): ids of the scene, ascending
+  std::vector<std::uint32_t> part;  // ids of the triangles that were mapped, ascending; every visible one is among them
+  std::vector<LocalRegion> regions;  // of the part, with ids of the scene, when asked for; all else is hidden
+  LocalMapCounts counts;             // of the last map
+  ClosureCounts closure;
+  std::uint64_t conservative_fallbacks = 0;
+};
+
+// One tree serves many cells at once. The same answer for any number of threads. Solid mode takes the mesh as closed: see require_solid.
+// Throws scene::Error for coordinates that are not finite.
+FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options);
+
+// D4. Throws scene::Error not_solid unless the mesh is closed and consistently oriented. O(n log n) where the triangles share their corners; else as
+// slow as exact::build_complex.
+void require_solid(const scene::TriangleMesh& mesh);
+
+}  // namespace clues::fastpath

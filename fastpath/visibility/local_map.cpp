@@ -1,0 +1,323 @@
+#include "fastpath/visibility/local_map.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <string>
+
+#include "fastpath/visibility/search.h"
+#include "scene/error.h"
+
+namespace clues::fastpath {
+
+namespace {
+
+constexpr std::uint64_t kSideSeed = 0x1d, kLabelSeed = 0x7a3;
+
+IntervalBox to_box(const Box& b) {
+  return {Interval(b.low[0], b.high[0]), Interval(b.low[1], b.high[1]), Interval(b.low[2], b.high[2])};
+}
+
+IntervalBox bounds_of(const LocalScene& scene, const Box* outside) {
+  return outside ? hull(scene.bounds, to_box(*outside)) : scene.bounds;
+}
+
+// The planes that bound a piece within its own plane, as inward normals at a point; enclosures.
+struct Bound {
+  IntervalBox normal, base;
+};
+
+struct PieceBounds {
+  Bound plane;
+  std::vector<Bound> inward;
+};
+
+PieceBounds bounds_of(const ValidPiece& piece) {
+  PieceBounds out;
+  const IntervalBox n = piece.on->plane->normal_approximate(), c = piece.on->center->approximate();
+  out.plane = {n, c};
+  const auto left_of = [&](const ExactPoint& a, const ExactPoint& b) {
+    out.inward.push_back({cross(n, b.approximate() - a.approximate()), a.approximate()});
+  };
+  left_of(*piece.on->center, *piece.ray0);
+  left_of(*piece.ray1, *piece.on->center);
+  if (piece.near0) left_of(*piece.near1, *piece.near0);
+  if (piece.blocker >= 0) {
+    const Blocker& b = piece.on->blockers[static_cast<std::size_t>(piece.blocker)];
+    left_of(*b.u, *b.w);
+  }
+  return out;
+}
+
+}  // namespace
+
+class LocalMap::Parts {
+ public:
+  Parts(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& o, const Box* outside)
+      : options(o),
+        scene(mesh, cell),
+        bounds(fastpath::bounds_of(scene, outside)),
+        search(scene, bounds, options, counts) {
+    const RoundedUp rounded_up;
+    const std::uint64_t before = exact_decisions();
+    counts.pieces = scene.pieces.size();
+    counts.refined_triangles = scene.refined_triangles;
+    search.run();
+    find_visible();
+    take_pieces();
+    counts.exact_decisions = exact_decisions() - before;
+  }
+
+  // D17: what the wedges left out by the generation limit could show lies in the anti-cones of their apexes. p in A(x) when x is in the hull of V and p.
+  bool beyond_limit(const ExactPoint& p) const {
+    for (const ExactPoint* x : search.beyond_limit()) {
+      // Surely outside A(x) when V and p are on one side of a plane through x: the one normal to the way to V's centre.
+      const IntervalBox at = x->approximate();
+      IntervalBox towards = scene.cell.vertices.front().approximate() - at;
+      for (const ExactPoint& s : scene.cell.vertices) towards = towards + (s.approximate() - at);
+      bool outside = dot(towards, p.approximate() - at).inf() > 0;
+      for (const ExactPoint& s : scene.cell.vertices) outside &= dot(towards, s.approximate() - at).inf() > 0;
+      if (!outside) return true;
+    }
+    return false;
+  }
+
+  Walker::Label label(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
+    const Walker::Label l = search.walker().label(p, pool, seed);
+    return l == Walker::Label::hidden && beyond_limit(*p) ? Walker::Label::unresolved : l;
+  }
+
+  const LocalMapOptions options;
+  LocalMapCounts counts;
+  LocalScene scene;
+  IntervalBox bounds;
+  Search search;
+  std::vector<std::uint32_t> visible;
+  std::vector<WedgePiece> pieces;
+  std::vector<LocalRegion> regions;
+  std::vector<PieceBounds> piece_bounds;
+  BoxTree piece_tree;
+  mutable std::atomic<std::uint64_t> conservative_labels{0};
+
+ private:
+  bool counts_for(const LocalOrigin& o, bool front) const {
+    return options.mode == SideMode::sheet || o.same_side == front;
+  }
+
+  // D15. A side with a DM segment has a visible region: beside the segment, in H-. Any other has one label.
+  void find_visible() {
+    std::vector<std::array<bool, 2>> cut(scene.pieces.size(), {false, false});  // front, back
+    for (const ValidPiece& piece : search.pieces().pieces()) mark_traces(piece, cut);
+    std::vector<bool> seen(scene.triangles, false);
+    for (std::uint32_t t = 0; t < scene.pieces.size(); ++t) {
+      const LocalPiece& piece = scene.pieces[t];
+      for (const bool front : {true, false}) {
+        const bool asked = std::any_of(piece.origins.begin(), piece.origins.end(),
+                                       [&](const LocalOrigin& o) { return counts_for(o, front) && !seen[o.triangle]; });
+        if (!asked || !(piece.in_cell || piece.meets_cell || side_visible(t, front, cut[t][front ? 0 : 1]))) continue;
+        for (const LocalOrigin& o : piece.origins) {
+          if (counts_for(o, front) || piece.meets_cell) seen[o.triangle] = true;
+        }
+      }
+    }
+    for (std::uint32_t t = 0; t < seen.size(); ++t) {
+      if (seen[t]) visible.push_back(t);
+    }
+  }
+
+  void mark_traces(const ValidPiece& piece, std::vector<std::array<bool, 2>>& cut) const {
+    const OnWedge& on = *piece.on;
+    if (piece.blocker >= 0) {
+      const std::uint32_t t = on.blockers[static_cast<std::size_t>(piece.blocker)].piece;
+      cut[t][scene.planes[t].side(*on.center) > 0 ? 0 : 1] = true;
+    }
+    // A piece seen edge-on is cut on the side, or sides, on which the strip runs along it.
+    for (const Radial& r : on.radials) {
+      const int after = on.turn(piece.ray0, r.w), before = on.turn(r.w, piece.ray1);
+      if (after < 0 || before < 0) continue;
+      if (piece.blocker >= 0) {
+        const Blocker& b = on.blockers[static_cast<std::size_t>(piece.blocker)];
+        if (on.turn(b.u, b.w, r.u) < 0 || on.turn(b.u, b.w, r.w) < 0) continue;
+      }
+      const bool front_is_ccw = decide([&]<class NT>() {
+        const Vec3<NT> ccw = cross(normal_of<NT>(*on.plane), coordinates<NT>(*r.w) - coordinates<NT>(*on.center));
+        return sign_of(NT(dot(normal_of<NT>(scene.planes[r.piece]), ccw))) > 0;
+      });
+      if (before > 0) cut[r.piece][front_is_ccw ? 0 : 1] = true;
+      if (after > 0) cut[r.piece][front_is_ccw ? 1 : 0] = true;
+    }
+  }
+
+  bool side_visible(std::uint32_t t, bool front, bool is_cut) {
+    const Plane& h = scene.planes[t];
+    const int side = front ? 1 : -1;
+    // A side that no point of V is strictly in front of is reached by no sight line and no continuation (D8).
+    const auto& s = scene.cell.vertices;
+    if (std::none_of(s.begin(), s.end(), [&](const ExactPoint& v) { return h.side(v) == side; })) return false;
+    if (is_cut) return true;
+    // A wedge piece in the plane of the piece lies on its back, as V has points in front.
+    const auto behind_the_piece = [&](const Plane& wedge) {
+      return wedge.side(scene.corner(t, 0)) == 0 && wedge.side(scene.corner(t, 1)) == 0 &&
+             wedge.side(scene.corner(t, 2)) == 0;
+    };
+    const Point a = scene.corner(t, 0).estimate(), b = scene.corner(t, 1).estimate(), c = scene.corner(t, 2).estimate();
+    const Vec3<Interval>& n = h.normal_approximate();
+    const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
+    const double up_size = length_estimate(up);
+    double extent = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      extent = std::max({extent, std::fabs(a[k] - b[k]), std::fabs(b[k] - c[k]), std::fabs(c[k] - a[k])});
+    constexpr double kWeights[4][3] = {{0.3671875, 0.3359375, 0.296875},
+                                       {0.203125, 0.484375, 0.3125},
+                                       {0.28125, 0.1875, 0.53125},
+                                       {0.5625, 0.25, 0.1875}};
+    for (const auto& w : kWeights) {
+      constexpr int kDoubles = 3;
+      for (int level = up_size > 0 ? 0 : kDoubles; level < 2 * kDoubles; ++level) {
+        // On either side of the piece, with nothing but the piece between.
+        const auto beside = [&](int way) {
+          if (level >= kDoubles)
+            return ExactPoint::lifted(ExactPoint(inner_point(t, w)), scene.corner(t, 0),
+                                      std::ldexp(1.0, -24 * (level - kDoubles + 1)), h, way);
+          const double step = std::ldexp(extent, -4 - 8 * level) * way;
+          Point x;
+          for (std::size_t k = 0; k < 3; ++k) x[k] = w[0] * a[k] + w[1] * b[k] + w[2] * c[k] + step * (up[k] / up_size);
+          return ExactPoint(x);
+        };
+        const ExactPoint p = beside(side), q = beside(-side);
+        if (h.side(p) != side || h.side(q) != -side || scene.crosses(p, q, t) != Crossing::yes) continue;
+        const bool blocked = scene.tree.any(SegmentTest(p, q), [&](std::uint32_t i) {
+          return scene.occluders[i] != t && scene.crosses(p, q, scene.occluders[i]) != Crossing::no;
+        });
+        if (blocked || search.pieces().may_meet(p, q, 0, behind_the_piece)) continue;
+        Pool pool;
+        ++counts.walks;
+        const Walker::Label l = label(&p, pool, kSideSeed);
+        if (l == Walker::Label::unresolved) break;
+        return l == Walker::Label::visible;
+      }
+    }
+    ++counts.conservative_fallbacks;
+    return true;
+  }
+
+  Exact3 inner_point(std::uint32_t t, const double* weights) const {
+    return Rational(weights[0]) * scene.corner(t, 0).exact() + Rational(weights[1]) * scene.corner(t, 1).exact() +
+           Rational(weights[2]) * scene.corner(t, 2).exact();
+  }
+
+  void take_pieces() {
+    std::vector<IntervalBox> boxes;
+    for (const ValidPiece& p : search.pieces().pieces()) {
+      WedgePiece out;
+      out.kind = p.kind;
+      out.generation = p.generation;
+      const IntervalBox& n = p.on->plane->normal_approximate();
+      out.normal_estimate = {(n.x.inf() + n.x.sup()) / 2, (n.y.inf() + n.y.sup()) / 2, (n.z.inf() + n.z.sup()) / 2};
+      out.center_estimate = p.on->center->estimate();
+      out.unbounded = p.blocker < 0;
+      outline(p, out);
+      out.box = {{p.box.x.inf(), p.box.y.inf(), p.box.z.inf()}, {p.box.x.sup(), p.box.y.sup(), p.box.z.sup()}};
+      pieces.push_back(std::move(out));
+      piece_bounds.push_back(fastpath::bounds_of(p));
+      boxes.push_back(p.box);
+    }
+    piece_tree = BoxTree(boxes);
+  }
+
+  // near 0, near 1, far 1, far 0
+  void outline(const ValidPiece& p, WedgePiece& out) const {
+    const Point c = p.on->center->estimate();
+    const auto middle = [](const IntervalBox& b) {
+      return Point{(b.x.inf() + b.x.sup()) / 2, (b.y.inf() + b.y.sup()) / 2, (b.z.inf() + b.z.sup()) / 2};
+    };
+    const auto far = [&](const ExactPoint* ray) {
+      if (p.blocker >= 0) return middle(far_end(p, ray));
+      const Point r = ray->estimate();
+      double reach = HUGE_VAL;  // where the ray leaves the piece's box
+      const double low[3] = {p.box.x.inf(), p.box.y.inf(), p.box.z.inf()},
+                   high[3] = {p.box.x.sup(), p.box.y.sup(), p.box.z.sup()};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double d = r[k] - c[k];
+        if (d != 0) reach = std::min(reach, ((d > 0 ? high[k] : low[k]) - c[k]) / d);
+      }
+      if (!std::isfinite(reach)) reach = 1;
+      return Point{c[0] + reach * (r[0] - c[0]), c[1] + reach * (r[1] - c[1]), c[2] + reach * (r[2] - c[2])};
+    };
+    if (!p.near0) {
+      out.outline_estimate.push_back(c);
+    } else {
+      out.outline_estimate.push_back(p.ray0->estimate());
+      out.outline_estimate.push_back(p.ray1->estimate());
+    }
+    out.outline_estimate.push_back(far(p.ray1));
+    out.outline_estimate.push_back(far(p.ray0));
+  }
+};
+
+const std::vector<std::uint32_t>& LocalMap::visible() const { return parts_->visible; }
+const std::vector<WedgePiece>& LocalMap::pieces() const { return parts_->pieces; }
+const std::vector<LocalRegion>& LocalMap::regions() const { return parts_->regions; }
+const LocalMapCounts& LocalMap::counts() const { return parts_->counts; }
+std::uint64_t LocalMap::conservative_labels() const { return parts_->conservative_labels; }
+
+LocalMap::Label LocalMap::label(const Point& p) const {
+  const RoundedUp rounded_up;
+  Pool pool;
+  const ExactPoint q(p);
+  const Walker::Label l = parts_->label(&q, pool, kLabelSeed);
+  if (l == Walker::Label::unresolved) ++parts_->conservative_labels;
+  return l == Walker::Label::hidden ? Label::hidden : Label::visible;
+}
+
+bool LocalMap::piece_may_touch(const Box& given) const {
+  const RoundedUp rounded_up;
+  const IntervalBox box = to_box(given);
+  return parts_->piece_tree.any([&](const IntervalBox& b) { return overlap(b, box); },
+                                [&](std::uint32_t i) {
+                                  const PieceBounds& piece = parts_->piece_bounds[i];
+                                  if (!may_be_zero(dot(piece.plane.normal, box - piece.plane.base))) return false;
+                                  return std::all_of(piece.inward.begin(), piece.inward.end(), [&](const Bound& b) {
+                                    return dot(b.normal, box - b.base).sup() >= 0;
+                                  });
+                                });
+}
+
+bool LocalMap::piece_may_touch(const Corners& triangle) const {
+  const RoundedUp rounded_up;
+  IntervalBox corner[3];
+  for (std::size_t i = 0; i < 3; ++i)
+    corner[i] = {Interval(triangle[i][0]), Interval(triangle[i][1]), Interval(triangle[i][2])};
+  const IntervalBox box = hull(hull(corner[0], corner[1]), corner[2]);
+  const IntervalBox normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
+  return parts_->piece_tree.any(
+      [&](const IntervalBox& b) { return overlap(b, box) && may_be_zero(dot(normal, b - corner[0])); },
+      [&](std::uint32_t i) {
+        const PieceBounds& piece = parts_->piece_bounds[i];
+        // Apart if all corners are strictly on one side of the piece's plane, or strictly outside one of its bounds.
+        bool above = true, below = true;
+        for (const IntervalBox& c : corner) {
+          const Interval x = dot(piece.plane.normal, c - piece.plane.base);
+          above &= x.inf() > 0;
+          below &= x.sup() < 0;
+        }
+        if (above || below) return false;
+        return std::none_of(piece.inward.begin(), piece.inward.end(), [&](const Bound& b) {
+          return std::all_of(std::begin(corner), std::end(corner),
+                             [&](const IntervalBox& c) { return dot(b.normal, c - b.base).sup() < 0; });
+        });
+      });
+}
+
+LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& options,
+                        const Box* outside) {
+  for (const Point& p : mesh.points) {
+    for (const double x : p) {
+      if (!std::isfinite(x))
+        throw scene::Error(scene::ErrorCode::non_finite, "local map: a coordinate is not a finite number");
+    }
+  }
+  return LocalMap(std::make_shared<const LocalMap::Parts>(mesh, cell, options, outside));
+}
+
+}  // namespace clues::fastpath

@@ -1,0 +1,91 @@
+// The first-order visibility map (D9-D17a) of a small scene, typically 20 to 3000 triangles: the engine of the fast path. Predicates are
+// evaluated in intervals of doubles and, where these cannot decide, in rationals; constructed points keep their construction and are
+// never rounded. What is left undecided (a generation limit, a walk that does not end) counts as visible and is counted.
+//
+// An implementation of its own: nothing is shared with reference/.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "exact/convex_cell.h"
+#include "fastpath/filter.h"
+#include "fastpath/visibility/box.h"
+#include "scene/mesh.h"
+
+namespace clues::fastpath {
+
+enum class SideMode : std::uint8_t { sheet, solid };  // D4
+
+struct LocalMapOptions {
+  SideMode mode = SideMode::sheet;  // solid: only fronts count. That the mesh is closed is for the caller to know.
+  int generation_limit = 16;        // D17
+  bool regions = false;             // also make LocalMap::regions()
+};
+
+enum class PieceKind : std::uint8_t { sv_me, se_me, se_mv };  // D10, D11, D12
+
+// A valid wedge piece (D13) in doubles. Estimates, but for `box`, which contains the part of the piece inside the bounds of scene and cell.
+struct WedgePiece {
+  PieceKind kind = PieceKind::sv_me;
+  int generation = 0;
+  Point normal_estimate{};  // towards H-, the side that is seen; V is on the other
+  Point center_estimate{};  // the cell vertex or the contour vertex from which it is radial
+  std::vector<Point>
+      outline_estimate{};  // near end 0, near end 1 (SE-MV: once), far end 1, far end 0; far ends clipped to the bounds
+  bool unbounded = false;  // nothing ends it within the scene
+  Box box;
+};
+
+// A region of one label on one side of a triangle (D15).
+struct LocalRegion {
+  std::uint32_t triangle = 0;
+  bool front = true, visible = false;
+  std::vector<Point> outline_estimate;
+  double area_estimate = 0;
+};
+
+struct LocalMapCounts {
+  std::uint64_t pieces = 0, refined_triangles = 0;    // of the complex (D16)
+  std::uint64_t sources = 0, apexes = 0, wedges = 0;  // contour edge parts, contour vertices looked at, envelopes made
+  std::uint64_t csv = 0, rounds = 0, walks = 0;       // D12, D17a, D14
+  std::uint64_t exact_decisions = 0;                  // made in rationals
+  std::uint64_t conservative_fallbacks = 0;           // answered visible without a proof
+};
+
+class LocalMap {
+ public:
+  enum class Label : std::uint8_t { hidden, visible };
+
+  // Triangles with a point in Omega or in V (D3, D15): ids of the mesh given, ascending.
+  const std::vector<std::uint32_t>& visible() const;
+  // The valid pieces; sorted in order of their making, which is the same in every run.
+  const std::vector<WedgePiece>& pieces() const;
+  const std::vector<LocalRegion>& regions() const;  // empty unless asked for
+
+  // D14. p finite, in free space: not on a surface. `hidden` is a proof; a case that stays undecided is called visible and counted in
+  // conservative_labels(). Any number of threads may ask.
+  Label label(const Point& p) const;
+  std::uint64_t conservative_labels() const;
+
+  // False only if no valid piece meets the closed box (the closed triangle).
+  bool piece_may_touch(const Box& box) const;
+  bool piece_may_touch(const Corners& triangle) const;
+
+  const LocalMapCounts& counts() const;
+
+  class Parts;  // local_map.cpp
+  explicit LocalMap(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+
+ private:
+  std::shared_ptr<const Parts> parts_;
+};
+
+// Keeps no reference to its arguments. Throws scene::Error for coordinates that are not finite.
+// `outside` widens the bounds to which unbounded pieces are clipped in boxes; questions about boxes, triangles and points must stay within
+// the hull of mesh, cell and `outside`.
+LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& options,
+                        const Box* outside = nullptr);
+
+}  // namespace clues::fastpath

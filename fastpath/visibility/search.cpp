@@ -1,0 +1,646 @@
+#include "fastpath/visibility/search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "fastpath/visibility/apex.h"
+#include "fastpath/visibility/contour.h"
+
+namespace clues::fastpath {
+
+namespace {
+
+constexpr std::uint64_t kSourceSeed = 0x51, kVertexSeed = 0xa7;
+constexpr int kRetries = 12;
+
+double length(const Point& v) { return length_estimate(v); }
+double inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+}  // namespace
+
+class Search::Work {
+ public:
+  Work(const LocalScene& s, const IntervalBox& b, const LocalMapOptions& o, LocalMapCounts& c)
+      : scene(s),
+        bounds(b),
+        options(o),
+        counts(c),
+        set(s),
+        walker(s, set),
+        maker(s, pool),
+        on_edge(s.edges.size()),
+        corners(s.points.size()) {}
+
+  void run() {
+    contours = contour_edges(scene, pool);
+    edge_wedges.resize(contours.size());
+    is_contour.assign(scene.edges.size(), false);
+    for (std::size_t i = 0; i < contours.size(); ++i) {
+      edge_wedges[i].resize(contours[i].touching.size());
+      is_contour[contours[i].edge] = true;
+    }
+    cuts.resize(scene.edges.size());
+    make_vertex_sources();
+    do ++counts.rounds;
+    while (round());
+    count();
+  }
+
+  // --- what there is ------------------------------------------------------------------------------------------------------------
+
+  // A contour vertex: its local picture, and the probes of this round.
+  struct Contact {
+    std::unique_ptr<Apex> apex;
+    const ExactPoint* x = nullptr;
+    int generation = 0;  // of its wedges
+    std::vector<Probe> probes;
+    bool fresh = false;
+    std::vector<bool> built;  // per sector, in this round
+    std::vector<std::unique_ptr<OnWedge>> wedges;
+    std::vector<std::pair<std::vector<Probe>, std::vector<std::uint32_t>>> known;  // existing sectors by probes
+  };
+
+  // A part of a contour edge between neighbouring cuts, seen from one supporting plane (D13a). `beside` is a point of free space that stands for the
+  // space just off y in H-, next to the polygon between y and the touching vertex.
+  struct Source {
+    std::size_t contour = 0;
+    const ExactPoint *lo = nullptr, *hi = nullptr, *y = nullptr, *beside = nullptr;
+    int level = 0;  // of nearness of `beside`
+    std::uint64_t seed = kSourceSeed;
+    Walk walk;
+    bool lit = false;
+  };
+
+  // A mesh vertex x and a point beside it on the way to the cell.
+  struct VertexSource {
+    std::uint32_t point = 0;
+    const ExactPoint* beside = nullptr;
+    std::uint64_t seed = kVertexSeed;
+    Walk walk;
+    bool lit = false;
+  };
+
+  struct Job {
+    std::size_t contour = 0;
+    int touching = -1;  // index into ContourEdge::touching; -1: a sector of a contact
+    const ExactPoint *lo = nullptr, *hi = nullptr;
+    Contact* contact = nullptr;
+    std::uint32_t sector = 0;
+  };
+
+  // --- one round ----------------------------------------------------------------------------------------------------------------
+
+  bool round() {
+    set.clear();
+    beyond.clear();
+    const auto restart = [](Contact& c) {
+      c.probes.clear();
+      c.fresh = false;
+      c.built.assign(c.apex->sectors().size(), false);
+    };
+    for (const auto& c : corners) {
+      if (c) restart(*c);
+    }
+    for (auto& list : on_edge) {
+      for (auto& c : list) {
+        restart(*c);
+        c->generation = -1;
+      }
+    }
+    new_cuts.assign(scene.edges.size(), {});
+    make_sources();
+    std::vector<std::size_t> lit;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      if (sources[i].walk.end != Walk::End::surface) lit.push_back(i);
+    }
+    for (VertexSource& v : vertex_sources) {
+      v.lit = false;
+      if (v.walk.end == Walk::End::crossed) v.walk = walk(v.beside, v.seed);
+      if (v.walk.end != Walk::End::surface) light_vertex(v);
+    }
+    std::vector<Job> jobs = light(lit);
+    while (!jobs.empty()) {
+      const std::size_t first = set.pieces().size();
+      set.add(build(jobs));
+      for (std::size_t i = first; i < set.pieces().size(); ++i) meet_edges(i);
+      for (VertexSource& v : vertex_sources) {
+        if (!v.lit && newly_visible(v.beside, v.walk, v.seed, first)) light_vertex(v);
+      }
+      jobs = light(newly_lit(first));
+    }
+    // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
+    set.clear();
+    set.add(build(merged_jobs()));
+    for (const ValidPiece& piece : set.pieces()) cut_coplanar(piece);
+
+    bool changed = false;
+    for (std::uint32_t e = 0; e < cuts.size(); ++e) {
+      if (!is_contour[e]) continue;
+      for (const ExactPoint* p : new_cuts[e]) changed |= insert_cut(e, p);
+    }
+    return changed;
+  }
+
+  // Keeps the cuts of an edge in order from a to b; false if there was one at this point.
+  bool insert_cut(std::uint32_t e, const ExactPoint* p) {
+    std::vector<const ExactPoint*>& list = cuts[e];
+    for (const ExactPoint* q : list) {
+      if (p == q || equal(*p, *q)) return false;
+    }
+    const ExactPoint &a = scene.points[scene.edges[e].a], &b = scene.points[scene.edges[e].b];
+    int axis = 0;
+    while (compare_coordinate(a, b, axis) == 0) ++axis;
+    const int way = compare_coordinate(a, b, axis);
+    list.insert(std::lower_bound(
+                    list.begin(), list.end(), p,
+                    [&](const ExactPoint* x, const ExactPoint* y) { return compare_coordinate(*x, *y, axis) == way; }),
+                p);
+    return true;
+  }
+
+  Walk walk(const ExactPoint* p, std::uint64_t seed) {
+    ++counts.walks;
+    return walker.walk(p, pool, seed);
+  }
+
+  // --- sources ------------------------------------------------------------------------------------------------------------------
+
+  void make_sources() {
+    std::map<std::tuple<std::size_t, const ExactPoint*, const ExactPoint*>, Source> known;
+    for (Source& s : sources) known.emplace(std::tuple(s.contour, s.lo, s.hi), std::move(s));
+    sources.clear();
+    for (std::size_t c = 0; c < contours.size(); ++c) {
+      const LocalEdge& e = scene.edges[contours[c].edge];
+      std::vector<const ExactPoint*> stops{&scene.points[e.a]};
+      stops.insert(stops.end(), cuts[contours[c].edge].begin(), cuts[contours[c].edge].end());
+      stops.push_back(&scene.points[e.b]);
+      for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+        const auto it = known.find({c, stops[i], stops[i + 1]});
+        if (it != known.end()) {
+          Source& s = sources.emplace_back(std::move(it->second));
+          s.lit = false;
+          if (s.walk.end == Walk::End::crossed) s.walk = walk(s.beside, s.seed);
+        } else {
+          Source s;
+          s.contour = c;
+          s.lo = stops[i];
+          s.hi = stops[i + 1];
+          s.y = pool.keep(ExactPoint::between(*s.lo, *s.hi, 0.4716796875));
+          place(s);
+          sources.push_back(std::move(s));
+        }
+      }
+    }
+    counts.sources = std::max<std::uint64_t>(counts.sources, sources.size());
+  }
+
+  auto through(const LocalEdge& edge) const {
+    return [this, &edge](const Plane& h) {
+      return h.side(scene.points[edge.a]) == 0 && h.side(scene.points[edge.b]) == 0;
+    };
+  }
+
+  // Chooses `beside` and walks from it. Without a place the source counts as visible.
+  void place(Source& s) {
+    const ContourEdge& c = contours[s.contour];
+    const LocalEdge& edge = scene.edges[c.edge];
+    const ExactPoint &touching = scene.cell.vertices[static_cast<std::size_t>(c.touching.front())],
+                     &a = scene.points[edge.a], &b = scene.points[edge.b];
+    const Point y = s.y->estimate(), along = minus(b.estimate(), a.estimate());
+    Point to = minus(touching.estimate(), y);  // across the edge
+    const double shift = -inner(to, along) / inner(along, along);
+    for (std::size_t k = 0; k < 3; ++k) to[k] += shift * along[k];
+    const Vec3<Interval>& n = c.plane->normal_approximate();
+    const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
+    const double size = std::min(length(to), length(minus(s.hi->estimate(), s.lo->estimate())));
+    constexpr int kDoubles = 4;
+    if (!(length(to) > 0 && length(up) > 0)) s.level = std::max(s.level, kDoubles);
+    for (; s.level < 2 * kDoubles; ++s.level) {
+      const ExactPoint beside = [&] {
+        if (s.level >= kDoubles) {  // features smaller than the spacing of doubles
+          const double step = std::ldexp(1.0, -5 - 24 * (s.level - kDoubles + 1));
+          const Exact3 across = touching.exact() + Rational(std::isfinite(shift) ? shift : 0) * (b.exact() - a.exact());
+          return ExactPoint::lifted(*s.y, ExactPoint(across), step, *c.plane, 0x1p-5);
+        }
+        const double step = std::ldexp(size, -5 - 7 * s.level);
+        Point p;
+        for (std::size_t k = 0; k < 3; ++k)
+          p[k] = y[k] + step * (to[k] / length(to)) + step * 0x1p-5 * (up[k] / length(up));
+        return ExactPoint(p);
+      }();
+      // Between H- and the event surface of the other supporting plane there is one label.
+      if (c.plane->side(beside) <= 0 || (c.other && c.other->side(beside) >= 0)) continue;
+      const bool blocked = scene.tree.any(SegmentTest(beside, *s.y), [&](std::uint32_t i) {
+        const std::uint32_t t = scene.occluders[i];
+        if (std::find(edge.pieces.begin(), edge.pieces.end(), t) != edge.pieces.end()) return false;
+        return scene.crosses(*s.y, beside, t) != Crossing::no;
+      });
+      if (blocked || set.may_meet(beside, *s.y, 0, through(edge))) continue;
+      s.beside = pool.keep(beside);
+      s.walk = walk(s.beside, s.seed);
+      return;
+    }
+    s.beside = nullptr;
+    s.walk = Walk{};
+    s.walk.end = Walk::End::unresolved;
+  }
+
+  bool newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first) {
+    Crossing c = walker.visible(w, first);
+    for (int i = 0; c == Crossing::touch && i < kRetries; ++i) {
+      w = walk(p, ++seed);
+      c = walker.visible(w, 0);
+    }
+    return c != Crossing::no;
+  }
+
+  std::vector<std::size_t> newly_lit(std::size_t first) {
+    std::vector<std::size_t> lit;
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+      Source& s = sources[i];
+      if (s.lit) continue;
+      std::size_t from = first;
+      if (s.beside && set.may_meet(*s.beside, *s.y, first, through(scene.edges[contours[s.contour].edge]))) {
+        ++s.level;
+        place(s);
+        from = 0;
+      }
+      if (s.walk.end != Walk::End::surface || newly_visible(s.beside, s.walk, s.seed, from)) lit.push_back(i);
+    }
+    return lit;
+  }
+
+  // --- mesh vertices ------------------------------------------------------------------------------------------------------------
+
+  void make_vertex_sources() {
+    for (std::uint32_t v = 0; v < scene.points.size(); ++v) {
+      if (scene.point_pieces[v].empty()) continue;
+      Contact* c = corner(v);
+      if (c->apex->sectors().empty()) continue;
+      std::vector<ExactPoint> from;
+      if (c->apex->sees_cell_in_one_part()) {
+        from.push_back(*walker.viewpoint(v));
+      } else {
+        from = viewpoints_of_parts(*c->apex);
+      }
+      for (const ExactPoint& p : from) add_vertex_source(v, p);
+    }
+  }
+
+  void add_vertex_source(std::uint32_t v, const ExactPoint& from) {
+    const ExactPoint& x = scene.points[v];
+    const ExactPoint* kept = pool.keep(from);
+    for (int level = 0; level < 7; ++level) {
+      const ExactPoint beside = point_near(x, *kept, level);
+      if (equal(beside, x) || scene.may_meet(beside, x)) continue;
+      VertexSource s;
+      s.point = v;
+      s.beside = pool.keep(beside);
+      s.walk = walk(s.beside, s.seed);
+      vertex_sources.push_back(std::move(s));
+      return;
+    }
+  }
+
+  // Points of V such that every local face at x from which V is seen is seen from one of them: near every vertex of V, and near the places where the
+  // planes of incident pieces cross edges of V.
+  std::vector<ExactPoint> viewpoints_of_parts(const Apex& apex) {
+    const auto& s = scene.cell.vertices;
+    std::vector<ExactPoint> found;
+    const auto weights = [&](double others) {
+      std::vector<double> w(s.size());
+      for (std::size_t j = 0; j < s.size(); ++j)
+        w[j] = others * static_cast<double>(3 + (7 * j + 11 * found.size()) % 13) / 16;
+      return w;
+    };
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      for (const double others : {0x1p-8, 0x1p-20}) {
+        std::vector<double> w = weights(others);
+        w[i] = 1;
+        found.push_back(scene.cell.interior_point(w));
+      }
+    }
+    const Point x = apex.x()->estimate();
+    const auto& pieces = apex.on_edge() ? scene.edges[apex.id()].pieces : scene.point_pieces[apex.id()];
+    for (const std::uint32_t t : pieces) {
+      const Plane& h = scene.planes[t];
+      for (const auto& [i, j] : scene.cell.edges) {
+        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+        if (h.side(s[a]) * h.side(s[b]) >= 0) continue;
+        const ExactPoint c = ExactPoint::on_plane(s[a], s[b], h);
+        const Point pc = c.estimate(), pa = s[a].estimate(), pb = s[b].estimate();
+        const double part = length(minus(pc, pa)) / length(minus(pb, pa));
+        for (const double step : {0x1p-4, 0x1p-10, 0x1p-20}) {
+          for (const double way : {-step, step}) {
+            if (!(part + way > 0 && part + way < 1)) continue;
+            std::vector<double> w = weights(step * 0x1p-5);
+            w[a] = 1 - part - way;
+            w[b] = part + way;
+            found.push_back(scene.cell.interior_point(w));
+          }
+        }
+      }
+      // Beside the directions of incident edges that point into V.
+      for (const std::uint32_t c : scene.pieces[t].corners) {
+        const Point along = minus(scene.points[c].estimate(), x);
+        if (length(along) == 0) continue;
+        const Point center = walker.viewpoint(0)->estimate();
+        const double far = length(minus(center, x)) / length(along);
+        const Vec3<Interval>& n = h.normal_approximate();
+        const Point up{n.x.inf(), n.y.inf(), n.z.inf()};
+        for (const double reach : {0.25, 0.5, 0.75, 1.0, 1.25, 1.5}) {
+          for (const double way : {-0x1p-12, 0x1p-12}) {
+            Point p;
+            for (std::size_t k = 0; k < 3; ++k)
+              p[k] = x[k] + reach * far * along[k] + way * far * length(along) * up[k] / length(up);
+            if (!std::isfinite(p[0] + p[1] + p[2])) continue;
+            const ExactPoint v(p);
+            if (scene.cell.interior_contains(v)) found.push_back(v);
+          }
+        }
+      }
+    }
+    // All of those near vertices, and one more for each other face.
+    std::vector<const ExactPoint*> to;
+    for (const ExactPoint& v : found) to.push_back(&v);
+    const std::vector<int> face = apex.faces_of(to);
+    std::vector<ExactPoint> out;
+    std::vector<int> done;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const bool is_new = std::find(done.begin(), done.end(), face[i]) == done.end();
+      if (!is_new && i >= 2 * s.size()) continue;
+      done.push_back(face[i]);
+      out.push_back(found[i]);
+    }
+    return out;
+  }
+
+  void light_vertex(VertexSource& v) {
+    v.lit = true;
+    add_probe(corner(v.point), {Probe::Kind::sight, v.beside, nullptr, 0, nullptr});
+  }
+
+  // --- lighting -----------------------------------------------------------------------------------------------------------------
+
+  void add_probe(Contact* c, const Probe& p) {
+    if (c->apex->sectors().empty()) return;
+    if (std::find(c->probes.begin(), c->probes.end(), p) != c->probes.end()) return;
+    c->probes.push_back(p);
+    if (!c->fresh) touched.push_back(c);
+    c->fresh = true;
+  }
+
+  // The wedges that newly visible sources make: their own (D10, D11), and those at the contour vertices they light (D12).
+  std::vector<Job> light(const std::vector<std::size_t>& lit) {
+    std::vector<Job> jobs;
+    for (const std::size_t i : lit) {
+      Source& s = sources[i];
+      s.lit = true;
+      const ContourEdge& c = contours[s.contour];
+      for (int k = 0; k < static_cast<int>(c.touching.size()); ++k)
+        jobs.push_back({s.contour, k, s.lo, s.hi, nullptr, 0});
+      const LocalEdge& e = scene.edges[c.edge];
+      const ExactPoint *a = &scene.points[e.a], *b = &scene.points[e.b];
+      if (s.lo == a) add_probe(corner(e.a), {Probe::Kind::contour, b, c.plane, 0, nullptr});
+      if (s.hi == b) add_probe(corner(e.b), {Probe::Kind::contour, a, c.plane, 0, nullptr});
+    }
+    std::vector<Contact*> order;
+    order.swap(touched);
+    for (Contact* c : order) {
+      c->fresh = false;
+      if (c->generation > options.generation_limit) {
+        beyond.push_back(c->x);
+        continue;
+      }
+      for (const std::uint32_t k : existing(*c)) {
+        if (c->built[k]) continue;
+        c->built[k] = true;
+        jobs.push_back({0, -1, nullptr, nullptr, c, k});
+      }
+    }
+    return jobs;
+  }
+
+  const std::vector<std::uint32_t>& existing(Contact& c) {
+    for (const auto& [probes, sectors] : c.known) {
+      if (probes == c.probes) return sectors;
+    }
+    c.known.emplace_back(c.probes, c.apex->existing(c.probes));
+    return c.known.back().second;
+  }
+
+  // All wedges of the round, with one job for each maximal visible part of a contour edge.
+  std::vector<Job> merged_jobs() {
+    std::vector<Job> jobs;
+    for (std::size_t i = 0; i < sources.size();) {
+      std::size_t j = i;
+      while (j < sources.size() && sources[j].contour == sources[i].contour && sources[j].lit) ++j;
+      if (j > i) {
+        const std::size_t c = sources[i].contour;
+        for (int k = 0; k < static_cast<int>(contours[c].touching.size()); ++k)
+          jobs.push_back({c, k, sources[i].lo, sources[j - 1].hi, nullptr, 0});
+      }
+      i = std::max(j, i + 1);
+    }
+    const auto add = [&](Contact& c) {
+      for (std::uint32_t k = 0; k < c.built.size(); ++k) {
+        if (c.built[k]) jobs.push_back({0, -1, nullptr, nullptr, &c, k});
+      }
+    };
+    for (const auto& c : corners) {
+      if (c) add(*c);
+    }
+    for (const auto& list : on_edge) {
+      for (const auto& c : list) add(*c);
+    }
+    return jobs;
+  }
+
+  // --- wedges -------------------------------------------------------------------------------------------------------------------
+
+  const OnWedge& wedge_of(const Job& job) {
+    std::unique_ptr<OnWedge>& slot = job.touching >= 0
+                                         ? edge_wedges[job.contour][static_cast<std::size_t>(job.touching)]
+                                         : job.contact->wedges[job.sector];
+    if (slot) return *slot;
+    Sector s;
+    if (job.touching < 0) {
+      const Apex& apex = *job.contact->apex;
+      const ApexSector& sector = apex.sectors()[job.sector];
+      s = {sector.plane, job.contact->x, sector.ray0, sector.ray1, sector.name0, sector.name1, true, {}};
+      s.apex = {apex.on_edge() ? SpotName::Kind::edge : SpotName::Kind::vertex, apex.id()};
+    } else {
+      const ContourEdge& c = contours[job.contour];
+      const LocalEdge& e = scene.edges[c.edge];
+      s.plane = c.plane;
+      s.center = &scene.cell.vertices[static_cast<std::size_t>(c.touching[static_cast<std::size_t>(job.touching)])];
+      s.ray0 = &scene.points[e.a];
+      s.ray1 = &scene.points[e.b];
+      s.name0 = {SpotName::Kind::vertex, e.a};
+      s.name1 = {SpotName::Kind::vertex, e.b};
+      const OnWedge frame{s.plane, s.center, {}, {}, {}, {}, {}};
+      if (frame.turn(s.ray0, s.ray1) < 0) {
+        std::swap(s.ray0, s.ray1);
+        std::swap(s.name0, s.name1);
+      }
+    }
+    ++counts.wedges;
+    slot = std::make_unique<OnWedge>(maker.make(s));
+    return *slot;
+  }
+
+  std::vector<ValidPiece> build(const std::vector<Job>& jobs) {
+    std::vector<ValidPiece> batch;
+    for (const Job& job : jobs) {
+      const OnWedge& on = wedge_of(job);
+      ValidPiece piece;
+      piece.on = &on;
+      const ExactPoint *lo = job.lo, *hi = job.hi;
+      if (job.touching < 0) {
+        piece.kind = PieceKind::se_mv;
+        piece.generation = job.contact->generation;
+      } else {
+        const ContourEdge& c = contours[job.contour];
+        piece.kind = c.touching.size() > 1 ? PieceKind::se_me : PieceKind::sv_me;
+        piece.near0 = on.strips.front().ray0;
+        piece.near1 = on.strips.back().ray1;
+        if (piece.near0 != &scene.points[scene.edges[c.edge].a]) std::swap(lo, hi);
+      }
+      for (const Strip& strip : on.strips) {
+        piece.ray0 = lo && on.turn(strip.ray0, lo) > 0 ? lo : strip.ray0;
+        piece.ray1 = hi && on.turn(hi, strip.ray1) > 0 ? hi : strip.ray1;
+        piece.blocker = strip.blocker;
+        if (lo && on.turn(piece.ray0, piece.ray1) <= 0) continue;
+        set_box(piece, bounds);
+        batch.push_back(piece);
+      }
+    }
+    return batch;
+  }
+
+  // --- CSVs ---------------------------------------------------------------------------------------------------------------------
+
+  void meet_edges(std::size_t i) {
+    const ValidPiece piece = set.pieces()[i];
+    const OnWedge& on = *piece.on;
+    for (const Meeting& m : on.meetings) {
+      const int after = on.turn(piece.ray0, m.at);
+      if (after < 0) continue;
+      const int before = on.turn(m.at, piece.ray1);
+      if (before < 0) continue;
+      if (piece.blocker >= 0) {
+        const Blocker& b = on.blockers[static_cast<std::size_t>(piece.blocker)];
+        if (on.turn(b.u, b.w, m.at) < 0) continue;
+      }
+      Contact* c = m.at_vertex ? corner(m.id) : csv(m.id, m.at);
+      if (!m.at_vertex) new_cuts[m.id].push_back(c->x);
+      const int generation = piece.generation + 1;
+      if (!m.at_vertex && (c->generation < 0 || generation < c->generation)) c->generation = generation;
+      Probe probe{Probe::Kind::csv, on.center, on.plane, 0, nullptr};
+      if (!m.at_vertex) {
+        const LocalEdge& e = scene.edges[m.id];
+        probe.lit_end = &scene.points[on.plane->side(scene.points[e.a]) > 0 ? e.a : e.b];
+      }
+      // The piece lies on both sides of the ray through the vertex, or on one.
+      if (before > 0) {
+        probe.aside = 1;
+        add_probe(c, probe);
+      }
+      if (after > 0) {
+        probe.aside = -1;
+        add_probe(c, probe);
+      }
+    }
+  }
+
+  // The outline of a piece that runs over an edge in its plane changes the label along that edge.
+  void cut_coplanar(const ValidPiece& piece) {
+    const OnWedge& on = *piece.on;
+    for (const std::uint32_t e : on.coplanar_edges) {
+      if (!is_contour[e]) continue;
+      const ExactPoint &a = scene.points[scene.edges[e].a], &b = scene.points[scene.edges[e].b];
+      for (const ExactPoint* ray : {piece.ray0, piece.ray1}) {
+        if (on.turn(ray, &a) * on.turn(ray, &b) >= 0) continue;
+        // Where the edge crosses the plane through the ray that is normal to the wedge; in front of the centre, not behind it.
+        const ExactPoint* x = crossing_in_plane(on, *ray, a, b);
+        if (x) new_cuts[e].push_back(x);
+      }
+    }
+  }
+
+  const ExactPoint* crossing_in_plane(const OnWedge& on, const ExactPoint& ray, const ExactPoint& a,
+                                      const ExactPoint& b) {
+    const Exact3 &c = on.center->exact(), &n = on.plane->normal_exact();
+    const Exact3 d = ray.exact() - c, beside = cross(n, d);
+    const Rational at_a = dot(beside, a.exact() - c), at_b = dot(beside, b.exact() - c);
+    const Exact3 x = a.exact() + Rational(at_a / (at_a - at_b)) * (b.exact() - a.exact());
+    if (sgn(Rational(dot(x - c, d))) <= 0) return nullptr;
+    return pool.keep(ExactPoint(x));
+  }
+
+  Contact* csv(std::uint32_t edge, const ExactPoint* x) {
+    for (const auto& c : on_edge[edge]) {
+      if (c->x == x || equal(*c->x, *x)) return c.get();
+    }
+    Contact* c = on_edge[edge].emplace_back(new_contact(true, edge, x)).get();
+    c->generation = -1;
+    return c;
+  }
+
+  Contact* corner(std::uint32_t point) {
+    if (!corners[point]) corners[point] = new_contact(false, point, &scene.points[point]);
+    return corners[point].get();
+  }
+
+  std::unique_ptr<Contact> new_contact(bool is_on_edge, std::uint32_t id, const ExactPoint* x) {
+    ++counts.apexes;
+    auto c = std::make_unique<Contact>();
+    c->x = x;
+    c->apex = std::make_unique<Apex>(scene, pool, is_on_edge, id, x);
+    c->built.assign(c->apex->sectors().size(), false);
+    c->wedges.resize(c->apex->sectors().size());
+    return c;
+  }
+
+  void count() {
+    for (const auto& list : on_edge) {
+      for (const auto& c : list) counts.csv += std::find(c->built.begin(), c->built.end(), true) != c->built.end();
+    }
+    counts.conservative_fallbacks += beyond.size();
+    for (const Source& s : sources) counts.conservative_fallbacks += s.walk.end == Walk::End::unresolved;
+    for (const VertexSource& v : vertex_sources) counts.conservative_fallbacks += v.walk.end == Walk::End::unresolved;
+  }
+
+  const LocalScene& scene;
+  const IntervalBox& bounds;
+  const LocalMapOptions& options;
+  LocalMapCounts& counts;
+  Pool pool;
+  PieceSet set;
+  Walker walker;
+  OnWedgeMaker maker;
+  std::vector<ContourEdge> contours;
+  std::vector<std::vector<std::unique_ptr<OnWedge>>> edge_wedges;  // per contour edge and touching vertex
+  std::vector<bool> is_contour;
+  std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
+  std::vector<Source> sources;
+  std::vector<VertexSource> vertex_sources;
+  std::vector<std::vector<std::unique_ptr<Contact>>> on_edge;
+  std::vector<std::unique_ptr<Contact>> corners;
+  std::vector<Contact*> touched;
+  std::vector<const ExactPoint*> beyond;
+};
+
+Search::Search(const LocalScene& scene, const IntervalBox& bounds, const LocalMapOptions& options,
+               LocalMapCounts& counts)
+    : work_(std::make_unique<Work>(scene, bounds, options, counts)) {}
+Search::~Search() = default;
+void Search::run() { work_->run(); }
+const PieceSet& Search::pieces() const { return work_->set; }
+const Walker& Search::walker() const { return work_->walker; }
+const std::vector<const ExactPoint*>& Search::beyond_limit() const { return work_->beyond; }
+
+}  // namespace clues::fastpath

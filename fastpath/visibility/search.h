@@ -1,0 +1,34 @@
+// D17, D17a: all valid wedge pieces of a scene and cell. Only visible sources make wedges, and valid pieces make CSVs, which make wedges. Within a
+// round the contour edges are cut at a fixed set of points, and labels only turn from hidden to visible. At its end the CSVs met
+// become cuts and the next round starts over; when no new cut appears every part of an edge has one label (D13a). Envelopes, walks and local
+// pictures of contour vertices are kept from round to round.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fastpath/visibility/local_map.h"
+#include "fastpath/visibility/piece_set.h"
+#include "fastpath/visibility/walker.h"
+
+namespace clues::fastpath {
+
+class Search {
+ public:
+  // `bounds`: of all that will be asked about.
+  Search(const LocalScene& scene, const IntervalBox& bounds, const LocalMapOptions& options, LocalMapCounts& counts);
+  ~Search();
+  // Afterwards pieces() is complete. Points x outside A(x) of all of beyond_limit() have right labels.
+  void run();
+
+  const PieceSet& pieces() const;
+  const Walker& walker() const;
+  // D17: apexes whose wedges the generation limit left out.
+  const std::vector<const ExactPoint*>& beyond_limit() const;
+
+ private:
+  class Work;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace clues::fastpath

@@ -1,0 +1,230 @@
+#include "fastpath/visibility/walker.h"
+
+#include <algorithm>
+
+namespace clues::fastpath {
+
+namespace {
+
+constexpr int kLongestWalk = 48;  // legs
+constexpr int kAttempts = 40;     // sight lines in special position in a row
+
+std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+constexpr auto kNothing = [](const Plane&) { return false; };
+
+}  // namespace
+
+Walker::Walker(const LocalScene& scene, const PieceSet& pieces) : scene_(&scene), pieces_(&pieces) {
+  const RoundedUp rounded_up;
+  const std::size_t n = scene.cell.vertices.size();
+  const std::size_t count = n == 1 ? 1 : 61;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<double> weights;
+    for (std::size_t k = 0; k < n; ++k) weights.push_back(static_cast<double>(1 + mix(i * 1009 + k) % 4093));
+    viewpoints_.push_back(own_.keep(scene.cell.interior_point(weights)));
+  }
+}
+
+int Walker::height_sign(const Surface& s, const ExactPoint& x) const {
+  return s.side * scene_->planes[s.piece].side(x);
+}
+
+const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::uint64_t seed, Pool& pool) const {
+  const auto good = [&](const ExactPoint& v) { return height_sign(on, v) > 0 && (!also || height_sign(*also, v) > 0); };
+  for (std::uint64_t i = 0; i < 8; ++i) {
+    const ExactPoint* v = viewpoint(mix(seed + i));
+    if (good(*v)) return v;
+  }
+  const auto& s = scene_->cell.vertices;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (!good(s[i])) continue;
+    for (int k = 2; k < 60; k += 3) {  // closer and closer to the vertex
+      std::vector<double> weights(s.size());
+      for (std::size_t j = 0; j < s.size(); ++j)
+        weights[j] = std::ldexp(static_cast<double>(1 + mix(seed * 31 + j) % 61), j == i ? 0 : -k);
+      weights[i] = 61;
+      const ExactPoint* v = pool.keep(scene_->cell.interior_point(weights));
+      if (good(*v)) return v;
+    }
+  }
+  if (!also) return nullptr;
+  // An edge or a diagonal of V may cross the space between the planes.
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    for (std::size_t j = 0; j < s.size(); ++j) {
+      if (height_sign(on, s[i]) <= 0 || height_sign(*also, s[j]) <= 0) continue;
+      for (int k = 1; k < 16; ++k) {
+        std::vector<double> weights(s.size(), 0x1p-40);
+        weights[i] = k;
+        weights[j] = 16 - k;
+        const ExactPoint* v = pool.keep(scene_->cell.interior_point(weights));
+        if (good(*v)) return v;
+      }
+    }
+  }
+  return nullptr;
+}
+
+Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b) const {
+  return decide([&]<class NT>() {
+    const auto height = [&](const Surface& s, const ExactPoint& x) {
+      const Plane& h = scene_->planes[s.piece];
+      return NT(NT(s.side) * dot(normal_of<NT>(h), coordinates<NT>(x) - coordinates<NT>(h.base())));
+    };
+    std::vector<NT> ha, hb;
+    for (const ExactPoint& s : scene_->cell.vertices) {
+      ha.push_back(height(a, s));
+      hb.push_back(height(b, s));
+    }
+    Both result = Both::apart;
+    for (std::size_t i = 0; i < ha.size(); ++i) {
+      const int ai = sign_of(ha[i]), bi = sign_of(hb[i]);
+      if (ai > 0 && bi > 0) return Both::meet;
+      if (ai >= 0 && bi >= 0) result = Both::touch;
+      if (ai <= 0) continue;
+      for (std::size_t j = 0; j < ha.size(); ++j) {
+        if (sign_of(ha[j]) >= 0) continue;
+        // The second height where the first is zero.
+        const int s = sign_of(NT(NT(hb[j] * ha[i]) - NT(hb[i] * ha[j])));
+        if (s > 0) return Both::meet;
+        if (s == 0) result = Both::touch;
+      }
+    }
+    return result;
+  });
+}
+
+// A groove between two walls that share an edge, into which no point of V looks: the walk would go from one wall to the other for ever, towards
+// the edge. Beside the edge all is hidden, as V keeps away from the edge's line; so it ends with a leg from the edge.
+bool Walker::groove_leg(Walk& walk, Pool& pool) const {
+  const Leg &last = walk.legs.back(), &one = walk.legs[walk.legs.size() - 2];
+  for (const std::uint32_t id : scene_->pieces[last.piece].edges) {
+    const LocalEdge& e = scene_->edges[id];
+    if (std::find(e.pieces.begin(), e.pieces.end(), one.piece) == e.pieces.end()) continue;
+    const ExactPoint &a = scene_->points[e.a], &b = scene_->points[e.b];
+    const Point pa = a.estimate(), pb = b.estimate(), q = last.next->estimate();
+    double along = 0, length = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      along += (q[k] - pa[k]) * (pb[k] - pa[k]);
+      length += (pb[k] - pa[k]) * (pb[k] - pa[k]);
+    }
+    const double t = along / length;
+    if (!(t > 0 && t < 1)) return false;
+    const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
+    const bool blocked = scene_->tree.any(SegmentTest(*y, *last.next), [&](std::uint32_t i) {
+      const std::uint32_t piece = scene_->occluders[i];
+      if (std::find(e.pieces.begin(), e.pieces.end(), piece) != e.pieces.end()) return false;
+      return scene_->crosses(*y, *last.next, piece) != Crossing::no;
+    });
+    if (blocked) return false;
+    walk.legs.push_back({y, last.next, nullptr, last.piece, last.side, true});
+    return true;
+  }
+  return false;
+}
+
+Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
+  Walk walk;
+  if (scene_->cell.contains(*p)) {
+    walk.end = Walk::End::cell;
+    return walk;
+  }
+  std::optional<Surface> on, before;
+  for (int depth = 0; depth < kLongestWalk; ++depth) {
+    bool both = false;
+    if (before) {
+      const Both how = in_front_of_both(*on, *before);
+      both = how == Both::meet;
+      const std::size_t n = walk.legs.size();
+      if (how == Both::apart && n >= 4 && walk.legs[n - 1].piece == walk.legs[n - 3].piece &&
+          walk.legs[n - 2].piece == walk.legs[n - 4].piece && groove_leg(walk, pool)) {
+        walk.end = Walk::End::surface;
+        return walk;
+      }
+    }
+    bool found = false;
+    for (int attempt = 0; attempt < kAttempts && !found; ++attempt) {
+      const std::uint64_t number = mix(seed * 1000003 + static_cast<std::uint64_t>(depth * 1009 + attempt));
+      const ExactPoint* v = viewpoint(number);
+      if (on) {
+        v = both ? in_front(*on, &*before, number, pool) : nullptr;
+        if (!v) v = in_front(*on, nullptr, number, pool);
+        if (!v) {
+          walk.end = Walk::End::surface;
+          return walk;
+        }
+      }
+      const LocalScene::Last last = scene_->last_crossing(*v, *p);
+      if (last.degenerate) continue;
+      if (!last.piece) {
+        walk.end = Walk::End::cell;
+        return walk;
+      }
+      const Plane& h = scene_->planes[*last.piece];
+      const ExactPoint* m = pool.keep(ExactPoint::on_plane(*v, *p, h));
+      const int side = h.side(*p);
+      const Crossing crossed = leg_crossed({m, p, nullptr, *last.piece, side, false}, 0);
+      if (crossed == Crossing::yes) {
+        walk.end = Walk::End::crossed;
+        return walk;
+      }
+      if (crossed == Crossing::touch) continue;
+      for (int level = 0; level < 7 && !found; ++level) {
+        const ExactPoint next = point_near(*m, *p, level);
+        if (h.side(next) != side || scene_->may_meet(next, *p) || pieces_->may_meet(next, *p, 0, kNothing)) continue;
+        found = true;
+        walk.legs.push_back({m, p, pool.keep(next), *last.piece, side, false});
+      }
+    }
+    if (!found) break;
+    before = on;
+    on = Surface{walk.legs.back().piece, walk.legs.back().side};
+    p = walk.legs.back().next;
+  }
+  walk.end = Walk::End::unresolved;
+  return walk;
+}
+
+Crossing Walker::leg_crossed(const Leg& leg, std::size_t first) const {
+  const auto holds = [&](const Plane& h, std::uint32_t point) { return h.side(scene_->points[point]) == 0; };
+  const auto holds_piece = [&](const Plane& h) {
+    const auto& c = scene_->pieces[leg.piece].corners;
+    return !leg.from_edge && holds(h, c[0]) && holds(h, c[1]) && holds(h, c[2]);
+  };
+  const auto holds_edge = [&](const Plane& h) {  // a wedge through the edge itself runs outside the groove
+    if (!leg.from_edge) return false;
+    const auto& edges = scene_->pieces[leg.piece].edges;
+    return std::any_of(edges.begin(), edges.end(),
+                       [&](std::uint32_t e) { return holds(h, scene_->edges[e].a) && holds(h, scene_->edges[e].b); });
+  };
+  return pieces_->crossed(*leg.m, *leg.p, first, holds_piece, holds_edge);
+}
+
+Crossing Walker::visible(const Walk& walk, std::size_t first) const {
+  if (walk.end != Walk::End::surface) return Crossing::yes;
+  Crossing result = Crossing::no;
+  for (const Leg& leg : walk.legs) {
+    const Crossing c = leg_crossed(leg, first);
+    if (c == Crossing::yes) return c;
+    if (c == Crossing::touch) result = c;
+    if (leg.next && pieces_->may_meet(*leg.next, *leg.p, first, kNothing)) result = Crossing::touch;
+  }
+  return result;
+}
+
+Walker::Label Walker::label(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
+  for (std::uint64_t attempt = 0; attempt < 12; ++attempt) {
+    const Walk made = walk(p, pool, seed + attempt * 7919);
+    if (made.end == Walk::End::unresolved) continue;
+    const Crossing c = visible(made, 0);
+    if (c != Crossing::touch) return c == Crossing::yes ? Label::visible : Label::hidden;
+  }
+  return Label::unresolved;
+}
+
+}  // namespace clues::fastpath

@@ -1,0 +1,66 @@
+// D14: the label of a point by walking towards it from the cell. All points of a walk are points of free space: where the walk goes on from a
+// surface, it does so from a point beside it from which neither surface nor wedge piece divides the one before, and which so has its label.
+//
+// A walk does not depend on the wedge pieces but for that; it is made once and looked at again when new pieces appear (D17a).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fastpath/visibility/piece_set.h"
+
+namespace clues::fastpath {
+
+struct Leg {
+  const ExactPoint* m = nullptr;  // the last crossing before p, on a piece
+  const ExactPoint* p = nullptr;
+  const ExactPoint* next = nullptr;  // beside m: the p of the next leg; none for the last
+  std::uint32_t piece = 0;
+  int side = 1;            // of the piece, that p is on: 1 front, -1 back
+  bool from_edge = false;  // m is on an edge of the piece, the bottom of a groove in which all is hidden
+};
+
+struct Walk {
+  // crossed: by a piece that was there when the walk was made; the walk is not complete then.
+  enum class End : std::uint8_t { cell, surface, unresolved, crossed };
+  End end = End::surface;
+  std::vector<Leg> legs;  // from p towards the cell
+};
+
+class Walker {
+ public:
+  Walker(const LocalScene& scene, const PieceSet& pieces);
+
+  enum class Label : std::uint8_t { hidden, visible, unresolved };
+
+  // Points of the walk are kept in `pool`. Another seed, other sight lines. Deterministic.
+  Walk walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const;
+  // Whether the pieces from number `first` on cross a leg from H+ to H-; touch: some coincidence.
+  Crossing leg_crossed(const Leg& leg, std::size_t first) const;
+  // The label at the start of a walk by the pieces from number `first` on; touch: make another walk.
+  Crossing visible(const Walk& walk, std::size_t first) const;
+  // Walks until a walk is in general position.
+  Label label(const ExactPoint* p, Pool& pool, std::uint64_t seed) const;
+
+  // A point of int V for candidate number i.
+  const ExactPoint* viewpoint(std::uint64_t i) const { return viewpoints_[i % viewpoints_.size()]; }
+
+ private:
+  struct Surface {
+    std::uint32_t piece;
+    int side;
+  };
+  int height_sign(const Surface& s, const ExactPoint& x) const;
+  // A point of int V strictly in front of the surface (and of `also`, if given and possible); none if V has none in front of the first.
+  const ExactPoint* in_front(const Surface& on, const Surface* also, std::uint64_t seed, Pool& pool) const;
+  enum class Both : std::uint8_t { apart, touch, meet };  // V, or the closed V only, with the space in front of both
+  Both in_front_of_both(const Surface& a, const Surface& b) const;
+  bool groove_leg(Walk& walk, Pool& pool) const;
+
+  const LocalScene* scene_;
+  const PieceSet* pieces_;
+  Pool own_;
+  std::vector<const ExactPoint*> viewpoints_;
+};
+
+}  // namespace clues::fastpath

@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""Makes the seed corpus of the coverage-guided targets: small valid files of every kind, a few broken ones, small scenes of vectors/, and what
+campaigns found. Deterministic. Files that a fuzzer found are added by hand, under names of their own, and stay."""
+import json
+import pathlib
+import struct
+
+HERE = pathlib.Path(__file__).resolve().parent
+SUITE = HERE.parent.parent / "vectors"
+
+
+def put(target, name, data):
+    folder = HERE / target
+    folder.mkdir(exist_ok=True)
+    (folder / name).write_bytes(data.encode() if isinstance(data, str) else data)
+
+
+POINTS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+FACES = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+
+
+def obj():
+    v = "".join("v %g %g %g\n" % p for p in POINTS)
+    put("obj", "tetrahedron", v + "".join("f %d %d %d\n" % tuple(i + 1 for i in f) for f in FACES))
+    put("obj", "relative_quad", "# c\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf -4/1/1 -3//1 -2/1 -1\n")
+    put("obj", "words", "o a\ng b\ns off\nusemtl m\nmtllib m.mtl\n" + v + "f 1 2 \\\n 3\r\nl 1 2\n")
+    put("obj", "numbers", "v 1e-320 0x1.8p+3 -0.0\nv +.5 5. 1E+308\nv 1 2 3 1\nf 1 2 3\n")
+    put("obj", "bad_index", v + "f 1 2 9\n")
+
+
+def off():
+    body = "".join("%g %g %g\n" % p for p in POINTS) + "".join("3 %d %d %d\n" % f for f in FACES)
+    put("off", "tetrahedron", "OFF\n4 4 6\n" + body)
+    put("off", "polygon", "OFF 5 1 0 # c\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4 255 0 0\n")
+    put("off", "colours", "COFF\n3 1 0\n0 0 0 1 2 3 4\n1 0 0 1 2 3 4\n0 1 0 1 2 3 4\n3 0 1 2\n")
+    put("off", "points", "OFF\n2 0 0\n0 0 0\n1 1 1\n")
+    put("off", "short", "OFF\n4 4 6\n0 0 0\n")
+
+
+def ply():
+    head = "ply\nformat %s 1.0\ncomment c\nelement vertex 4\nproperty %s x\nproperty %s y\nproperty %s z\n" \
+           "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
+    text = "".join("%g %g %g\n" % p for p in POINTS) + "".join("3 %d %d %d\n" % f for f in FACES)
+    put("ply", "ascii", head % ("ascii", "float", "float", "float") + text)
+    for order, mark in (("little", "<"), ("big", ">")):
+        for kind, letter in (("float", "f"), ("double", "d")):
+            data = b"".join(struct.pack(mark + 3 * letter, *p) for p in POINTS)
+            data += b"".join(struct.pack(mark + "Biii", 3, *f) for f in FACES)
+            put("ply", order + "_" + kind, (head % ("binary_%s_endian" % order, kind, kind, kind)).encode() + data)
+    put("ply", "more_properties",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty uchar red\nproperty double x\nproperty double y\nproperty double z\n"
+        "element edge 1\nproperty int vertex1\nproperty int vertex2\nelement face 1\nproperty list uint8 uint32 vertex_index\n"
+        "property short s\nend_header\n9 0 0 0\n9 1 0 0\n9 0 1 0\n0 1\n3 0 1 2 7\n")
+    put("ply", "short", head % ("binary_little_endian", "float", "float", "float"))
+
+
+def stl():
+    facets = "".join("facet normal 0 0 0\nouter loop\n%sendloop\nendfacet\n" %
+                     "".join("vertex %g %g %g\n" % POINTS[i] for i in f) for f in FACES)
+    put("stl", "ascii", "solid s\n" + facets + "endsolid s\n")
+    put("stl", "two_solids", 2 * ("solid\n" + facets + "endsolid\n"))
+    triangles = b"".join(struct.pack("<12fH", 0, 0, 0, *POINTS[a], *POINTS[b], *POINTS[c], 0) for a, b, c in FACES)
+    put("stl", "binary", b"solid that is none".ljust(80) + struct.pack("<I", 4) + triangles)
+    put("stl", "binary_short", b"".ljust(80) + struct.pack("<I", 5) + triangles)
+
+
+def cell_and_pvs():
+    for i, text in enumerate(["box:0,0,0,1,1,1", "box:-0x1p-3,-0,1e-5,0,0,1e-5", "grid:2x1x3:box:0,0,0,1,1,1", "box:0,0,0,1,1,-1",
+                              "box:1,2,3", "grid:0x1x1:box:0,0,0,1,1,1"]):
+        put("cell_and_pvs", "cell_%d" % i, text)
+    put("cell_and_pvs", "list", bytes([12 * 2]) + b"# a PVS\n0\n3\n\n 11 # last\n3\n")
+    put("cell_and_pvs", "list_too_large", bytes([3 * 2]) + b"0\n3\n")
+    result = {"format": "clues-result/1", "scene": {"file": "a.off", "triangles": 12}, "visible": [0, 3, 11]}
+    put("cell_and_pvs", "result", bytes([12 * 2 + 1]) + json.dumps(result).encode())
+    put("cell_and_pvs", "result_of_another", bytes([3 * 2 + 1]) + json.dumps(result).encode())
+
+
+def suite_files():
+    return [json.loads(f.read_text()) for f in sorted(SUITE.glob("*.json")) if f.name not in ("index.json", "schema.json")]
+
+
+def vectors():
+    for file in suite_files():
+        smallest = min(file["cases"], key=lambda c: (len(json.dumps([c, file["scenes"][c["scene"]]])), c["id"]))
+        file["cases"] = [smallest]
+        file["scenes"] = {smallest["scene"]: file["scenes"][smallest["scene"]]}
+        file["notes"] = {f: file["notes"][f] for f in smallest["flags"]}
+        topic, file["topic"] = file["topic"], "file"  # the target calls it file.json
+        text = json.dumps(file, separators=(",", ":"))
+        if len(text) < 4000:
+            put("vectors", topic, text)
+    put("vectors", "index", '{"format":"clues-vectors-index/1","active":1,"withdrawn":1,"topics":{"a":1},"cases":{'
+        '"one":{"topic":"a","status":"active"},"two":{"topic":"a","status":"withdrawn","reason":"wrong"}}}')
+    put("vectors", "not_json", "{")
+
+
+def protocol():
+    scene = '{"vertices":[[0.0,0.0,2.0],[1.0,0.0,2.0],[-0.0,1e-300,2.0]],"triangles":[[0,1,2]]}'
+    put("protocol", "session", '{"cmd":"start","protocol":1}\n'
+        '{"cmd":"run","seq":1,"case":{"id":"a","mode":"sheet","cell":[[0.0,0.0,0.0]],"scene":%s}}\n{"cmd":"stop"}\n' % scene)
+    put("protocol", "replies", '{"protocol":1,"implementation":{"name":"n","version":"1","language":"C"},'
+        '"capabilities":{"modes":["sheet","solid"],"input":"float64"}}\n{"seq":1,"result":{"visible":[0,3,11]}}\n'
+        '{"seq":1,"skipped":{"message":"no","issue_url":"https://example.org/1"}}\n{"seq":1,"errored":{"message":"no"}}\n')
+    put("protocol", "refused", '{"cmd":"run"}\n{"seq":2,"result":{"visible":[12]}}\n[]\n')
+
+
+def scene_bytes(points, cell, triangles, tail=b""):
+    if not (3 <= len(points) <= 12 and 1 <= len(triangles) <= 4 and 1 <= len(cell) <= 8):
+        return None
+    data = bytes([len(points) - 3, len(triangles) - 1, len(cell) - 1])
+    for p in points + cell:
+        for x in p:
+            if x * 16 != int(x * 16) or abs(x * 16) > 32767:
+                return None
+            data += struct.pack("<h", int(x * 16))
+    return data + bytes(i for t in triangles for i in t) + tail
+
+
+def scene_to_verdict():
+    points = lambda rows: [tuple(float.fromhex(x) for x in row) for row in rows]
+    per_topic = {}
+    for file in suite_files():
+        for case in file["cases"]:
+            scene = file["scenes"][case["scene"]]
+            data = scene_bytes(points(scene["vertices"]), points(case["cell"]), scene["triangles"])
+            if data and case["mode"] == "sheet":
+                per_topic.setdefault(file["topic"], {})[data] = case["id"]
+    for found in per_topic.values():
+        for data, name in sorted(found.items(), key=lambda item: (len(item[0]), item[1]))[:2]:
+            put("scene_to_verdict", name, data)
+    box = [(x, y, z) for z in (-2, 1) for y in (-1, 1) for x in (2, 3)]
+    corner = [(4, 0, 0), (5, 1, 0), (5, 0, 0), (5, 0, 1)]  # tests/fuzz/found_test.cpp
+    put("scene_to_verdict", "found-two-triangles-at-a-corner", scene_bytes(corner, box, [(0, 1, 2), (0, 2, 3)]))
+    put("scene_to_verdict", "found-two-triangles-at-a-corner-one-ulp-off",
+        scene_bytes(corner, box, [(0, 1, 2), (0, 2, 3)], bytes([4, 1, 13, 255])))
+
+
+for make in (obj, off, ply, stl, cell_and_pvs, vectors, protocol, scene_to_verdict):
+    make()

@@ -1,0 +1,186 @@
+// All readers of files and of the protocol. Whatever they accept is written and read again, and must be the same.
+#include "fuzz/targets/targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "scene/cell_spec.h"
+#include "scene/error.h"
+#include "scene/formats/readers.h"
+#include "scene/mesh_io.h"
+#include "scene/result.h"
+#include "validate/conform/protocol.h"
+#include "validate/vectors/reader.h"
+#include "validate/vectors/writer.h"
+
+namespace clues::fuzz {
+namespace {
+
+void require(bool kept, const std::string& promise) {
+  if (!kept) throw BrokenPromise(promise);
+}
+
+bool same_bits(const std::vector<scene::Point>& a, const std::vector<scene::Point>& b) {
+  const auto equal = [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const scene::Point& p, const scene::Point& q) {
+    return equal(p[0], q[0]) && equal(p[1], q[1]) && equal(p[2], q[2]);
+  });
+}
+
+void check_mesh(const scene::TriangleMesh& mesh) {
+  require(mesh.face_of.size() == mesh.triangles.size(), "every triangle has a face");
+  require(std::is_sorted(mesh.face_of.begin(), mesh.face_of.end()), "triangles are in the order of the faces");
+  for (const auto& t : mesh.triangles) {
+    for (const auto corner : t) require(corner < mesh.points.size(), "every corner is a point");
+  }
+  for (const auto& p : mesh.points) {
+    for (const double x : p) require(std::isfinite(x), "coordinates are finite");
+  }
+}
+
+// Runs `read`; refusing is fine.
+template <class Read>
+bool accepted(const Read& read) {
+  try {
+    read();
+  } catch (const scene::Error& error) {
+    require(error.code() != scene::ErrorCode::internal, std::string("a refusal is no internal error: ") + error.what());
+    require(std::string_view(error.what()).find('\n') == std::string_view::npos, "an error is one line");
+    return false;
+  }
+  return true;
+}
+
+using Reader = scene::TriangleMesh (*)(std::string_view, const std::string&);
+
+template <Reader read>
+bool mesh_file(std::string_view bytes) {
+  return accepted([&] {
+    const auto mesh = read(bytes, "file");
+    check_mesh(mesh);
+    if (mesh.points.empty()) return;
+    const auto again = scene::read_off(scene::to_off_text(mesh), "again");
+    require(same_bits(mesh.points, again.points) && mesh.triangles == again.triangles,
+            "a scene survives being written as OFF");
+  });
+}
+
+// A cell as it is given on the command line. Grids of more than 9 x 9 x 9 cells are a matter of memory and not of reading.
+bool cell(std::string_view bytes) {
+  const std::string text(bytes);
+  const bool box = text.starts_with("box:");
+  if (!box && !(text.starts_with("grid:") && text.find(':', 5) <= 10)) return false;
+  return accepted([&] {
+    for (const auto& spec : scene::parse_cells(text)) {
+      require(!spec.points.empty() && spec.points.size() <= 8, "a box has 1 to 8 corners");
+      for (const auto& p : spec.points) {
+        for (const double x : p) require(std::isfinite(x), "coordinates are finite");
+      }
+    }
+  });
+}
+
+// First byte: how many triangles the scene has, and whether the rest is a result or a list.
+bool pvs(std::string_view bytes) {
+  if (bytes.empty()) return false;
+  const auto head = static_cast<unsigned char>(bytes[0]);
+  const std::uint64_t triangles = head >> 1;
+  return accepted([&] {
+    const auto ids = (head & 1) != 0 ? scene::parse_result_pvs(bytes.substr(1), "file", triangles)
+                                     : scene::parse_pvs_list(bytes.substr(1), "file", triangles);
+    require(std::is_sorted(ids.begin(), ids.end()) && std::adjacent_find(ids.begin(), ids.end()) == ids.end(),
+            "ids ascend and none is there twice");
+    require(ids.empty() || ids.back() < triangles, "every id is a triangle");
+    require(scene::parse_pvs_list(scene::to_pvs_text(ids), "again", triangles) == ids, "a PVS survives being written");
+  });
+}
+
+bool vectors(std::string_view bytes) {
+  const bool is_index = accepted([&] {
+    const auto index = validate::parse_vector_index(bytes, "index.json");
+    const auto text = validate::to_json_text(index);
+    require(validate::to_json_text(validate::parse_vector_index(text, "again")) == text, "the index has one text");
+  });
+  if (is_index) return true;
+  return accepted([&] {
+    const auto file = validate::parse_vector_file(bytes, "file.json", true);
+    for (const auto& c : file.cases) check_mesh(c.mesh);
+    const auto text = validate::to_json_text(file);
+    require(validate::to_json_text(validate::parse_vector_file(text, "file.json", true)) == text,
+            "a vector file has one text");
+  });
+}
+
+// Each line, taken for what an implementation may be told and for what it may answer.
+bool protocol(std::string_view bytes) {
+  using namespace validate;
+  bool any = false;
+  for (std::size_t begin = 0; begin < bytes.size();) {
+    const auto end = std::min(bytes.find('\n', begin), bytes.size());
+    const auto line = bytes.substr(begin, end - begin);
+    begin = end + 1;
+    try {
+      const Request request = parse_request(line);
+      any = true;
+      check_mesh(request.mesh);
+      if (request.kind == Request::Kind::run) {
+        VectorCase c;
+        c.mesh = request.mesh;
+        c.cell = request.cell;
+        c.mode = request.mode;
+        const Request again = parse_request(run_request(request.seq, c));
+        require(same_bits(again.mesh.points, request.mesh.points) && again.mesh.triangles == request.mesh.triangles &&
+                    same_bits(again.cell, request.cell) && again.mode == request.mode && again.seq == request.seq,
+                "a request survives being written");
+      }
+    } catch (const ProtocolError&) {
+    }
+    try {
+      const Implementation about = parse_start_reply(line);
+      any = true;
+      require(parse_start_reply(start_reply(about)).name == about.name, "an implementation keeps its name");
+    } catch (const ProtocolError&) {
+    }
+    constexpr std::size_t triangles = 12;
+    const Answer answer = parse_reply(line, 1, triangles);
+    require(answer.visible.empty() || answer.visible.back() < triangles, "every id is a triangle");
+    if (answer.kind == AnswerKind::visible) {
+      any = true;
+      require(parse_reply(run_reply(1, answer), 1, triangles).visible == answer.visible, "a reply survives");
+    }
+  }
+  return any;
+}
+
+}  // namespace
+
+const std::vector<Target>& all_targets() {
+  static const std::vector<Target> all{
+      {"obj", "the reader of OBJ files", mesh_file<scene::read_obj>},
+      {"off", "the reader of OFF files", mesh_file<scene::read_off>},
+      {"ply", "the reader of PLY files, text and binary", mesh_file<scene::read_ply>},
+      {"stl", "the reader of STL files, text and binary", mesh_file<scene::read_stl>},
+      {"cell_and_pvs", "cells of the command line, lists of triangle ids and result files",
+       [](std::string_view bytes) {
+         return bytes.starts_with("box:") || bytes.starts_with("grid:") ? cell(bytes) : pvs(bytes);
+       }},
+      {"vectors", "the reader of the conformance suite and of its index", vectors},
+      {"protocol", "the JSON lines between clues conform and an implementation", protocol},
+      {"scene_to_verdict", "a small scene, mapped by the reference and judged by oracles of the fuzzer",
+       scene_to_verdict}};
+  return all;
+}
+
+const Target& target_named(const std::string& name) {
+  for (const Target& t : all_targets()) {
+    if (t.name == name) return t;
+  }
+  throw scene::Error(scene::ErrorCode::bad_argument, "no target of the name " + name);
+}
+
+}  // namespace clues::fuzz

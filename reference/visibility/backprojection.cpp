@@ -1,0 +1,202 @@
+#include "reference/visibility/backprojection.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "exact/cell_cut.h"
+#include "reference/visibility/exactness.h"
+#include "scene/error.h"
+
+namespace clues::reference {
+
+using exact::ConvexCell;
+using exact::Plane3;
+using exact::Point3;
+
+namespace {
+
+// The edge of the complex with the wedge's near segment.
+std::optional<std::uint32_t> edge_of(const exact::Complex& complex, const Wedge& w) {
+  const auto id = [&](const Point3& p) { return std::find(complex.points.begin(), complex.points.end(), p); };
+  const auto a = id(w.near0), b = id(w.near1);
+  if (a == complex.points.end() || b == complex.points.end()) return std::nullopt;
+  const auto lo = static_cast<std::uint32_t>(std::min(a, b) - complex.points.begin());
+  const auto hi = static_cast<std::uint32_t>(std::max(a, b) - complex.points.begin());
+  for (const std::uint32_t e : complex.point_edges[lo]) {
+    if (complex.edges[e].a == lo && complex.edges[e].b == hi) return e;
+  }
+  return std::nullopt;
+}
+
+// Joins parts of one edge and plane that touch or overlap.
+void join(std::vector<ContourSegment>& segments) {
+  for (ContourSegment& s : segments) {
+    if (s.hi < s.lo) std::swap(s.lo, s.hi);
+  }
+  std::stable_sort(segments.begin(), segments.end(), [](const ContourSegment& x, const ContourSegment& y) {
+    if (x.edge != y.edge) return x.edge < y.edge;
+    if (x.center != y.center) return x.center < y.center;
+    return x.lo < y.lo;
+  });
+  std::vector<ContourSegment> joined;
+  for (const ContourSegment& s : segments) {
+    if (!joined.empty() && joined.back().edge == s.edge && joined.back().center == s.center &&
+        s.lo <= joined.back().hi) {
+      joined.back().hi = std::max(joined.back().hi, s.hi);
+    } else {
+      joined.push_back(s);
+    }
+  }
+  segments = std::move(joined);
+}
+
+class Refiner {
+ public:
+  Refiner(Bounds& bounds, const RefineOptions& options) : bounds_(bounds), options_(options) {}
+
+  std::vector<DepthFigures> run(const DepthReport& report) {
+    std::vector<DepthFigures> depths;
+    const auto note = [&](int depth) {
+      depths.push_back({depth, cells_, bounds_.maps(), bounds_.viewpoints(), bounds_.area()});
+      if (report) report(depths.back());
+    };
+    bounds_.look_around(0);
+    note(0);
+    open_ = bounds_.open_sides();
+    std::vector<ContourSegment> segments = inexact_segments(bounds_.first_order(), open_);
+    for (int depth = 1; depth <= options_.max_depth; ++depth) {
+      if (std::none_of(open_.begin(), open_.end(), [](bool o) { return o; })) break;
+      if (depths.back().area.excess() <= options_.tolerance_area) break;
+      std::vector<ContourSegment> next;
+      for (const ContourSegment& s : segments) {
+        if (adjust(s) == Outcome::no_gain) continue;
+        const Point3 middle = exact::collapsed(CGAL::midpoint(s.lo, s.hi));
+        next.push_back({s.edge, s.lo, middle, s.plane, s.center});
+        next.push_back({s.edge, middle, s.hi, s.plane, s.center});
+      }
+      segments = std::move(next);
+      bounds_.look_around(depth);
+      note(depth);
+      open_ = bounds_.open_sides();
+    }
+    return depths;
+  }
+
+ private:
+  enum class Outcome { touches, no_gain, gain };
+
+  // T4: hidden is what both V+ and V- call hidden. Where the segment sees V up to the wedge's own plane there is nothing to adjust, but
+  // parts of it may see less.
+  Outcome adjust(const ContourSegment& s) {
+    const ConvexCell& cell = bounds_.first_order().cell;
+    const Plane3 plane =
+        adjusted_plane(s, seen_by_segment(bounds_.first_order().complex, s, cell, bounds_.options()), cell);
+    const auto plus = exact::part_beside(cell, plane, exact::Side::negative);
+    const auto minus = exact::part_beside(cell, plane, exact::Side::positive);
+    if (!plus || !minus) return Outcome::touches;
+    cells_ += 2;
+    const SideSets by_plus = bounds_.sets_of(bounds_.map_of(*plus, open_));
+    const SideSets by_minus = bounds_.sets_of(bounds_.map_of(*minus, open_));
+    return bounds_.restrict_to(bounds_.united(by_plus, by_minus), open_) ? Outcome::gain : Outcome::no_gain;
+  }
+
+  Bounds& bounds_;
+  RefineOptions options_;
+  std::vector<bool> open_;
+  std::uint64_t cells_ = 1;
+};
+
+}  // namespace
+
+std::vector<ContourSegment> inexact_segments(const VisibilityMap& map, const std::vector<bool>& open) {
+  const exact::SceneQuery scene(map.complex, map.cell);
+  // The adjusted wedge runs in H-: what it could hide is there, whatever the wedge itself ends on.
+  const auto reaches_open_side = [&](const Wedge& w) {
+    for (std::uint32_t t = 0; t < map.complex.pieces.size(); ++t) {
+      if (!open[side_index(t, true)] && !open[side_index(t, false)]) continue;
+      for (const std::uint32_t c : map.complex.pieces[t].corners) {
+        if (w.plane.oriented_side(map.complex.points[c]) == CGAL::ON_POSITIVE_SIDE) return true;
+      }
+    }
+    return false;
+  };
+  std::vector<ContourSegment> segments;
+  for (const Wedge& w : map.wedges) {
+    if (w.kind == WedgeKind::se_mv || !reaches_open_side(w)) continue;
+    const auto edge = edge_of(map.complex, w);
+    if (!edge) continue;
+    // The plane may touch V in several vertices, each with a wedge: one of them stands for the plane.
+    const auto touched = std::find_if(map.cell.vertices().begin(), map.cell.vertices().end(), [&](const Point3& s) {
+      return w.plane.has_on(s) && !CGAL::collinear(w.near0, w.near1, s);
+    });
+    for (const Portion& portion : portions(scene, w)) {
+      if (!portion.exact) segments.push_back({*edge, portion.lo, portion.hi, w.plane, *touched});
+    }
+  }
+  join(segments);
+  return segments;
+}
+
+std::vector<Point3> seen_by_segment(const exact::Complex& complex, const ContourSegment& segment,
+                                    const ConvexCell& cell, const Options& options) {
+  if (cell.dimension() < 2) return cell.vertices();
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  // What lies in a plane through the segment is edge-on: it neither hides anything nor is seen.
+  const auto edge_on = [&](const Plane3& plane) { return plane.has_on(segment.lo) && plane.has_on(segment.hi); };
+  for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
+    if (complex.in_cell[t] || edge_on(complex.planes[t])) continue;
+    triangles.push_back(complex.pieces[t].corners);
+  }
+  const std::size_t receivers = triangles.size();
+  std::vector<Point3> points = complex.points;
+  const auto base = static_cast<std::uint32_t>(points.size());
+  points.insert(points.end(), cell.vertices().begin(), cell.vertices().end());
+  for (const exact::CellFacet& f : cell.facets()) {
+    if (edge_on(f.plane)) continue;
+    const auto corner = [&](std::size_t i) { return base + static_cast<std::uint32_t>(f.corners[i]); };
+    for (std::size_t i = 2; i < f.corners.size(); ++i) triangles.push_back({corner(0), corner(i - 1), corner(i)});
+  }
+  const exact::Complex scene = exact::build_complex(points, triangles);
+  std::vector<bool> wanted(2 * scene.pieces.size(), false);
+  for (std::uint32_t t = 0; t < scene.pieces.size(); ++t) {
+    for (const exact::Origin& o : scene.pieces[t].origins) {
+      if (o.triangle < receivers) continue;
+      wanted[side_index(t, o.same_side)] = true;
+      if (cell.dimension() == 2) wanted[side_index(t, !o.same_side)] = true;
+    }
+  }
+  const ConvexCell source(std::vector<Point3>{segment.lo, segment.hi});
+  std::vector<Point3> seen;
+  try {
+    for (const Region& r : first_order_visibility_in(scene, source, options, wanted).regions) {
+      if (r.visible) seen.insert(seen.end(), r.rings[0].begin(), r.rings[0].end());
+    }
+  } catch (const scene::Error& e) {
+    // A lineal source among the scene's own edges may have no sight line in general position: then all of V counts as seen.
+    if (e.code() != scene::ErrorCode::internal) throw;
+    return cell.vertices();
+  }
+  return seen;
+}
+
+Plane3 adjusted_plane(const ContourSegment& segment, const std::vector<Point3>& seen, const ConvexCell& cell) {
+  const Point3 &a = segment.lo, &b = segment.hi;
+  // Seen along the line of the segment, V fills an angle of at most a half turn, from the wedge's plane on; first: what it meets first.
+  const CGAL::Orientation turn = CGAL::orientation(a, b, segment.center, cell.center());
+  const auto ahead = [&](const Point3& x, const Point3& y) { return CGAL::orientation(a, b, x, y) == turn; };
+  std::optional<Point3> first;
+  for (const Point3& q : seen) {
+    if (!CGAL::collinear(a, b, q) && (!first || ahead(q, *first))) first = q;
+  }
+  const Point3 touched = first ? *first : cell.center();
+  const Plane3 plane(a, b, touched);
+  // V(s) lies ahead of `touched`, on the side of the plane that `turn` tells.
+  return turn == CGAL::POSITIVE ? plane.opposite() : plane;
+}
+
+std::vector<DepthFigures> refine_by_backprojection(Bounds& bounds, const RefineOptions& options,
+                                                   const DepthReport& report) {
+  return Refiner(bounds, options).run(report);
+}
+
+}  // namespace clues::reference
