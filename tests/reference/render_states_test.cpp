@@ -77,7 +77,7 @@ TEST(RenderStates, ACornerSeesItself) {
 TEST(RenderStates, ALabelHoldsOnEverySightLine) {
   // Random sight lines to regions with NO_Z_COMPARE are free, and those to any region miss regions with NO_Z_WRITE.
   std::uint64_t free_lines = 0, labels = 0;
-  for (const fuzz::Kind kind : fuzz::all_kinds) {
+  for (const fuzz::Kind kind : {fuzz::Kind::tetrahedra, fuzz::Kind::axis_boxes, fuzz::Kind::nonconvex_solids}) {
     const auto scene = fuzz::generate(kind, 20261121, 1);
     SCOPED_TRACE(scene.name);
     const auto cell = exact::ConvexCell::from_doubles(scene.cell);
