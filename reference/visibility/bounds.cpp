@@ -129,7 +129,6 @@ void Bounds::add_viewpoint(const Point3& v) {
 }
 
 void Bounds::look_around(int depth) {
-  constexpr int kFiner = 2;
   const exact::ConvexCell& whole = map_.cell;
   const auto ask = [&](const Point3& v) {
     if (viewed_depth_ == 0 || whole.dimension() < 3 || !whole.interior_contains(v)) add_viewpoint(v);
@@ -140,7 +139,7 @@ void Bounds::look_around(int depth) {
       for (const Point3& v : part.vertices()) ask(v);
       ask(part.center());
     }
-    if (viewed_depth_ >= depth + kFiner) break;
+    if (viewed_depth_ >= depth + depth / 2) break;
     std::vector<exact::ConvexCell> finer;
     for (const exact::ConvexCell& part : viewed_) {
       for (exact::ConvexCell& half : exact::halves(part)) finer.push_back(std::move(half));

@@ -55,8 +55,8 @@ class Bounds {
   // Adds to lower what v sees on the open sides. Nothing if v was asked before, is touched by an occluder, or its map has a fallback.
   void add_viewpoint(const exact::Point3& v);
 
-  // Viewpoints for this depth: the corners and centres of V's halves' halves' ..., depth + 2 times. Of a solid V those on its border are enough:
-  // every sight line from inside V leaves it there.
+  // Viewpoints for this depth: the corners and centres of V's parts after one and a half times as many halvings. Of a solid V those on its border are enough: every
+  // sight line from inside V leaves it there. V's own centre comes first, for cells whose corners are all touched.
   void look_around(int depth);
 
   // Side by side.
