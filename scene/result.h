@@ -17,9 +17,9 @@ struct MapRegion {
   std::uint32_t triangle = 0;
   bool front = true;
   bool visible = true;
-  std::string
-      area_fraction;  // exact part of the triangle's area, "p/q"; empty when only the estimate is known, and then there are no exact rings
-  double area_estimate = 0;                                          // when there is no fraction
+  // Exact part of the triangle's area, "p/q". Empty when only the estimate is known; then there are no exact rings either.
+  std::string area_fraction;
+  double area_estimate = 0;
   std::vector<std::vector<std::array<std::string, 3>>> rings_exact;  // outer ring first, then holes
   std::vector<std::vector<Point>> rings;
   std::vector<std::string> render_states;  // "NO_BACKFACE_CULL", "NO_Z_COMPARE", "NO_Z_WRITE", as far as they hold

@@ -36,8 +36,10 @@ Result result_with_map() {
                      .front = false,
                      .visible = true,
                      .area_fraction = "1/3",
+                     .area_estimate = 0,
                      .rings_exact = {{{"0", "1/3", "-2/7"}}},
-                     .rings = {{{0, 1.0 / 3.0, -2.0 / 7.0}}}}};
+                     .rings = {{{0, 1.0 / 3.0, -2.0 / 7.0}}},
+                     .render_states = {}}};
   result.segments = {{.triangle = 5, .front = true, .boundary = true, .exact = {}, .points = {}}};
   result.wedges = {{.kind = "SV-ME",
                     .generation = 2,
@@ -45,6 +47,18 @@ Result result_with_map() {
                     .points = {{{0, 0, std::numeric_limits<double>::infinity()}}},
                     .unbounded = true}};
   return result;
+}
+
+TEST(ResultText, ARegionHasAnExactFractionOrAnEstimate) {
+  Result result = result_with_map();
+  const auto exact = nlohmann::json::parse(scene::to_json_text(result))["regions"][0];
+  EXPECT_EQ(exact["area_fraction"], "1/3");
+  EXPECT_FALSE(exact.contains("area_estimate"));
+  result.regions[0].area_fraction.clear();
+  result.regions[0].area_estimate = 0.5;
+  const auto estimate = nlohmann::json::parse(scene::to_json_text(result))["regions"][0];
+  EXPECT_EQ(estimate["area_estimate"], 0.5);
+  EXPECT_FALSE(estimate.contains("area_fraction") || estimate.contains("rings_exact"));
 }
 
 TEST(ResultText, IsExactlyThis) {
