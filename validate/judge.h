@@ -31,7 +31,7 @@ enum class TriangleVerdict {
   missing_visible,    // visible: the PVS is unsound
   // listed
   exact,        // visible
-  first_order,  // in Omega, but no witness was found
+  first_order,  // in Omega, but no witness was found (or there is none: Judgement::proved_hidden)
   loose,        // not even in Omega
 };
 
@@ -46,6 +46,7 @@ struct Judgement {
   std::uint64_t exact = 0, first_order = 0, loose = 0;
   std::vector<Chain>
       chains;  // of triangles in Omega without a witness, ascending by triangle; filled in by who wants them (chain_search.h)
+  std::vector<std::uint32_t> proved_hidden;  // of those in Omega without a witness, by settle.h; ascending
   // Hidden by the map, and yet with a confirmed witness: the reference is wrong. Must stay empty.
   std::vector<Witness> contradictions;
 };

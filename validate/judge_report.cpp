@@ -141,6 +141,10 @@ std::string to_text(const Judgement& judgement, const Surroundings& around, std:
       fmt::format("listed: {} triangles: {} exact, {} first-order (no witness found), {} loose (certainly hidden)\n",
                   judgement.exact + judgement.first_order + judgement.loose, judgement.exact, judgement.first_order,
                   judgement.loose);
+  if (!judgement.proved_hidden.empty()) {
+    text += fmt::format("first-order visible, and proved hidden by an exhaustive search: {}\n",
+                        id_list(judgement.proved_hidden, limit));
+  }
   const auto undecided_count = judgement.first_order + judgement.missing_undecided;
   if (undecided_count > 0) {
     text += fmt::format("first-order visible without a sight line: {}, with a chain that proves it: {}\n",
@@ -183,6 +187,7 @@ std::string to_json_text(const Judgement& judgement, const Surroundings& around)
                     {"scene", around.scene},
                     {"cell", around.cell},
                     {"chains", chains},
+                    {"proved_hidden", judgement.proved_hidden},
                     {"meet_cell", judgement.meet_cell},
                     {"triangles", verdicts},
                     {"witnesses", witnesses},

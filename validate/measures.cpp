@@ -1,5 +1,7 @@
 #include "validate/measures.h"
 
+#include <algorithm>
+
 #include "validate/area.h"
 
 namespace clues::validate {
@@ -22,7 +24,9 @@ Weights weigh(const Judgement& judgement, const Weight& weight) {
         sum.visible_listed += weight(t);
         break;
       case TriangleVerdict::first_order:
-        sum.undecided_listed += weight(t);
+        (std::binary_search(judgement.proved_hidden.begin(), judgement.proved_hidden.end(), t)
+             ? sum.hidden_listed
+             : sum.undecided_listed) += weight(t);
         break;
       case TriangleVerdict::loose:
         sum.hidden_listed += weight(t);

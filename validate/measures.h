@@ -19,7 +19,7 @@ namespace clues::validate {
 struct Weights {
   double visible_listed = 0, visible_missing = 0;      // in E for certain
   double undecided_listed = 0, undecided_missing = 0;  // in Omega, no witness
-  double hidden_listed = 0;                            // loose
+  double hidden_listed = 0;                            // loose, or proved hidden
 };
 
 struct Bounds {
