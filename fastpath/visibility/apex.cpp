@@ -29,6 +29,20 @@ struct Beside {
   }
 };
 
+template <class NT>
+NT power_of_half(int exponent);
+template <>
+Interval power_of_half<Interval>(int exponent) {
+  if (exponent > 1000) throw Unsure{};
+  return {std::ldexp(1.0, -exponent)};
+}
+template <>
+Rational power_of_half<Rational>(int exponent) {
+  Rational one(1);
+  mpq_div_2exp(one.get_mpq_t(), one.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  return one;
+}
+
 // For x in the plane of the arc ab with this normal: whether it lies in the closed arc.
 template <class NT>
 bool in_arc(const Vec3<NT>& a, const Vec3<NT>& b, const Vec3<NT>& normal, const Vec3<NT>& x) {
@@ -65,9 +79,9 @@ class Apex::Star {
 
   // limit, moved so little that no arc's great circle lies between.
   std::optional<V> moved_if_possible(const Beside<NT>& d) const {
-    double step = 1.0 / 1024;
-    for (int i = 0; i < 10; ++i, step /= 1 << 20) {
-      const V m = d.limit + NT(step) * d.aside + NT(step * step) * d.off;
+    for (const int exponent : {10, 30, 60, 120, 250, 500, 1000, 2000, 4000, 8000}) {
+      const NT step = power_of_half<NT>(exponent);
+      const V m = d.limit + step * d.aside + NT(step * step) * d.off;
       if (std::all_of(arcs_.begin(), arcs_.end(),
                       [&](const Arc& arc) { return sign_of(NT(dot(arc.normal, m))) == d.side_of(arc.normal); }))
         return m;

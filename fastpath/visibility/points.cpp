@@ -1,5 +1,6 @@
 #include "fastpath/visibility/points.h"
 
+#include <climits>
 #include <cmath>
 
 namespace clues::fastpath {
@@ -69,11 +70,17 @@ ExactPoint ExactPoint::lifted(const ExactPoint& from, const ExactPoint& to, doub
                               double lift) {
   const Exact3& n = plane.normal_exact();
   const Exact3 way = to.exact() - from.exact();
-  const auto size = [](const Exact3& v) {
-    return std::max({std::fabs(v.x.get_d()), std::fabs(v.y.get_d()), std::fabs(v.z.get_d())});
+  const auto magnitude = [](const Exact3& v) {  // about the binary logarithm; no double need hold it
+    long most = LONG_MIN;
+    for (const Rational* x : {&v.x, &v.y, &v.z}) {
+      if (sgn(*x) == 0) continue;
+      most = std::max(most, static_cast<long>(mpz_sizeinbase(x->get_num_mpz_t(), 2)) -
+                                static_cast<long>(mpz_sizeinbase(x->get_den_mpz_t(), 2)));
+    }
+    return most;
   };
   Rational scale(1);
-  const int binary = std::ilogb(size(way)) - std::ilogb(size(n));
+  const long binary = magnitude(way) - magnitude(n);
   (binary >= 0 ? mpq_mul_2exp : mpq_div_2exp)(scale.get_mpq_t(), scale.get_mpq_t(),
                                               static_cast<mp_bitcnt_t>(std::abs(binary)));
   return ExactPoint(from.exact() + Rational(step) * (way + Rational(scale * Rational(lift)) * n));

@@ -1,0 +1,198 @@
+// The fast path's engine against the exact reference, which shares no code with it: the PVS, and the label beside every region.
+#include "fastpath/visibility/local_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <iterator>
+
+#include "exact/convex_cell.h"
+#include "fuzz/campaign/generators.h"
+#include "fuzz/generators/random_scenes.h"
+#include "reference/visibility/first_order.h"
+#include "validate/vectors/reader.h"
+
+namespace clues::fastpath {
+namespace {
+
+constexpr std::uint64_t kSeed = 20261121;
+
+using Ids = std::vector<std::uint32_t>;
+
+Ids missing_from(const Ids& all, const Ids& some) {
+  Ids out;
+  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(out));
+  return out;
+}
+
+struct Tally {
+  std::uint64_t scenes = 0, triangles = 0, extra = 0, fallbacks = 0, labels = 0, exact = 0;
+};
+
+reference::VisibilityMap reference_map(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, bool solid) {
+  reference::Options options;
+  options.threads = 1;
+  options.check_two_walks = false;
+  options.mode = solid ? reference::Mode::solid : reference::Mode::sheet;
+  return reference::first_order_visibility(mesh, cell, options);
+}
+
+LocalMap fast_map(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, bool solid) {
+  LocalMapOptions options;
+  options.mode = solid ? SideMode::solid : SideMode::sheet;
+  return make_local_map(mesh, cell, options);
+}
+
+// Never a triangle less than Omega; one more only where a fallback was counted.
+void compare(const reference::VisibilityMap& exact, const LocalMap& fast, std::size_t triangles, Tally& tally) {
+  const Ids more = missing_from(fast.visible(), exact.visible);
+  EXPECT_EQ(missing_from(exact.visible, fast.visible()), Ids{});
+  if (fast.counts().conservative_fallbacks == 0) {
+    EXPECT_EQ(more, Ids{});
+  }
+  ++tally.scenes;
+  tally.triangles += triangles;
+  // Where the reference has fallbacks too it is no measure.
+  if (exact.statistics.conservative_fallbacks == 0) tally.extra += more.size();
+  tally.fallbacks += fast.counts().conservative_fallbacks;
+  tally.exact += fast.counts().exact_decisions;
+}
+
+void print(const char* what, const Tally& t) {
+  std::cout << what << ": " << t.scenes << " scenes, " << t.triangles << " triangles, " << t.extra
+            << " more than Omega, " << t.fallbacks << " fallbacks, " << t.exact << " decisions in rationals, "
+            << t.labels << " labels\n";
+}
+
+void compare_generated(std::uint64_t per_generator) {
+  Tally tally;
+  for (const fuzz::NamedGenerator& generator : fuzz::all_generators()) {
+    for (std::uint64_t i = 0; i < per_generator; ++i) {
+      SCOPED_TRACE(generator.name + "-" + std::to_string(kSeed) + "-" + std::to_string(i));
+      const fuzz::Case c = generator.make(kSeed, i);
+      const auto cell = exact::ConvexCell::from_doubles(c.cell);
+      compare(reference_map(c.mesh, cell, false), fast_map(c.mesh, cell, false), c.mesh.triangles.size(), tally);
+    }
+  }
+  EXPECT_LE(tally.extra * 1000, tally.triangles);
+  print("generated", tally);
+}
+
+TEST(LocalMap, FindsExactlyOmegaInGeneratedScenes) { compare_generated(1); }
+
+TEST(LocalMapLong, FindsExactlyOmegaInGeneratedScenes) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  compare_generated(30);
+}
+
+TEST(LocalMap, FindsExactlyOmegaInTheSuite) {
+  Tally tally;
+  for (const validate::VectorCase& c : validate::read_suite(CLUES_SOURCE_DIR "/vectors")) {
+    SCOPED_TRACE(c.id);
+    const bool solid = c.mode == validate::CaseMode::solid;
+    const LocalMap map = fast_map(c.mesh, exact::ConvexCell::from_doubles(c.cell), solid);
+    EXPECT_EQ(missing_from(c.expect->first_order_visible, map.visible()), Ids{});
+    const Ids more = missing_from(map.visible(), c.expect->first_order_visible);
+    if (map.counts().conservative_fallbacks == 0) {
+      EXPECT_EQ(more, Ids{});
+    }
+    ++tally.scenes;
+    tally.triangles += c.mesh.triangles.size();
+    tally.extra += more.size();
+    tally.fallbacks += map.counts().conservative_fallbacks;
+    tally.exact += map.counts().exact_decisions;
+  }
+  EXPECT_GT(tally.scenes, 0U);
+  print("suite", tally);
+}
+
+// Just off the sample of every region of the reference's map, on its side. The scenes have coordinates in sixteenths, so the space beside a
+// region that is not tiny has the region's label there.
+void compare_labels(std::uint64_t per_kind) {
+  Tally tally;
+  std::uint64_t hidden = 0;
+  for (const fuzz::Kind kind : fuzz::all_kinds) {
+    for (std::uint64_t i = 0; i < per_kind; ++i) {
+      const fuzz::GeneratedScene scene = fuzz::generate(kind, kSeed, i);
+      SCOPED_TRACE(scene.name);
+      const auto cell = exact::ConvexCell::from_doubles(scene.cell);
+      const auto exact = reference_map(scene.mesh, cell, false);
+      const LocalMap fast = fast_map(scene.mesh, cell, false);
+      compare(exact, fast, scene.mesh.triangles.size(), tally);
+      for (const reference::Region& r : exact.regions) {
+        const exact::Plane3& h = exact.complex.planes[r.piece];
+        const bool in_front = std::any_of(cell.vertices().begin(), cell.vertices().end(), [&](const exact::Point3& v) {
+          return h.oriented_side(v) == (r.front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE);
+        });
+        if (exact.complex.in_cell[r.piece] || !in_front || r.area_fraction < 1e-6) continue;
+        const Point s = exact::to_double_estimate(r.sample);
+        const Point n{CGAL::to_double(h.a()), CGAL::to_double(h.b()), CGAL::to_double(h.c())};
+        const double step = (r.front ? 1e-10 : -1e-10) / std::hypot(n[0], n[1], n[2]);
+        const Point p{s[0] + step * n[0], s[1] + step * n[1], s[2] + step * n[2]};
+        const std::uint64_t before = fast.conservative_labels();
+        const LocalMap::Label label = fast.label(p);
+        if (fast.conservative_labels() > before || fast.counts().conservative_fallbacks > 0) {
+          EXPECT_TRUE(label == LocalMap::Label::visible || !r.visible);
+          continue;
+        }
+        EXPECT_EQ(label == LocalMap::Label::visible, r.visible) << p[0] << " " << p[1] << " " << p[2];
+        ++tally.labels;
+        hidden += !r.visible;
+      }
+    }
+  }
+  EXPECT_GT(hidden, 0U);
+  print("labels", tally);
+}
+
+TEST(LocalMap, LabelsThePointsBesideEveryRegion) { compare_labels(3); }
+
+TEST(LocalMapLong, LabelsThePointsBesideEveryRegion) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  compare_labels(40);
+}
+
+TEST(LocalMap, DoesNotDependOnTheOrderOfTriangles) {
+  for (const fuzz::Kind kind : fuzz::all_kinds) {
+    const fuzz::GeneratedScene scene = fuzz::generate(kind, kSeed, 1);
+    SCOPED_TRACE(scene.name);
+    const auto cell = exact::ConvexCell::from_doubles(scene.cell);
+    scene::TriangleMesh reversed = scene.mesh;
+    std::reverse(reversed.triangles.begin(), reversed.triangles.end());
+    Ids visible = fast_map(reversed, cell, false).visible();
+    for (std::uint32_t& t : visible) t = static_cast<std::uint32_t>(reversed.triangles.size()) - 1 - t;
+    std::sort(visible.begin(), visible.end());
+    EXPECT_EQ(visible, fast_map(scene.mesh, cell, false).visible());
+  }
+}
+
+// A square plate at z = 0 under a box cell at z = 4..5: its four shadow walls spread outward below it.
+TEST(LocalMap, SaysWhichBoxesItsPiecesMayTouch) {
+  scene::TriangleMesh mesh;
+  mesh.points = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.face_of = {0, 0};
+  std::vector<Point> corners;
+  for (unsigned i = 0; i < 8; ++i) corners.push_back({i & 1U ? 0.5 : -0.5, i & 2U ? 0.5 : -0.5, i & 4U ? 5.0 : 4.0});
+  const WorldBox outside{{-20, -20, -20}, {20, 20, 20}};
+  const LocalMap map = make_local_map(mesh, exact::ConvexCell::from_doubles(corners), {}, &outside);
+  EXPECT_EQ(map.visible(), (Ids{0, 1}));
+  EXPECT_FALSE(map.pieces().empty());
+  EXPECT_EQ(map.label({0, 0, -1}), LocalMap::Label::hidden);
+  EXPECT_EQ(map.label({5, 0, -1}), LocalMap::Label::visible);
+  // At z = -4 the umbra ends at |x| = 1 + 4 (1 - 0.5) / 5 = 1.4: what is seen from (0.5, 5) past the edge at x = 1.
+  EXPECT_EQ(map.label({1.39, 0.1, -4}), LocalMap::Label::hidden);
+  EXPECT_EQ(map.label({1.41, 0.1, -4}), LocalMap::Label::visible);
+  EXPECT_TRUE(map.piece_may_touch(WorldBox{{1.3, 0, -4}, {1.5, 0.1, -4}}));
+  EXPECT_FALSE(map.piece_may_touch(WorldBox{{-0.5, -0.5, -4}, {0.5, 0.5, -2}}));
+  EXPECT_FALSE(map.piece_may_touch(WorldBox{{10, 10, 1}, {12, 12, 3}}));
+  EXPECT_TRUE(map.piece_may_touch(Corners{Point{1.3, 0, -4}, {1.5, 0, -4}, {1.4, 0.1, -4}}));
+  EXPECT_FALSE(map.piece_may_touch(Corners{Point{0, 0, -4}, {0.5, 0, -4}, {0, 0.5, -4}}));
+  EXPECT_EQ(map.conservative_labels(), 0U);
+}
+
+}  // namespace
+}  // namespace clues::fastpath
