@@ -177,7 +177,7 @@ TEST(LocalMap, SaysWhichBoxesItsPiecesMayTouch) {
   mesh.face_of = {0, 0};
   std::vector<Point> corners;
   for (unsigned i = 0; i < 8; ++i) corners.push_back({i & 1U ? 0.5 : -0.5, i & 2U ? 0.5 : -0.5, i & 4U ? 5.0 : 4.0});
-  const WorldBox outside{{-20, -20, -20}, {20, 20, 20}};
+  const Box outside{{-20, -20, -20}, {20, 20, 20}};
   const LocalMap map = make_local_map(mesh, exact::ConvexCell::from_doubles(corners), {}, &outside);
   EXPECT_EQ(map.visible(), (Ids{0, 1}));
   EXPECT_FALSE(map.pieces().empty());
@@ -186,9 +186,9 @@ TEST(LocalMap, SaysWhichBoxesItsPiecesMayTouch) {
   // At z = -4 the umbra ends at |x| = 1 + 4 (1 - 0.5) / 5 = 1.4: what is seen from (0.5, 5) past the edge at x = 1.
   EXPECT_EQ(map.label({1.39, 0.1, -4}), LocalMap::Label::hidden);
   EXPECT_EQ(map.label({1.41, 0.1, -4}), LocalMap::Label::visible);
-  EXPECT_TRUE(map.piece_may_touch(WorldBox{{1.3, 0, -4}, {1.5, 0.1, -4}}));
-  EXPECT_FALSE(map.piece_may_touch(WorldBox{{-0.5, -0.5, -4}, {0.5, 0.5, -2}}));
-  EXPECT_FALSE(map.piece_may_touch(WorldBox{{10, 10, 1}, {12, 12, 3}}));
+  EXPECT_TRUE(map.piece_may_touch(Box{{1.3, 0, -4}, {1.5, 0.1, -4}}));
+  EXPECT_FALSE(map.piece_may_touch(Box{{-0.5, -0.5, -4}, {0.5, 0.5, -2}}));
+  EXPECT_FALSE(map.piece_may_touch(Box{{10, 10, 1}, {12, 12, 3}}));
   EXPECT_TRUE(map.piece_may_touch(Corners{Point{1.3, 0, -4}, {1.5, 0, -4}, {1.4, 0.1, -4}}));
   EXPECT_FALSE(map.piece_may_touch(Corners{Point{0, 0, -4}, {0.5, 0, -4}, {0, 0.5, -4}}));
   EXPECT_EQ(map.conservative_labels(), 0U);
