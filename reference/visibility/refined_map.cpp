@@ -99,7 +99,8 @@ std::vector<TriangleBounds> Bounds::by_triangle() const {
   std::vector<exact::FT> whole(complex.input_triangles, exact::FT(0));
   std::vector<TriangleBounds> sides(2 * complex.input_triangles, {0, true, exact::FT(0), exact::FT(0), exact::FT(0)});
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
-    const auto& f = TriangleFrame(complex, t).flat();
+    const TriangleFrame frame(complex, t);
+    const auto& f = frame.flat();
     const exact::FT area = twice_area({f[0], f[1], f[2]});  // pieces of one triangle are laid flat in one way
     for (const exact::Origin& o : complex.pieces[t].origins) {
       whole[o.triangle] += area;

@@ -41,9 +41,7 @@ std::vector<validate::VectorCase> cases_of(const std::vector<std::string>& topic
   return found;
 }
 
-TEST(RefinedSuite, HazardsAndPortals) {
-  expect_between(cases_of({"hazards", "portals"}, 40), validate::Refinement::both, 1);
-}
+TEST(RefinedSuite, Hazards) { expect_between(cases_of({"hazards"}, 16), validate::Refinement::both, 1); }
 
 TEST(RefinedSuiteLong, AllCases) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
