@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <iterator>
+#include <map>
 
 #include "exact/convex_cell.h"
 #include "fuzz/campaign/generators.h"
@@ -167,6 +168,43 @@ TEST(LocalMap, DoesNotDependOnTheOrderOfTriangles) {
     std::sort(visible.begin(), visible.end());
     EXPECT_EQ(visible, fast_map(scene.mesh, cell, false).visible());
   }
+}
+
+// The visible area of every side: regions are doubles, so this is no exact test; what it compares is known to 1e-9.
+TEST(LocalMap, RegionsHaveTheAreasOfTheReference) {
+  std::uint64_t partly = 0;
+  for (const fuzz::Kind kind : fuzz::all_kinds) {
+    for (std::uint64_t i = 0; i < 1; ++i) {
+      const fuzz::GeneratedScene scene = fuzz::generate(kind, kSeed, i);
+      SCOPED_TRACE(scene.name);
+      const auto cell = exact::ConvexCell::from_doubles(scene.cell);
+      const auto exact = reference_map(scene.mesh, cell, false);
+      LocalMapOptions options;
+      options.regions = true;
+      const LocalMap fast = make_local_map(scene.mesh, cell, options);
+      std::map<std::pair<std::uint32_t, bool>, std::array<double, 2>> visible, all;  // reference, fast
+      for (const reference::Region& r : exact.regions) {
+        const auto& c = exact.complex.pieces[r.piece].corners;
+        const double area = std::sqrt(CGAL::to_double(CGAL::squared_area(
+                                exact.complex.points[c[0]], exact.complex.points[c[1]], exact.complex.points[c[2]]))) *
+                            CGAL::to_double(r.area_fraction);
+        for (const exact::Origin& o : exact.complex.pieces[r.piece].origins) {
+          all[{o.triangle, o.same_side == r.front}][0] += area;
+          if (r.visible) visible[{o.triangle, o.same_side == r.front}][0] += area;
+        }
+      }
+      for (const LocalRegion& r : fast.regions()) {
+        all[{r.triangle, r.front}][1] += r.area_estimate;
+        if (r.visible) visible[{r.triangle, r.front}][1] += r.area_estimate;
+      }
+      for (const auto& [side, area] : all) EXPECT_NEAR(area[0], area[1], 1e-9 * area[0]) << side.first;
+      for (const auto& [side, area] : visible) {
+        EXPECT_NEAR(area[0], area[1], 1e-9 * all[side][0]) << side.first << (side.second ? " front" : " back");
+        partly += area[0] > 0 && area[0] < 0.999 * all[side][0];
+      }
+    }
+  }
+  EXPECT_GT(partly, 0U);
 }
 
 // A square plate at z = 0 under a box cell at z = 4..5: its four shadow walls spread outward below it.
