@@ -106,7 +106,7 @@ VisibilityMap map_from_seeds(const exact::SceneQuery& whole, const std::vector<s
   const Options options;
   const auto t = reference::traverse(whole, options, map.statistics, seeds);
   for (const auto& p : t.fixpoint.wedges.pieces()) map.wedges.push_back(p.wedge);
-  reference::make_regions(*t.scene, t.fixpoint, t.visited, options, map);
+  reference::make_regions(*t.scene, t.fixpoint, {t.visited, {}}, options, map);
   return map;
 }
 
