@@ -15,15 +15,11 @@ using exact::Point3;
 
 namespace {
 
-// The edge of the complex with the wedge's near segment.
+// The edge of the complex that the wedge's near segment is a part of.
 std::optional<std::uint32_t> edge_of(const exact::Complex& complex, const Wedge& w) {
-  const auto id = [&](const Point3& p) { return std::find(complex.points.begin(), complex.points.end(), p); };
-  const auto a = id(w.near0), b = id(w.near1);
-  if (a == complex.points.end() || b == complex.points.end()) return std::nullopt;
-  const auto lo = static_cast<std::uint32_t>(std::min(a, b) - complex.points.begin());
-  const auto hi = static_cast<std::uint32_t>(std::max(a, b) - complex.points.begin());
-  for (const std::uint32_t e : complex.point_edges[lo]) {
-    if (complex.edges[e].a == lo && complex.edges[e].b == hi) return e;
+  for (std::uint32_t e = 0; e < complex.edges.size(); ++e) {
+    const exact::Kernel::Segment_3 edge(complex.points[complex.edges[e].a], complex.points[complex.edges[e].b]);
+    if (edge.has_on(w.near0) && edge.has_on(w.near1)) return e;
   }
   return std::nullopt;
 }

@@ -70,7 +70,8 @@ void print(const char* what, const Tally& t) {
 
 void compare_generated(std::uint64_t per_generator) {
   Tally tally;
-  for (const fuzz::NamedGenerator& generator : fuzz::all_generators({})) {
+  const fuzz::GivenScenes none;
+  for (const fuzz::NamedGenerator& generator : fuzz::generators_named({}, none)) {
     for (std::uint64_t i = 0; i < per_generator; ++i) {
       SCOPED_TRACE(generator.name + "-" + std::to_string(kSeed) + "-" + std::to_string(i));
       const fuzz::Case c = generator.make(kSeed, i);

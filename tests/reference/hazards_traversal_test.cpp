@@ -279,8 +279,10 @@ TEST(Hazard, B18AWedgeBeginsAtItsEdge) {
     if (w.kind == reference::WedgeKind::se_mv || w.near0.x() != FT(10) || w.near1.x() != FT(10)) continue;
     if (!CGAL::is_zero(w.near0.z()) || !CGAL::is_zero(w.near1.z())) continue;
     // The blocker stands in the supporting polygon of this piece.
-    const Point3 middle = CGAL::midpoint(w.near0, w.near1);
-    across += CGAL::abs(middle.y()) < FT(2) && query.crossings(w.center, middle, true).hits.empty() == false;
+    for (int k = 1; k < 16; ++k) {
+      const Point3 y = w.near0 + FT(k) / 16 * (w.near1 - w.near0);
+      across += !query.crossings(w.center, y, true).hits.empty();
+    }
   }
   EXPECT_LT(blocker, map.complex.input_triangles);
   EXPECT_GT(across, 0U);
