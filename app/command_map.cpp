@@ -130,6 +130,7 @@ std::vector<MappedCell> map_cells(const CellMapper& mapper, const std::string& s
 int run_map(MapRequest request) {
   while (request.out.size() > 1 && request.out.back() == '/') request.out.pop_back();  // "cells/" is the folder "cells"
   request.refinement = wanted_refinement(request);
+  request.refine.to_reference();  // complains of bad numbers now
   request.asked_method = request.method.method;
   if (request.method.method == "backprojected") request.method.method = "first-order";  // refined afterwards
   request.method.check();

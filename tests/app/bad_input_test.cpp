@@ -97,7 +97,6 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"EmptyGrid", {"--cells", "grid:0x1x1:box:0,0,0,1,1,1"}, "grid"},
         BadCommand{"SolidModeOnOpenMesh", {"--cell", cell, "--mode", "solid"}, "solid"},
         BadCommand{"UnknownMode", {"--cell", cell, "--mode", "fluid"}, "fluid"},
-        BadCommand{"FastKernel", {"--cell", cell, "--kernel", "fast"}, "--kernel exact"},
         BadCommand{"UnknownKernel", {"--cell", cell, "--kernel", "quick"}, "quick"},
         BadCommand{"UnknownRefinement", {"--cell", cell, "--refine", "guess"}, "guess"},
         BadCommand{"NegativeDepth", {"--cell", cell, "--refine", "cell", "--max-depth", "-1"}, "--max-depth"},

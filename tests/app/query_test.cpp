@@ -126,7 +126,7 @@ TEST_F(Umbra, BadFilesAreBadInput) {
   refused(bad, "clues-umbra/1");
   bad = umbra;
   bad["scene"]["triangles"] = 6;
-  refused(bad, "another");
+  refused(bad, "6 triangles");
   bad = umbra;
   bad["facets"][2]["corners"][1] = 100000;
   refused(bad, "facets[2]");

@@ -288,7 +288,7 @@ TEST(Iut, RefusesWhatIsNoRequest) {
     EXPECT_THAT(read_all(folder.file("err")), HasSubstr("docs/protocol.md"));
   }
   EXPECT_EQ(run_clues({"iut"}, folder.path()).exit_code, 2);
-  EXPECT_EQ(run_clues({"iut", "--kernel", "fast"}, folder.path()).exit_code, 2);
+  EXPECT_EQ(run_clues({"iut", "--kernel", "quick"}, folder.path()).exit_code, 2);
 }
 
 TEST(Help, NamesEveryOptionAndOutcome) {
