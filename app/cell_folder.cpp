@@ -1,6 +1,5 @@
 #include "app/cell_folder.h"
 
-#include <fstream>
 #include <iterator>
 #include <system_error>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "app/common.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/formats/file_bytes.h"
 
 namespace clues::app {
 namespace {
@@ -17,11 +17,6 @@ using scene::Error;
 using scene::ErrorCode;
 
 constexpr const char* request_file = "cells.json";
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 }  // namespace
 
@@ -33,7 +28,7 @@ CellFolder::CellFolder(fs::path folder, const std::string& request, bool resume)
           ErrorCode::bad_argument,
           folder_.string() + ": holds results of an earlier run; give --resume to go on with it, or another folder");
     }
-    if (bytes_of(file) != request) {
+    if (scene::read_file_bytes(file) != request) {
       throw Error(ErrorCode::bad_argument,
                   file.string() +
                       ": the run that was begun here asked for something else (another scene, grid or option); "

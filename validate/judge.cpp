@@ -142,10 +142,13 @@ Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::Visibility
     }
     if (options.progress) options.progress(t + 1, total);
   }
-  result.verdict = result.missing_visible > 0     ? Verdict::unsound
-                   : result.missing_undecided > 0 ? Verdict::undecided
-                                                  : Verdict::sound;
+  result.verdict = verdict_of(result);
   return result;
+}
+
+Verdict verdict_of(const Judgement& judgement) {
+  if (judgement.missing_visible > 0) return Verdict::unsound;
+  return judgement.missing_undecided > 0 ? Verdict::undecided : Verdict::sound;
 }
 
 std::vector<std::uint32_t> undecided(const Judgement& judgement) {

@@ -64,6 +64,9 @@ struct JudgeOptions {
 Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::VisibilityMap& map,
                     const std::vector<std::uint32_t>& pvs, const JudgeOptions& options = {});
 
+// D7, D19: by the counters of missing triangles.
+Verdict verdict_of(const Judgement& judgement);
+
 // The triangles in Omega without a witness, ascending.
 std::vector<std::uint32_t> undecided(const Judgement& judgement);
 

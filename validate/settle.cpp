@@ -32,9 +32,7 @@ void settle(Judgement& judgement, const scene::TriangleMesh& mesh, const exact::
   }
   std::sort(judgement.witnesses.begin(), judgement.witnesses.end(),
             [](const Witness& a, const Witness& b) { return a.triangle < b.triangle; });
-  judgement.verdict = judgement.missing_visible > 0     ? Verdict::unsound
-                      : judgement.missing_undecided > 0 ? Verdict::undecided
-                                                        : Verdict::sound;
+  judgement.verdict = verdict_of(judgement);
 }
 
 }  // namespace clues::validate

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <random>
+#include <span>
 
 #include "exact/box_tree.h"
 #include "fastpath/segment_queries.h"
@@ -20,9 +20,9 @@ namespace {
 // How many rays look for a first guess, and how many triangles whose proof failed are looked at before the map is made anew.
 constexpr std::size_t kRays = 16384, kAimedRays = 4096, kFailures = 256;
 
-Box box_of(const Corners& t) {
-  Box box{t[0], t[0]};
-  for (const Point& p : t) {
+Box box_of(std::span<const Point> points) {
+  Box box{points[0], points[0]};
+  for (const Point& p : points) {
     for (std::size_t i = 0; i < 3; ++i) {
       box.low[i] = std::min(box.low[i], p[i]);
       box.high[i] = std::max(box.high[i], p[i]);
@@ -169,13 +169,7 @@ void Closer::add_all() {
 
 // D3: what meets the cell is visible. All whose boxes do: too many does no harm.
 void Closer::add_triangles_by_the_cell() {
-  Box cell{cell_.vertices()[0], cell_.vertices()[0]};
-  for (const Point& p : cell_.vertices()) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      cell.low[i] = std::min(cell.low[i], p[i]);
-      cell.high[i] = std::max(cell.high[i], p[i]);
-    }
-  }
+  const Box cell = box_of(cell_.vertices());
   std::vector<std::uint32_t> nodes{0};
   while (!nodes.empty() && !bvh_.nodes().empty()) {
     const BoxLanes& node = bvh_.nodes()[nodes.back()];

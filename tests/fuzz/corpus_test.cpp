@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "fuzz/campaign/oracle.h"
 #include "fuzz/targets/scene_bytes.h"
 #include "fuzz/targets/targets.h"
 #include "scene/error.h"
+#include "scene/formats/file_bytes.h"
 
 namespace clues::fuzz {
 namespace {
@@ -24,11 +23,6 @@ std::vector<fs::path> seeds_of(const std::string& target) {
   return files;
 }
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 class Corpus : public testing::TestWithParam<const char*> {};
 
 TEST_P(Corpus, KeepsAllPromises) {
@@ -36,7 +30,7 @@ TEST_P(Corpus, KeepsAllPromises) {
   int accepted = 0, refused = 0;
   for (const auto& file : seeds_of(target.name)) {
     SCOPED_TRACE(file.string());
-    EXPECT_NO_THROW(++(target.run(bytes_of(file)) ? accepted : refused));
+    EXPECT_NO_THROW(++(target.run(scene::read_file_bytes(file)) ? accepted : refused));
   }
   EXPECT_GE(accepted, 2);
   EXPECT_GE(refused, 1);
@@ -48,7 +42,7 @@ TEST_P(Corpus, KeepsAllPromisesWhenCutShort) {
   if (target.run == scene_to_verdict) GTEST_SKIP() << "slow, and any bytes are a scene";
   for (const auto& file : seeds_of(target.name)) {
     SCOPED_TRACE(file.string());
-    const std::string bytes = bytes_of(file);
+    const std::string bytes = scene::read_file_bytes(file);
     for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 64)
       EXPECT_NO_THROW(target.run(bytes.substr(0, size))) << size;
   }

@@ -19,15 +19,6 @@ using reference::contour_edges;
 
 constexpr bool kFront = true, kBack = false;
 
-// is_visible on whichever of the two triangles of a quad holds x.
-bool quad_visible(const reference::VisibilityMap& map, std::uint32_t quad, bool front, const scene::Point& x) {
-  try {
-    return is_visible(map, quad, front, x);
-  } catch (const std::logic_error&) {
-    return is_visible(map, quad + 1, front, x);
-  }
-}
-
 void expect_no_contradiction(const reference::VisibilityMap& map) {
   EXPECT_EQ(contradictions(map, 20, 1).total(), 0U);
   EXPECT_EQ(map.statistics.walk_disagreements, 0U);

@@ -30,14 +30,6 @@ using reference::Meets;
 
 constexpr bool kFront = true, kBack = false;
 
-bool quad_visible(const reference::VisibilityMap& map, std::uint32_t quad, bool front, const scene::Point& x) {
-  try {
-    return is_visible(map, quad, front, x);
-  } catch (const std::logic_error&) {
-    return is_visible(map, quad + 1, front, x);
-  }
-}
-
 reference::VisibilityMap traversed(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell) {
   reference::Options options;
   options.formulation = Formulation::traversal;

@@ -133,4 +133,12 @@ bool is_visible(const reference::VisibilityMap& map, std::uint32_t t, bool front
   throw std::logic_error("the point lies in no region of that side");
 }
 
+bool quad_visible(const reference::VisibilityMap& map, std::uint32_t quad, bool front, const scene::Point& x) {
+  try {
+    return is_visible(map, quad, front, x);
+  } catch (const std::logic_error&) {
+    return is_visible(map, quad + 1, front, x);
+  }
+}
+
 }  // namespace clues::test

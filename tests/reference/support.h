@@ -42,4 +42,7 @@ exact::FT hidden_area(const reference::VisibilityMap& map, const scene::Triangle
 // Whether the region of triangle t's side that contains x (a point of the triangle in no segment of the map) is visible.
 bool is_visible(const reference::VisibilityMap& map, std::uint32_t t, bool front, const scene::Point& x);
 
+// The same on whichever of the two triangles of a quad holds x.
+bool quad_visible(const reference::VisibilityMap& map, std::uint32_t quad, bool front, const scene::Point& x);
+
 }  // namespace clues::test
