@@ -14,10 +14,11 @@ const Interval& component(const IntervalBox& b, int axis) { return axis == 0 ? b
 IntervalBox far_end(const ValidPiece& piece, const ExactPoint* on_ray) {
   const Blocker& b = piece.on->blockers[static_cast<std::size_t>(piece.blocker)];
   if (on_ray == b.u || on_ray == b.w) return on_ray->approximate();
-  const auto& [i, j] = piece.on->plane->axes();
+  const auto& axes = piece.on->plane->axes();
   const IntervalBox &c = piece.on->center->approximate(), &u = b.u->approximate(), &w = b.w->approximate();
   const auto flat = [&](const IntervalBox& x, const IntervalBox& from) {
-    return std::pair<Interval, Interval>(component(x, i) - component(from, i), component(x, j) - component(from, j));
+    return std::pair<Interval, Interval>(component(x, axes[0]) - component(from, axes[0]),
+                                         component(x, axes[1]) - component(from, axes[1]));
   };
   const auto det = [](const auto& x, const auto& y) { return x.first * y.second - x.second * y.first; };
   const auto ray = flat(on_ray->approximate(), c);

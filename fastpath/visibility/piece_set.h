@@ -27,8 +27,6 @@ IntervalBox far_end(const ValidPiece& piece, const ExactPoint* on_ray);
 
 class PieceSet {
  public:
-  explicit PieceSet(const LocalScene& scene) : scene_(&scene) {}
-
   void clear();
   // Adds and indexes a batch.
   void add(std::vector<ValidPiece> batch);
@@ -100,7 +98,6 @@ class PieceSet {
   // The line from a to b, along the normal of the piece's plane: through the piece, on its outline, or beside it.
   static Crossing passes(const ValidPiece& piece, const ExactPoint& a, const ExactPoint& b);
 
-  const LocalScene* scene_;
   std::vector<ValidPiece> pieces_;
   std::vector<Batch> batches_;
 };

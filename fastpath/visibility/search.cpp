@@ -28,7 +28,6 @@ class Search::Work {
         bounds(b),
         options(o),
         counts(c),
-        set(s),
         walker(s, set),
         maker(s, pool),
         on_edge(s.edges.size()),

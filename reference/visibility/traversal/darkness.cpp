@@ -194,7 +194,7 @@ class DarknessQuery {
   std::vector<std::uint32_t> not_dark_;
 };
 
-Darkness::Darkness(const exact::Complex& complex) : complex_(complex) {
+Darkness::Darkness(const exact::Complex& complex) {
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
     const auto& c = complex.pieces[t].corners;
     boxes_.push_back(complex.points[c[0]].bbox() + complex.points[c[1]].bbox() + complex.points[c[2]].bbox());

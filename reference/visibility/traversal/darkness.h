@@ -30,7 +30,6 @@ class Darkness {
   };
   std::uint32_t build(std::uint32_t begin, std::uint32_t end);
 
-  const exact::Complex& complex_;
   std::vector<CGAL::Bbox_3> boxes_;  // per piece
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
