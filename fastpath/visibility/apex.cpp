@@ -5,6 +5,7 @@
 #include <map>
 #include <numeric>
 
+#include "fastpath/visibility/integers.h"
 #include "scene/error.h"
 
 namespace clues::fastpath {
@@ -29,20 +30,6 @@ struct Beside {
   }
 };
 
-template <class NT>
-NT power_of_half(int exponent);
-template <>
-Interval power_of_half<Interval>(int exponent) {
-  if (exponent > 1000) throw Unsure{};
-  return {std::ldexp(1.0, -exponent)};
-}
-template <>
-Rational power_of_half<Rational>(int exponent) {
-  Rational one(1);
-  mpq_div_2exp(one.get_mpq_t(), one.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-  return one;
-}
-
 // For x in the plane of the arc ab with this normal: whether it lies in the closed arc.
 template <class NT>
 bool in_arc(const Vec3<NT>& a, const Vec3<NT>& b, const Vec3<NT>& normal, const Vec3<NT>& x) {
@@ -57,11 +44,11 @@ class Apex::Star {
  public:
   using V = Vec3<NT>;
 
-  explicit Star(const Apex& apex) : x_(coordinates<NT>(*apex.x_)) {
+  explicit Star(const Apex& apex) : x_(apex.x_) {
     std::map<std::uint32_t, int> node_of;
     const auto node = [&](std::uint32_t v) {
       const auto [it, fresh] = node_of.try_emplace(v, static_cast<int>(nodes_.size()));
-      if (fresh) nodes_.push_back(coordinates<NT>(apex.scene_->points[v]) - x_);
+      if (fresh) nodes_.push_back(to(apex.scene_->points[v]));
       return it->second;
     };
     if (apex.on_edge_) {  // nodes 0 and 1: along the edge
@@ -75,13 +62,12 @@ class Apex::Star {
     find_faces();
   }
 
-  V direction(const ExactPoint& to) const { return coordinates<NT>(to) - x_; }
+  V to(const ExactPoint& p) const { return direction<NT>(*x_, p); }
 
   // limit, moved so little that no arc's great circle lies between.
   std::optional<V> moved_if_possible(const Beside<NT>& d) const {
     for (const int exponent : {10, 30, 60, 120, 250, 500, 1000, 2000, 4000, 8000}) {
-      const NT step = power_of_half<NT>(exponent);
-      const V m = d.limit + step * d.aside + NT(step * step) * d.off;
+      const V m = moved_by<NT>(d.limit, d.aside, d.off, exponent);
       if (std::all_of(arcs_.begin(), arcs_.end(),
                       [&](const Arc& arc) { return sign_of(NT(dot(arc.normal, m))) == d.side_of(arc.normal); }))
         return m;
@@ -227,7 +213,7 @@ class Apex::Star {
     const V target =
         NT(1 + aim) * nodes_[idx(arcs_[aim_arc].a)] + NT(1 + (aim * 7) % 11) * nodes_[idx(arcs_[aim_arc].b)];
     int side = -1;
-    NT nearest(2);
+    NT nearest_above(2), nearest_below(1);  // of the way from d to the target, as a fraction
     for (std::size_t i = 0; i < arcs_.size(); ++i) {
       if (component_[i] != component_[aim_arc]) continue;
       const Arc& arc = arcs_[i];
@@ -235,20 +221,21 @@ class Apex::Star {
       const int sd = sign_of(at_d), st = sign_of(at_target);
       if (sd == 0 && st == 0) return -1;
       if (sd == 0 || sd == st) continue;
-      const NT t = at_d / NT(at_d - at_target);
-      if (side >= 0 && sign_of(NT(t - nearest)) >= 0) continue;
-      const V y = i == aim_arc ? target : V(NT(NT(1) - t) * d + t * target);
+      const NT above = sd > 0 ? at_d : NT(-at_d), beyond = sd > 0 ? NT(-at_target) : at_target, below = above + beyond;
+      if (side >= 0 && sign_of(NT(NT(above * nearest_below) - NT(nearest_above * below))) >= 0) continue;
+      const V y = i == aim_arc ? target : V(beyond * d + above * target);
       const V &a = nodes_[idx(arc.a)], &b = nodes_[idx(arc.b)];
       const int after_a = det_sign(arc.normal, a, y), before_b = det_sign(arc.normal, y, b);
       if (after_a < 0 || before_b < 0) continue;
       if (after_a == 0 || before_b == 0) return -1;
-      nearest = t;
+      nearest_above = above;
+      nearest_below = below;
       side = static_cast<int>(2 * i) + (sd > 0 ? 0 : 1);
     }
     return side;
   }
 
-  V x_;
+  const ExactPoint* x_;
   std::vector<V> nodes_;
   std::vector<Arc> arcs_;
   std::vector<int> face_, component_;
@@ -367,7 +354,7 @@ void Apex::split(Pool& pool, const Plane* plane, const ExactPoint* ray0, const E
 
 std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) const {
   if (sectors_.empty() || probes.empty()) return {};
-  return decide([&]<class NT>() { return existing_in<NT>(probes); });
+  return decide_directions([&]<class NT>() { return existing_in<NT>(probes); });
 }
 
 template <class NT>
@@ -375,7 +362,6 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
   using V = Vec3<NT>;
   const Star<NT> star(*this);
   const LocalCell& cell = scene_->cell;
-  const V x = coordinates<NT>(*x_);
   struct Lit {
     Beside<NT> beside;
     std::vector<int> face;
@@ -385,9 +371,9 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
   const V nothing{NT(0), NT(0), NT(0)};
   std::vector<Lit> lit;
   for (const Probe& p : probes) {
-    Lit l{{star.direction(*p.to), nothing, nothing}, {}, nothing, p.lit_end != nullptr};
+    Lit l{{star.to(*p.to), nothing, nothing}, {}, nothing, p.lit_end != nullptr};
     if (p.plane) {
-      const V n = normal_of<NT>(*p.plane);
+      const V n = normal_direction<NT>(*p.plane);
       l.beside.aside = n;
       l.beside.off = n;
       if (p.kind == Probe::Kind::csv) {
@@ -395,25 +381,19 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
         l.beside.aside = p.aside > 0 ? ccw : -ccw;
       }
     }
-    if (p.lit_end) l.lit_edge = star.direction(*p.lit_end);
+    if (p.lit_end) l.lit_edge = star.to(*p.lit_end);
     l.face = star.face_of(p.plane ? star.moved(l.beside) : l.beside.limit);
     lit.push_back(std::move(l));
   }
   std::vector<V> anticone;
-  for (const ExactPoint& s : cell.vertices) anticone.push_back(x - coordinates<NT>(s));
+  for (const ExactPoint& s : cell.vertices) anticone.push_back(direction<NT>(s, *x_));
   V away = anticone.front();
   for (std::size_t i = 1; i < anticone.size(); ++i) away = away + anticone[i];
 
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < sectors_.size(); ++i) {
     const ApexSector& s = sectors_[i];
-    const V n = normal_of<NT>(*s.plane);
-    const Point here = x_->estimate(), e0 = s.ray0->estimate(), e1 = s.ray1->estimate();
-    const auto weight = [&](const Point& e) {
-      const double size = std::fabs(e[0] - here[0]) + std::fabs(e[1] - here[1]) + std::fabs(e[2] - here[2]);
-      return size > 0 ? std::ldexp(1.0, -std::ilogb(size)) : 1.0;
-    };
-    const V middle = NT(weight(e0)) * star.direction(*s.ray0) + NT(weight(e1)) * star.direction(*s.ray1);
+    const V n = normal_direction<NT>(*s.plane), middle = balanced_sum<NT>(star.to(*s.ray0), star.to(*s.ray1));
     bool bounds_nothing = false;
     for (const Lit& l : lit) {
       // Visible space strictly in H+ that surely reaches the points just off `middle` in H+.
@@ -438,10 +418,10 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
 }
 
 std::vector<int> Apex::faces_of(const std::vector<const ExactPoint*>& to) const {
-  const std::vector<std::vector<int>> names = decide([&]<class NT>() {
+  const std::vector<std::vector<int>> names = decide_directions([&]<class NT>() {
     const Star<NT> star(*this);
     std::vector<std::vector<int>> out;
-    for (const ExactPoint* p : to) out.push_back(star.face_of(star.direction(*p)));
+    for (const ExactPoint* p : to) out.push_back(star.face_of(star.to(*p)));
     return out;
   });
   std::vector<int> numbers;

@@ -1,4 +1,4 @@
-// The two number types of the fast path's visibility code: intervals of doubles, rounded outward, and rationals. Code is written once as
+// The number types of the fast path's visibility code: intervals of doubles, rounded outward; rationals; whole numbers. Code is written once as
 // a template; `sign_of` of an interval that holds zero and more throws Unsure, and the caller does the same again in rationals.
 //
 // Intervals need the rounding mode of RoundedUp in scope.
@@ -8,12 +8,19 @@
 #include <gmpxx.h>
 
 #include <array>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 
 namespace clues::fastpath {
 
 using Interval = CGAL::Interval_nt<false>;
 using Rational = mpq_class;
+// Up to 512 bits without allocation; unlimited beyond.
+using Integer =
+    boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
+                                      512, 0, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked,
+                                      std::allocator<boost::multiprecision::limb_type>>,
+                                  boost::multiprecision::et_off>;
 using RoundedUp = Interval::Protector;
 
 struct Unsure {};
@@ -33,6 +40,7 @@ inline int sign_of(const Interval& x) {
   return s;
 }
 inline int sign_of(const Rational& x) { return sgn(x); }
+inline int sign_of(const Integer& x) { return x.sign(); }
 
 template <class NT>
 struct Vec3 {

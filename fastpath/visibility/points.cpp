@@ -3,6 +3,8 @@
 #include <climits>
 #include <cmath>
 
+#include "fastpath/visibility/integers.h"
+
 namespace clues::fastpath {
 
 namespace {
@@ -168,7 +170,7 @@ int Plane::side(const ExactPoint& x) const {
   const int s = filtered_sign(value_approximate(x));
   if (s != kUnsure) return s;
   ++exact_decisions();
-  return sgn(value_exact(x));
+  return sign_of(Integer(dot(normal_direction<Integer>(*this), direction<Integer>(*a_, x))));
 }
 
 double length_estimate(const Point& v) {
@@ -191,14 +193,12 @@ ExactPoint point_near(const ExactPoint& x, const ExactPoint& to, int level) {
 
 int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {
   const auto det = [&]<class NT>() {
-    const Vec3<NT> o = coordinates<NT>(a);
-    const Vec3<NT> u = coordinates<NT>(b) - o, v = coordinates<NT>(c) - o, w = coordinates<NT>(d) - o;
-    return NT(dot(cross(u, v), w));
+    return NT(dot(cross(direction<NT>(a, b), direction<NT>(a, c)), direction<NT>(a, d)));
   };
   const int s = filtered_sign(det.template operator()<Interval>());
   if (s != kUnsure) return s;
   ++exact_decisions();
-  return sgn(det.template operator()<Rational>());
+  return sign_of(det.template operator()<Integer>());
 }
 
 int compare_coordinate(const ExactPoint& a, const ExactPoint& b, int axis) {

@@ -34,6 +34,7 @@ class ExactPoint {
   ~ExactPoint() { delete exact_.load(std::memory_order_relaxed); }
 
   const Vec3<Interval>& approximate() const { return near_; }
+  bool is_double() const { return near_.x.is_point() && near_.y.is_point() && near_.z.is_point(); }
   const Exact3& exact() const;
   Point estimate() const;
 
@@ -58,6 +59,7 @@ class Plane {
   const Vec3<Interval>& normal_approximate() const { return normal_; }
   const Exact3& normal_exact() const;
   const ExactPoint& base() const { return *a_; }
+  std::array<const ExactPoint*, 3> corners() const { return {a_, b_, c_}; }
 
   // The side of x: sign of normal . (x - base).
   int side(const ExactPoint& x) const;

@@ -1,0 +1,1 @@
+// Nothing: this file is here so that its precompiled header is made.
