@@ -54,21 +54,35 @@ bool is_even_permutation(const Corners& a, const Corners& b) {
   return false;
 }
 
+bool has_corner(const Corners& a, std::uint32_t c) { return std::find(a.begin(), a.end(), c) != a.end(); }
+
 int common_corners(const Corners& a, const Corners& b) {
-  return static_cast<int>(
-      std::count_if(a.begin(), a.end(), [&](auto c) { return std::find(b.begin(), b.end(), c) != b.end(); }));
+  return static_cast<int>(std::count_if(a.begin(), a.end(), [&](auto c) { return has_corner(b, c); }));
 }
 
-// Whether every corner of b that a lacks lies strictly on one side of a's plane: then they meet in common corners only.
-bool strictly_beside(const PointPool& pool, const Corners& a, const Corners& b) {
-  CGAL::Orientation side = CGAL::COPLANAR;
-  for (const std::uint32_t c : b) {
-    if (std::find(a.begin(), a.end(), c) != a.end()) continue;
-    const CGAL::Orientation o = CGAL::orientation(pool[a[0]], pool[a[1]], pool[a[2]], pool[c]);
-    if (o == CGAL::COPLANAR || (side != CGAL::COPLANAR && o != side)) return false;
-    side = o;
+// For b in a's plane: whether all corners of b that an edge of a lacks lie strictly on the other side of that edge's line.
+bool beyond_an_edge(const PointPool& pool, const Corners& a, const Corners& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t p = a[i], q = a[(i + 1) % 3], r = a[(i + 2) % 3];
+    if (std::all_of(b.begin(), b.end(), [&](std::uint32_t c) {
+          return c == p || c == q || CGAL::coplanar_orientation(pool[p], pool[q], pool[r], pool[c]) == CGAL::NEGATIVE;
+        }))
+      return true;
   }
-  return true;
+  return false;
+}
+
+// Whether a plane or a line shows that a and b meet in common corners, or a common edge, only: the corners of b that a lacks lie strictly on one side of a's
+// plane, or in it and beyond an edge of a. Half of the answer: ask with a and b exchanged too.
+bool strictly_beside(const PointPool& pool, const Corners& a, const Corners& b) {
+  bool above = false, below = false, upon = false;
+  for (const std::uint32_t c : b) {
+    if (has_corner(a, c)) continue;
+    const CGAL::Orientation o = CGAL::orientation(pool[a[0]], pool[a[1]], pool[a[2]], pool[c]);
+    (o == CGAL::POSITIVE ? above : o == CGAL::NEGATIVE ? below : upon) = true;
+  }
+  if (above && below) return false;
+  return upon ? !above && !below && beyond_an_edge(pool, a, b) : true;
 }
 
 void find_edges(Complex& complex) {

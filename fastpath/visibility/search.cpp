@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "fastpath/visibility/apex.h"
 #include "fastpath/visibility/contour.h"
+#include "scene/error.h"
 
 namespace clues::fastpath {
 
@@ -362,10 +364,16 @@ class Search::Work {
         }
       }
     }
-    // All of those near vertices, and one more for each other face.
+    // All of those near vertices, and one more for each other face; where faces cannot be told apart, all.
     std::vector<const ExactPoint*> to;
     for (const ExactPoint& v : found) to.push_back(&v);
-    const std::vector<int> face = apex.faces_of(to);
+    std::vector<int> face;
+    try {
+      face = apex.faces_of(to);
+    } catch (const scene::Error& error) {
+      if (error.code() != scene::ErrorCode::internal) throw;
+      return found;
+    }
     std::vector<ExactPoint> out;
     std::vector<int> done;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -427,8 +435,21 @@ class Search::Work {
     for (const auto& [probes, sectors] : c.known) {
       if (probes == c.probes) return sectors;
     }
-    c.known.emplace_back(c.probes, c.apex->existing(c.probes));
+    c.known.emplace_back(c.probes, existing_or_all(*c.apex, c.probes));
     return c.known.back().second;
+  }
+
+  // A sector too many only makes more visible: where the vertex is too intricate to decide, all of them.
+  std::vector<std::uint32_t> existing_or_all(const Apex& apex, const std::vector<Probe>& probes) {
+    try {
+      return apex.existing(probes);
+    } catch (const scene::Error& error) {
+      if (error.code() != scene::ErrorCode::internal) throw;
+      ++counts.conservative_fallbacks;
+      std::vector<std::uint32_t> all(apex.sectors().size());
+      std::iota(all.begin(), all.end(), 0U);
+      return all;
+    }
   }
 
   // All wedges of the round, with one job for each maximal visible part of a contour edge.
@@ -563,13 +584,14 @@ class Search::Work {
       const ExactPoint &a = scene.points[scene.edges[e].a], &b = scene.points[scene.edges[e].b];
       for (const ExactPoint* ray : {piece.ray0, piece.ray1}) {
         if (on.turn(ray, &a) * on.turn(ray, &b) >= 0) continue;
-        // Where the edge crosses the plane through the ray that is normal to the wedge; in front of the centre, not behind it.
-        const ExactPoint* x = crossing_in_plane(on, *ray, a, b);
-        if (x) new_cuts[e].push_back(x);
+        const auto [known, fresh] = coplanar_cuts.try_emplace({&on, ray, e}, nullptr);
+        if (fresh) known->second = crossing_in_plane(on, *ray, a, b);
+        if (known->second) new_cuts[e].push_back(known->second);
       }
     }
   }
 
+  // Where the edge crosses the plane through the ray that is normal to the wedge; in front of the centre, not behind it.
   const ExactPoint* crossing_in_plane(const OnWedge& on, const ExactPoint& ray, const ExactPoint& a,
                                       const ExactPoint& b) {
     const Exact3 &c = on.center->exact(), &n = on.plane->normal_exact();
@@ -625,6 +647,7 @@ class Search::Work {
   std::vector<std::vector<std::unique_ptr<OnWedge>>> edge_wedges;  // per contour edge and touching vertex
   std::vector<bool> is_contour;
   std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
+  std::map<std::tuple<const OnWedge*, const ExactPoint*, std::uint32_t>, const ExactPoint*> coplanar_cuts;
   std::vector<Source> sources;
   std::vector<VertexSource> vertex_sources;
   std::vector<std::vector<std::unique_ptr<Contact>>> on_edge;

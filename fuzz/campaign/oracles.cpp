@@ -101,6 +101,49 @@ class ExactVisibleSet : public Oracle {
   }
 };
 
+// D9, D15: the reference's PVS and that of another computation of the same set.
+class Agreement : public Oracle {
+ public:
+  const char* name() const override { return "agreement"; }
+  const char* what() const override { return "the PVS is the reference's, triangle by triangle (fast path only)"; }
+  void examine(Exam& exam) const override {
+    if (!exam.answer().fallbacks) return;
+    exam.count("answers compared with the reference");
+    exam.count("fallbacks of the subject", *exam.answer().fallbacks);
+    const std::vector<std::uint32_t>& omega = exam.map().visible;
+    const bool omega_is_certain = exam.map().statistics.conservative_fallbacks == 0;
+    std::optional<std::uint32_t> less, more;
+    for (std::uint32_t t = 0; t < exam.scene().mesh.triangles.size(); ++t) {
+      const bool known = std::binary_search(omega.begin(), omega.end(), t);
+      if (known == exam.lists(t)) continue;
+      if (known) {
+        exam.count(omega_is_certain ? "triangles less than the reference" : "triangles less than its fallbacks");
+        if (omega_is_certain && !less) less = t;
+      } else {
+        exam.count("triangles more than the reference");
+        if (*exam.answer().fallbacks == 0 && !more) more = t;
+      }
+    }
+    if (less)
+      differs(exam, *less, "hidden/first-order-visible",
+              "has a visible region in the reference's map, and is not listed");
+    if (more)
+      differs(exam, *more, "visible/first-order-hidden",
+              "is hidden in the reference's map, and listed without a counted fallback");
+  }
+
+ private:
+  void differs(Exam& exam, std::uint32_t triangle, const char* verdict, const char* how) const {
+    Finding f;
+    f.oracle = name();
+    f.verdict = verdict;
+    f.where = exam.scene();
+    f.triangle = triangle;
+    f.explanation = fmt::format("triangle {} {}", triangle, how);
+    exam.file(std::move(f));
+  }
+};
+
 std::vector<std::unique_ptr<Oracle>> make_all() {
   std::vector<std::unique_ptr<Oracle>> all;
   all.push_back(make_sight_lines());
@@ -109,6 +152,7 @@ std::vector<std::unique_ptr<Oracle>> make_all() {
   all.push_back(std::make_unique<ExactVisibleSet>());
   all.push_back(make_metamorphic());
   all.push_back(std::make_unique<TwoWalks>());
+  all.push_back(std::make_unique<Agreement>());
   return all;
 }
 

@@ -1,4 +1,4 @@
-// The reference as a subject, and programs that are given files.
+// The reference and the fast path as subjects, and programs that are given files.
 #include "fuzz/campaign/subject.h"
 
 #include <fmt/format.h>
@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "fastpath/visibility/first_order.h"
 #include "fuzz/campaign/files.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
@@ -58,6 +59,25 @@ class ReferenceSubject : public Subject {
   reference::Options options_;
 };
 
+class FastSubject : public Subject {
+ public:
+  Answer answer(const Case& scene) const override {
+    fastpath::LocalMapOptions options;
+    try {
+      if (scene.solid) {
+        fastpath::require_solid(scene.mesh);
+        options.mode = fastpath::SideMode::solid;
+      }
+      const fastpath::FirstOrder found =
+          fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, options);
+      return {found.visible, std::nullopt, found.conservative_fallbacks};
+    } catch (const Error& error) {
+      throw_no_answer(error);
+    }
+  }
+  std::string name() const override { return "fast"; }
+};
+
 class FunctionSubject : public Subject {
  public:
   FunctionSubject(std::string name, std::function<std::vector<std::uint32_t>(const Case&)> pvs)
@@ -65,7 +85,7 @@ class FunctionSubject : public Subject {
 
   Answer answer(const Case& scene) const override {
     try {
-      return {pvs_(scene), std::nullopt};
+      return {pvs_(scene), std::nullopt, std::nullopt};
     } catch (const Error& error) {
       throw_no_answer(error);
     }
@@ -104,7 +124,7 @@ class CommandSubject : public Subject {
     if (end.killed_here) throw NoAnswer(fmt::format("no answer within {} s", time_limit.count()));
     if (end.exit_code != 0) throw NoAnswer(validate::describe(end) + ": " + child.stderr_tail());
     try {
-      return {scene::read_pvs(pvs, scene.mesh.triangles.size()), std::nullopt};
+      return {scene::read_pvs(pvs, scene.mesh.triangles.size()), std::nullopt, std::nullopt};
     } catch (const Error& error) {
       throw NoAnswer(error.what());
     }
@@ -131,11 +151,13 @@ std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<
 
 std::unique_ptr<Subject> make_subject(const std::string& text) {
   if (text == "reference") return std::make_unique<ReferenceSubject>(text, PlantedBug::none);
+  if (text == "fast") return std::make_unique<FastSubject>();
   const std::string prefix = "reference:";
   if (text.starts_with(prefix)) {
     const auto bug = planted_bugs.find(text.substr(prefix.size()));
     if (bug == planted_bugs.end())
-      throw Error(ErrorCode::bad_argument, "--subject " + text + ": no such subject; use reference or a command line");
+      throw Error(ErrorCode::bad_argument,
+                  "--subject " + text + ": no such subject; use reference, fast or a command line");
     return std::make_unique<ReferenceSubject>(text, bug->second);
   }
   return std::make_unique<CommandSubject>(text);

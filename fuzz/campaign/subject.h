@@ -17,6 +17,8 @@ namespace clues::fuzz {
 struct Answer {
   std::vector<std::uint32_t> pvs;               // ascending
   std::optional<reference::VisibilityMap> map;  // where the subject computes one, its hidden regions are tested too
+  // Of a subject that promises exactly the triangles of Omega (D9): how often it said visible without knowing.
+  std::optional<std::uint64_t> fallbacks;
 };
 
 // The subject gave no answer: it crashed, took too long, or wrote something that is no PVS. what() is one line.
@@ -38,7 +40,7 @@ class Subject {
   virtual std::string name() const = 0;                // make_subject(name()) is the same subject
 };
 
-// "reference": the exact reference. "reference:BUG": with a planted bug, for the tests. Anything else is a command line (words and quotes as in
+// "reference": the exact reference. "reference:BUG": with a planted bug, for the tests. "fast": the fast path. Anything else is a command line (words and quotes as in
 // a shell), in which {scene}, {cell} and {pvs} stand for an OFF file, an OBJ file of the cell's points and the file that it has to write, {mode} for
 // sheet or solid; without any of these words, the first three are appended. Throws scene::Error bad_argument.
 std::unique_ptr<Subject> make_subject(const std::string& text);

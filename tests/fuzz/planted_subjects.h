@@ -1,6 +1,8 @@
 // Answers that hide something visible, as campaigns meet them.
 #pragma once
 
+#include <numeric>
+
 #include "exact/scene_query.h"
 #include "fuzz/campaign/subject.h"
 
@@ -54,6 +56,28 @@ class FromTheCentre : public Subject {
     return out;
   }
   std::string name() const override { return "from-the-centre"; }
+};
+
+// Claims to be exactly Omega, and is not: one triangle too few, or all of them.
+class ClaimsOmega : public Subject {
+ public:
+  explicit ClaimsOmega(bool all) : all_(all) {}
+  Answer answer(const Case& scene) const override {
+    Answer out = make_subject("reference")->answer(scene);
+    out.map.reset();
+    out.fallbacks = 0;
+    if (all_) {
+      out.pvs.resize(scene.mesh.triangles.size());
+      std::iota(out.pvs.begin(), out.pvs.end(), 0U);
+    } else if (!out.pvs.empty()) {
+      out.pvs.pop_back();
+    }
+    return out;
+  }
+  std::string name() const override { return all_ ? "claims-all" : "claims-too-few"; }
+
+ private:
+  bool all_;
 };
 
 }  // namespace clues::fuzz

@@ -5,10 +5,13 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <set>
 
 #include "../conform/planted/answers.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/finding_folder.h"
+#include "fuzz/campaign/generators.h"
+#include "fuzz/campaign/oracle.h"
 #include "fuzz/generators/random_scenes.h"
 #include "planted_subjects.h"
 #include "scene/temporary_folder.h"
@@ -67,6 +70,28 @@ TEST(PlantedSubject, WrongWedgeSideIsFound) { is_found_soon(*make_subject("refer
 TEST(PlantedSubject, RetestedCsvIsFound) { is_found_soon(*make_subject("reference:retested_csv"), 48); }
 TEST(PlantedSubject, MissingRule3IsFound) { is_found_soon(*make_subject("reference:no_rule_3"), 48); }
 TEST(PlantedSubject, RoundedComparisonIsFound) { is_found_soon(*make_subject("reference:rounded_comparison"), 48); }
+
+// The verdicts of the oracle `agreement` in the first cases of a subject that promises Omega.
+std::set<std::string> disagreements(const Subject& subject) {
+  std::set<std::string> verdicts;
+  const GivenScenes none;
+  const auto generators = generators_named({"loose_triangles", "axis_boxes"}, none);
+  for (const auto& g : generators) {
+    for (std::uint64_t i = 0; i < 3; ++i) {
+      const Outcome outcome = judge_case(g.make(7, i), subject, oracles_named({"agreement"}));
+      EXPECT_TRUE(outcome.contradictions.empty());
+      EXPECT_EQ(outcome.counters.at("answers compared with the reference"), 1U);
+      for (const Finding& f : outcome.findings) verdicts.insert(f.verdict);
+    }
+  }
+  return verdicts;
+}
+
+TEST(Agreement, FindsATriangleTooFewAndTrianglesTooMany) {
+  EXPECT_EQ(disagreements(ClaimsOmega(false)), std::set<std::string>{"hidden/first-order-visible"});
+  EXPECT_EQ(disagreements(ClaimsOmega(true)), std::set<std::string>{"visible/first-order-hidden"});
+  EXPECT_EQ(disagreements(*make_subject("fast")), std::set<std::string>{});
+}
 
 TEST(PlantedSubject, NothingIsFoundInASoundAnswer) {
   const scene::TemporaryFolder folder;
