@@ -15,7 +15,6 @@ class FastMapper : public CellMapper {
  public:
   FastMapper(const scene::TriangleMesh& mesh, std::string sha256, const MapRequest& request)
       : bvh_(mesh), sha256_(std::move(sha256)), request_(request) {
-    options_.regions = request.with_map;
     if (request.method.mode == "solid") {
       fastpath::require_solid(mesh);
       options_.mode = fastpath::SideMode::solid;
@@ -26,7 +25,7 @@ class FastMapper : public CellMapper {
     if (progress) progress("cell", 0, 1);
     fastpath::FirstOrder found;
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    arena.execute([&] { found = fastpath::first_order_visibility(bvh_, cell.points, options_); });
+    arena.execute([&] { found = fastpath::first_order_visibility(bvh_, cell.points, options_, request_.with_map); });
     MappedCell mapped;
     mapped.name = cell.name;
     const std::size_t triangles = bvh_.mesh().triangles.size();

@@ -14,7 +14,8 @@ class EnginePart : public PartialMap {
  public:
   explicit EnginePart(LocalMap map) : map_(std::move(map)) {}
 
-  std::vector<std::uint32_t> visible() const override { return map_.visible(); }
+  // What light meets, on either side: the closure asks for that in solid mode too.
+  std::vector<std::uint32_t> visible() const override { return map_.lit(); }
   bool certainly_hidden(const Point& p) const override { return map_.label(p) == LocalMap::Label::hidden; }
   bool wedge_may_touch(const Box& box) const override { return map_.piece_may_touch(box); }
   bool wedge_may_touch(const Corners& triangle) const override { return map_.piece_may_touch(triangle); }
@@ -38,27 +39,22 @@ Box outside_of(const Bvh& bvh) {
 
 }  // namespace
 
-FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options) {
+FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
+                                  bool regions) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   const Box outside = outside_of(bvh);
-  // What light meets, on either side: the closure asks for that in solid mode too.
-  LocalMapOptions sheet = options;
-  sheet.mode = SideMode::sheet;
-  const bool solid = options.mode == SideMode::solid;
-  sheet.regions = options.regions && !solid;
   Closure closure = close_over_visible(bvh, Cell(cell), [&](const scene::TriangleMesh& part) {
-    return std::make_shared<const EnginePart>(make_local_map(part, exact_cell, sheet, &outside));
+    return std::make_shared<const EnginePart>(make_local_map(part, exact_cell, options, &outside));
   });
-  const auto& engine = static_cast<const EnginePart&>(*closure.map);
-  const LocalMap map = solid ? make_local_map(closure.part_mesh, exact_cell, options, &outside) : engine.map();
+  const LocalMap& map = static_cast<const EnginePart&>(*closure.map).map();
 
   FirstOrder result;
   for (const std::uint32_t t : map.visible()) result.visible.push_back(closure.part[t]);
-  result.regions = map.regions();
+  if (regions) result.regions = map.regions();
   for (LocalRegion& region : result.regions) region.triangle = closure.part[region.triangle];
   result.counts = map.counts();
   result.closure = closure.counts;
-  result.conservative_fallbacks = map.counts().conservative_fallbacks + engine.map().conservative_labels();
+  result.conservative_fallbacks = map.counts().conservative_fallbacks + map.conservative_labels();
   result.part = std::move(closure.part);
   return result;
 }

@@ -21,7 +21,8 @@ struct FirstOrder {
 
 // One tree serves many cells at once. The same answer for any number of threads. Solid mode takes the mesh as closed: see require_solid.
 // Throws scene::Error for coordinates that are not finite.
-FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options);
+FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
+                                  bool regions = false);
 
 // D4. Throws scene::Error not_solid unless the mesh is closed and consistently oriented. O(n log n) where the triangles share their corners; else as
 // slow as exact::build_complex.

@@ -21,7 +21,6 @@ enum class SideMode : std::uint8_t { sheet, solid };  // D4
 struct LocalMapOptions {
   SideMode mode = SideMode::sheet;  // solid: only fronts count. That the mesh is closed is for the caller to know.
   int generation_limit = 16;        // D17
-  bool regions = false;             // also make LocalMap::regions()
 };
 
 enum class PieceKind : std::uint8_t { sv_me, se_me, se_mv };  // D10, D11, D12
@@ -60,9 +59,12 @@ class LocalMap {
 
   // Triangles with a point in Omega or in V (D3, D15): ids of the mesh given, ascending.
   const std::vector<std::uint32_t>& visible() const;
+  // Those that light meets on either side: in solid mode they may be more.
+  const std::vector<std::uint32_t>& lit() const;
   // The valid pieces; sorted in order of their making, which is the same in every run.
   const std::vector<WedgePiece>& pieces() const;
-  const std::vector<LocalRegion>& regions() const;  // empty unless asked for
+  // The regions of all sides that count, made anew at each call. O(k^2) labels for k pieces that cross a triangle.
+  std::vector<LocalRegion> regions() const;
 
   // D14. p finite, in free space: not on a surface. `hidden` is a proof; a case that stays undecided is called visible and counted in
   // conservative_labels(). Any number of threads may ask.

@@ -181,7 +181,6 @@ TEST(LocalMap, RegionsHaveTheAreasOfTheReference) {
       const auto cell = exact::ConvexCell::from_doubles(scene.cell);
       const auto exact = reference_map(scene.mesh, cell, false);
       LocalMapOptions options;
-      options.regions = true;
       const LocalMap fast = make_local_map(scene.mesh, cell, options);
       std::map<std::pair<std::uint32_t, bool>, std::array<double, 2>> visible, all;  // reference, fast
       for (const reference::Region& r : exact.regions) {

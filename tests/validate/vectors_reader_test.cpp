@@ -184,6 +184,13 @@ TEST(VectorReader, Globs) {
   EXPECT_FALSE(matches_glob("edge-grazes", "edge"));
   EXPECT_FALSE(matches_glob("edge-grazes", "*x"));
   EXPECT_FALSE(matches_glob("", "?"));
+  EXPECT_TRUE(matches_glob("", "**"));
+  EXPECT_TRUE(matches_glob("a-b-ab", "*ab"));
+  EXPECT_FALSE(matches_glob("edge*", "edge?x"));
+  // Linear in the stars: a search through all of their lengths would not end.
+  std::string stars;
+  for (int i = 0; i < 40; ++i) stars += "*a";
+  EXPECT_FALSE(matches_glob(std::string(200, 'a'), stars + "b"));
 }
 
 }  // namespace

@@ -397,15 +397,24 @@ std::vector<VectorCase> read_suite(const fs::path& folder) {
 }
 
 bool matches_glob(std::string_view text, std::string_view glob) {
-  if (glob.empty()) return text.empty();
-  if (glob.front() == '*') {
-    for (std::size_t skip = 0; skip <= text.size(); ++skip) {
-      if (matches_glob(text.substr(skip), glob.substr(1))) return true;
+  constexpr std::size_t kNone = std::string_view::npos;
+  std::size_t t = 0, g = 0, star = kNone,
+              resume = 0;  // the last star, and where the text after what it stands for begins
+  while (t < text.size()) {
+    if (g < glob.size() && glob[g] == '*') {
+      star = g++;
+      resume = t;
+    } else if (g < glob.size() && (glob[g] == '?' || glob[g] == text[t])) {
+      ++g;
+      ++t;
+    } else if (star != kNone) {  // an earlier star need never stand for more: let the last one
+      g = star + 1;
+      t = ++resume;
+    } else {
+      return false;
     }
-    return false;
   }
-  return !text.empty() && (glob.front() == '?' || glob.front() == text.front()) &&
-         matches_glob(text.substr(1), glob.substr(1));
+  return glob.find_first_not_of('*', g) == kNone;
 }
 
 }  // namespace clues::validate

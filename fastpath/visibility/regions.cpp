@@ -1,0 +1,140 @@
+// D15 in doubles: every side is cut along the lines of its DM segments into convex parts, and each part has the label of a point beside its middle.
+#include "fastpath/visibility/regions.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace clues::fastpath {
+namespace {
+
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point cross_estimate(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+struct Trace {
+  Point a, b;
+};
+Point middle_of(const IntervalBox& b) {
+  return {(b.x.inf() + b.x.sup()) / 2, (b.y.inf() + b.y.sup()) / 2, (b.z.inf() + b.z.sup()) / 2};
+}
+
+std::vector<std::array<std::vector<Trace>, 2>> traces_of_sides(const LocalScene& scene, const PieceSet& pieces) {
+  std::vector<std::array<std::vector<Trace>, 2>> traces(scene.pieces.size());  // front, back
+  for (const ValidPiece& piece : pieces.pieces()) {
+    const OnWedge& on = *piece.on;
+    if (piece.blocker >= 0) {
+      const std::uint32_t t = on.blockers[static_cast<std::size_t>(piece.blocker)].piece;
+      traces[t][scene.planes[t].side(*on.center) > 0 ? 0 : 1].push_back(
+          {middle_of(far_end(piece, piece.ray0)), middle_of(far_end(piece, piece.ray1))});
+    }
+    for (const Radial& r : on.radials) {
+      if (on.turn(piece.ray0, r.w) < 0 || on.turn(r.w, piece.ray1) < 0) continue;
+      for (std::vector<Trace>& side : traces[r.piece]) side.push_back({r.u->estimate(), r.w->estimate()});
+    }
+  }
+  return traces;
+}
+
+// Cuts the parts that the trace runs through along its line.
+std::vector<std::vector<Point>> cut_along(const std::vector<std::vector<Point>>& parts, const Trace& trace,
+                                          const Point& n, double extent) {
+  const Point along = minus(trace.b, trace.a), beside = cross_estimate(n, along);
+  const double tolerance = length_estimate(beside) * extent * 0x1p-40;
+  const auto at = [](const Point& d, const Point& x, const Point& o) {
+    return d[0] * (x[0] - o[0]) + d[1] * (x[1] - o[1]) + d[2] * (x[2] - o[2]);
+  };
+  std::vector<std::vector<Point>> out;
+  for (const std::vector<Point>& part : parts) {
+    std::vector<Point> left, right;
+    double first = HUGE_VAL, last = -HUGE_VAL;  // of the line inside the part, along the trace
+    double most = 0, least = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const Point &p = part[i], &q = part[(i + 1) % part.size()];
+      const double hp = at(beside, p, trace.a), hq = at(beside, q, trace.a);
+      most = std::max(most, hp);
+      least = std::min(least, hp);
+      if (hp >= 0) left.push_back(p);
+      if (hp <= 0) right.push_back(p);
+      Point x = p;
+      if (hp * hq < 0) {
+        for (std::size_t k = 0; k < 3; ++k) x[k] = p[k] + hp / (hp - hq) * (q[k] - p[k]);
+        left.push_back(x);
+        right.push_back(x);
+      } else if (hp != 0) {
+        continue;
+      }
+      first = std::min(first, at(along, x, trace.a));
+      last = std::max(last, at(along, x, trace.a));
+    }
+    const double end = at(along, trace.b, trace.a);
+    const bool runs_through = std::min(last, end) - std::max(first, 0.0) > 0x1p-40 * end;
+    if (most > tolerance && least < -tolerance && runs_through) {
+      out.push_back(std::move(left));
+      out.push_back(std::move(right));
+    } else {
+      out.push_back(part);
+    }
+  }
+  return out;
+}
+
+void map_side(const LocalScene& scene, std::uint32_t t, bool front, const LocalOrigin& origin,
+              const std::vector<Trace>& traces, const std::function<bool(const Point&)>& visible,
+              std::vector<LocalRegion>& regions) {
+  const int side = front ? 1 : -1;
+  const auto& s = scene.cell.vertices;
+  const bool in_cell = scene.pieces[t].in_cell;
+  const bool faced =
+      std::any_of(s.begin(), s.end(), [&](const ExactPoint& v) { return scene.planes[t].side(v) == side; });
+  const std::vector<Point> whole{scene.corner(t, 0).estimate(), scene.corner(t, 1).estimate(),
+                                 scene.corner(t, 2).estimate()};
+  const Point n = cross_estimate(minus(whole[1], whole[0]), minus(whole[2], whole[0]));
+  const double size = length_estimate(n), extent = std::sqrt(size);
+  if (!(size > 0)) return;
+  std::vector<std::vector<Point>> parts{whole};
+  if (faced && !in_cell) {
+    for (const Trace& trace : traces) parts = cut_along(parts, trace, n, extent);
+  }
+  for (std::vector<Point>& part : parts) {
+    LocalRegion region;
+    region.triangle = origin.triangle;
+    region.front = origin.same_side == front;
+    Point sum{0, 0, 0}, center{0, 0, 0};
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (i >= 2) {
+        const Point c = cross_estimate(minus(part[i - 1], part[0]), minus(part[i], part[0]));
+        for (std::size_t k = 0; k < 3; ++k) sum[k] += c[k] / 2;
+      }
+      for (std::size_t k = 0; k < 3; ++k) center[k] += part[i][k] / static_cast<double>(part.size());
+    }
+    region.area_estimate = length_estimate(sum);
+    for (std::size_t k = 0; k < 3; ++k) center[k] += side * extent * 0x1p-34 * (n[k] / size);
+    region.visible = in_cell || (faced && visible(center));
+    region.outline_estimate = std::move(part);
+    regions.push_back(std::move(region));
+  }
+}
+
+}  // namespace
+
+bool counts_for(SideMode mode, const LocalOrigin& o, bool front) {
+  return mode == SideMode::sheet || o.same_side == front;
+}
+
+std::vector<LocalRegion> make_regions(const LocalScene& scene, const PieceSet& pieces, SideMode mode,
+                                      const std::function<bool(const Point&)>& visible) {
+  std::vector<LocalRegion> regions;
+  const auto traces = traces_of_sides(scene, pieces);
+  for (std::uint32_t t = 0; t < scene.pieces.size(); ++t) {
+    for (const bool front : {true, false}) {
+      for (const LocalOrigin& o : scene.pieces[t].origins) {
+        if (counts_for(mode, o, front)) map_side(scene, t, front, o, traces[t][front ? 0 : 1], visible, regions);
+      }
+    }
+  }
+  return regions;
+}
+
+}  // namespace clues::fastpath

@@ -1,0 +1,20 @@
+// The regions of one label on the sides of a small scene (D15): estimates in doubles, for areas and pictures.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "fastpath/visibility/local_map.h"
+#include "fastpath/visibility/local_scene.h"
+#include "fastpath/visibility/piece_set.h"
+
+namespace clues::fastpath {
+
+// Whether the front (back) of a piece is a side of this triangle that the mode counts (D4).
+bool counts_for(SideMode mode, const LocalOrigin& o, bool front);
+
+// `visible` labels a point beside a region. O(k^2) parts on a side that k valid pieces cross.
+std::vector<LocalRegion> make_regions(const LocalScene& scene, const PieceSet& pieces, SideMode mode,
+                                      const std::function<bool(const Point&)>& visible);
+
+}  // namespace clues::fastpath
