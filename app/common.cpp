@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact/area.h"
 #include "scene/error.h"
 
 namespace clues::app {
@@ -162,9 +163,9 @@ Census take_census(const reference::VisibilityMap& map) {
     }
     if (!facing) continue;
     const auto& points = map.complex.points;
-    const double area = std::sqrt(CGAL::to_double(CGAL::squared_area(points[piece.corners[0]], points[piece.corners[1]],
-                                                                     points[piece.corners[2]]))) *
-                        CGAL::to_double(region.area_fraction);
+    const double area =
+        exact::area_estimate(points[piece.corners[0]], points[piece.corners[1]], points[piece.corners[2]]) *
+        CGAL::to_double(region.area_fraction);
     census.area_facing_estimate += area;
     if (region.visible) census.area_visible_estimate += area;
   }

@@ -260,6 +260,7 @@ Complex build_complex(const std::vector<Point3>& points, const std::vector<Corne
 
   complex.points = pool.take();
   compact(complex);
+  complex.unit = unit_of(complex.points);
   for (const Piece& p : complex.pieces) {
     const Point3 &a = complex.points[p.corners[0]], &b = complex.points[p.corners[1]],
                  &c = complex.points[p.corners[2]];

@@ -38,6 +38,7 @@ struct Complex {
   std::vector<std::vector<std::uint32_t>> point_pieces;   // per point: incident pieces
   std::vector<std::vector<std::uint32_t>> point_edges;    // per point: incident edges
   std::vector<std::uint32_t> degenerate;                  // input ids without area: no surface
+  double unit = 1;                                        // unit_of(points): what flat constructions are measured in
   std::uint64_t input_triangles = 0;
   std::uint64_t refined_triangles = 0;  // input triangles that had to be cut
 };

@@ -73,27 +73,34 @@ std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& tria
                                   const std::vector<Contact>& contacts) {
   const Plane3 plane(triangles[0][0], triangles[0][1], triangles[0][2]);
   const int axis = dominant_axis(plane.orthogonal_vector());
+  std::vector<Point3> corners;
+  for (const auto& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+  const double unit = unit_of(corners);
+  const auto lay_flat = [&](const Point3& p) {
+    const Point2 q = drop_axis(p, axis);
+    return unit == 1 ? q : Point2(q.x() / unit, q.y() / unit);
+  };
   const auto lift = [&](const Point2& q) {  // the plane's point above q
     const FT n[3] = {plane.a(), plane.b(), plane.c()};
     FT c[3];
-    c[(axis + 1) % 3] = q.x();
-    c[(axis + 2) % 3] = q.y();
-    c[axis] = -(n[(axis + 1) % 3] * q.x() + n[(axis + 2) % 3] * q.y() + plane.d()) / n[axis];
+    c[(axis + 1) % 3] = q.x() * unit;
+    c[(axis + 2) % 3] = q.y() * unit;
+    c[axis] = -(n[(axis + 1) % 3] * c[(axis + 1) % 3] + n[(axis + 2) % 3] * c[(axis + 2) % 3] + plane.d()) / n[axis];
     return collapsed(Point3(c[0], c[1], c[2]));
   };
 
   Cdt cdt;
   std::vector<std::array<Point2, 3>> flat;
   for (const auto& t : triangles) {
-    flat.push_back({drop_axis(t[0], axis), drop_axis(t[1], axis), drop_axis(t[2], axis)});
+    flat.push_back({lay_flat(t[0]), lay_flat(t[1]), lay_flat(t[2])});
     const auto& f = flat.back();
     for (std::size_t i = 0; i < 3; ++i) cdt.insert_constraint(f[i], f[(i + 1) % 3]);
   }
   for (const Contact& c : contacts) {
     if (c.points.size() == 1) {
-      cdt.insert(drop_axis(c.points[0], axis));
+      cdt.insert(lay_flat(c.points[0]));
     } else {
-      cdt.insert_constraint(drop_axis(c.points[0], axis), drop_axis(c.points[1], axis));
+      cdt.insert_constraint(lay_flat(c.points[0]), lay_flat(c.points[1]));
     }
   }
 

@@ -3,6 +3,9 @@
 
 #include <CGAL/Fraction_traits.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 namespace clues::exact {
@@ -20,6 +23,17 @@ std::string to_string_exact(const FT& x) {
     text << '/' << denominator;
   }
   return text.str();
+}
+
+double unit_of(const std::vector<Point3>& points) {
+  double most = 0;
+  for (const Point3& p : points) {
+    const CGAL::Bbox_3 b = p.bbox();
+    for (int i = 0; i < 3; ++i) most = std::max({most, std::fabs(b.min(i)), std::fabs(b.max(i))});
+  }
+  if (!(most > 0) || !std::isfinite(most)) return 1;
+  const int exponent = std::ilogb(most);
+  return std::abs(exponent) <= 64 ? 1 : std::ldexp(1.0, exponent);
 }
 
 FT collapsed(const FT& x) { return FT(x.exact()); }

@@ -5,6 +5,7 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
 #include <string>
+#include <vector>
 
 #include "scene/mesh.h"
 
@@ -31,6 +32,10 @@ inline scene::Point to_double_estimate(const Point3& p) {
 
 // The plane's form at p: its sign is the side p is on, its ratio at two points the ratio of their distances.
 inline FT value_at(const Plane3& h, const Point3& p) { return h.a() * p.x() + h.b() * p.y() + h.c() * p.z() + h.d(); }
+
+// 1 where the largest coordinate is about 2^-64 to 2^64, else about its power of two. Constructions of CGAL in the plane, the intersection of two lines for
+// one, fail in silence where an interval overflows; so they are made in this unit.
+double unit_of(const std::vector<Point3>& points);
 
 // "p/q" in lowest terms, "p" when the denominator is 1.
 std::string to_string_exact(const FT& x);

@@ -4,9 +4,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "exact/area.h"
 #include "exact/cell_cut.h"
 
 namespace clues::reference {
@@ -53,8 +53,7 @@ Bounds::Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, c
   const exact::Complex& complex = map_.complex;
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
     const auto& c = complex.pieces[t].corners;
-    piece_area_.push_back(std::sqrt(
-        CGAL::to_double(CGAL::squared_area(complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]))));
+    piece_area_.push_back(exact::area_estimate(complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]));
   }
   lower_ = nothing();
   upper_ = sets_of(map_);

@@ -89,7 +89,7 @@ Point2 inner_point(const std::vector<Ring2>& rings, std::size_t which) {
 }
 
 TriangleFrame::TriangleFrame(const exact::Complex& complex, std::uint32_t piece)
-    : frame_(complex.planes[piece]),
+    : frame_(complex.planes[piece], complex.unit),
       corners_{complex.points[complex.pieces[piece].corners[0]], complex.points[complex.pieces[piece].corners[1]],
                complex.points[complex.pieces[piece].corners[2]]},
       flat_(frame_(corners_[0]), frame_(corners_[1]), frame_(corners_[2])) {}

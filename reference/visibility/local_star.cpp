@@ -245,9 +245,10 @@ Vector3 LocalStar::nudged(const Vector3& d, const Vector3& by, const Vector3& th
 }
 
 std::optional<Vector3> LocalStar::nudged_if_possible(const Vector3& d, const Vector3& by, const Vector3& then) const {
-  constexpr int kSteps = 256;  // reached only if the way runs along an arc through d
+  // Down to 2^-40960: the three may differ in size by more than the range of doubles. All fail only if the way runs along an arc through d.
+  constexpr int kQuarters = 20, kSquares = 10;
   FT step(1);
-  for (int i = 0; i < kSteps; ++i, step = step / FT(4)) {
+  for (int i = 0; i <= kQuarters + kSquares; ++i, step = i <= kQuarters ? step / FT(4) : step * step) {
     const Vector3 moved = d + step * by + step * step * then;
     const auto wrong = [&](const Arc& arc) {
       const CGAL::Sign side = CGAL::sign(arc.normal * moved);

@@ -10,18 +10,22 @@ namespace clues::reference {
 
 class PlaneFrame {
  public:
-  explicit PlaneFrame(const exact::Plane3& plane)
+  // In units of `unit`, a power of two.
+  explicit PlaneFrame(const exact::Plane3& plane, double unit = 1)
       : axis_(exact::dominant_axis(plane.orthogonal_vector())),
-        flip_(CGAL::is_negative(plane.orthogonal_vector()[axis_])) {}
+        flip_(CGAL::is_negative(plane.orthogonal_vector()[axis_])),
+        unit_(unit) {}
 
   exact::Point2 operator()(const exact::Point3& p) const {
-    const exact::Point2 q = exact::drop_axis(p, axis_);
+    exact::Point2 q = exact::drop_axis(p, axis_);
+    if (unit_ != 1) q = exact::Point2(q.x() / unit_, q.y() / unit_);
     return flip_ ? exact::Point2(q.y(), q.x()) : q;
   }
 
  private:
   int axis_;
   bool flip_;
+  double unit_;
 };
 
 }  // namespace clues::reference

@@ -11,21 +11,52 @@
 namespace clues::fuzz {
 namespace {
 
+scene::TriangleMesh mesh_of(std::vector<scene::Point> points, std::vector<scene::Triangle> triangles) {
+  scene::TriangleMesh mesh;
+  mesh.points = std::move(points);
+  mesh.triangles = std::move(triangles);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) mesh.face_of.push_back(t);
+  return mesh;
+}
+
+void is_answered(const Case& scene) {
+  for (const char* name : {"reference", "fast"}) {
+    const auto subject = make_subject(name);
+    const Outcome outcome = judge_case(scene, *subject, oracles_named({}));
+    for (const Finding& f : outcome.findings) ADD_FAILURE() << name << ": " << f.signature() << ": " << f.explanation;
+    for (const auto& text : outcome.contradictions) ADD_FAILURE() << name << ": " << text;
+  }
+}
+
 // axis_boxes 2 of seed 5, 14 triangles before: "local star: a direction cannot leave its arc".
 TEST(Found, TwoTrianglesAtACornerInLineWithTheCell) {
-  Case scene{"found", 0, 0, {}, {}};
-  scene.mesh.points = {{4, 0, 0}, {5, 1, 0}, {5, 0, 0}, {5, 0, 1}};
-  scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  scene.mesh.face_of = {0, 1};
+  Case scene{"found", 0, 0, mesh_of({{4, 0, 0}, {5, 1, 0}, {5, 0, 0}, {5, 0, 1}}, {{0, 1, 2}, {0, 2, 3}}), {}};
   for (const double z : {-2, 1}) {
     for (const double y : {-1, 1}) {
       for (const double x : {2, 3}) scene.cell.push_back({x, y, z});
     }
   }
-  const auto subject = make_subject("reference");
-  const Outcome outcome = judge_case(scene, *subject, oracles_named({}));
-  for (const Finding& f : outcome.findings) ADD_FAILURE() << f.signature() << ": " << f.explanation;
-  for (const auto& text : outcome.contradictions) ADD_FAILURE() << text;
+  is_answered(scene);
+}
+
+// ulp_perturbed 25 of seed 20261121, 26 triangles before: the steps off an arc ended at 2^-512.
+TEST(Found, ACornerTheSmallestDoubleOffThePlaneOfTheCell) {
+  is_answered({"found", 0, 0, mesh_of({{3, 3, 0}, {6, 6, 0}, {6, 3, -5e-324}}, {{0, 1, 2}}), {{-2, 0, 0}, {-1, 0, 0}}});
+}
+
+// mutations 30 of seed 20261121, 4 triangles before: the same.
+TEST(Found, HugeTrianglesSeenFromAPoint) {
+  is_answered({"found",
+               0,
+               0,
+               mesh_of({{-1.3093562431584567e+151, -1.3093562431584567e+151, 3.273390607896142e+150},
+                        {1.3093562431584567e+151, -1.3093562431584567e+151, 3.273390607896142e+150},
+                        {3.273390607896142e+150, 1.3093562431584567e+151, 3.273390607896142e+150},
+                        {2.4550429559221064e+151, -1.636695303948071e+150, 9.820171823688426e+150},
+                        {-4.910085911844213e+150, 5.728433563818248e+150, 6.546781215792284e+150},
+                        {2.7823820167117206e+151, -1.636695303948071e+150, 9.820171823688426e+150}},
+                       {{0, 1, 2}, {3, 4, 5}}),
+               {{-3.273390607896142e+150, -3.273390607896142e+150, -3.273390607896142e+150}}});
 }
 
 TEST(ReferenceCampaignLong, FindsNothing) {
