@@ -28,7 +28,7 @@ int run_report(const ReportRequest& request) {
       request.out.empty() ? std::filesystem::path(request.folder) / "report.html" : std::filesystem::path(request.out);
   require_writable_parent(out);
   scene::write_file_atomically(out, to_html(sections));
-  std::printf("%zu results in %s\n", sections.size(), out.c_str());
+  std::printf("%zu result%s in %s\n", sections.size(), sections.size() == 1 ? "" : "s", out.c_str());
   return fine;
 }
 
