@@ -17,7 +17,7 @@
 namespace clues::fastpath {
 namespace {
 
-// How many rays look for a first guess, and how many triangles whose proof failed are looked at before the map is made anew.
+// How many rays look for a first guess, at most, and how many triangles whose proof failed are looked at before the map is made anew.
 constexpr std::size_t kRays = 16384, kAimedRays = 4096, kFailures = 256;
 
 Box box_of(std::span<const Point> points) {
@@ -194,8 +194,9 @@ void Closer::add_seen_by_rays() {
   std::vector<Segment> rays;
   // Directions spread evenly over the sphere, each from another point of the cell, to beyond the scene.
   const double reach = 4 / bvh_.frame().scale;
-  for (std::size_t i = 0; i < kRays; ++i) {
-    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(kRays);
+  const std::size_t around = std::min(4 * triangles, kRays);
+  for (std::size_t i = 0; i < around; ++i) {
+    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(around);
     const double turn = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
     const Point from = point_of_cell(random);
     rays.push_back(

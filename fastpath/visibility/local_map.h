@@ -21,6 +21,7 @@ enum class SideMode : std::uint8_t { sheet, solid };  // D4
 struct LocalMapOptions {
   SideMode mode = SideMode::sheet;  // solid: only fronts count. That the mesh is closed is for the caller to know.
   int generation_limit = 16;        // D17
+  std::size_t csv_limit = 1000;     // D17: and by number, for each edge of the complex one more
 };
 
 enum class PieceKind : std::uint8_t { sv_me, se_me, se_mv };  // D10, D11, D12

@@ -25,6 +25,32 @@ const Exact3& keep(std::atomic<const Exact3*>& slot, const Exact3& value) {
   return *expected;
 }
 
+// About the binary logarithm of the largest coordinate; no double need hold it. LONG_MIN for the zero vector.
+long magnitude(const Exact3& v) {
+  long most = LONG_MIN;
+  for (const Rational* x : {&v.x, &v.y, &v.z}) {
+    if (sgn(*x) == 0) continue;
+    most = std::max(most, static_cast<long>(mpz_sizeinbase(x->get_num_mpz_t(), 2)) -
+                              static_cast<long>(mpz_sizeinbase(x->get_den_mpz_t(), 2)));
+  }
+  return most;
+}
+
+// x 2^exponent
+Rational times_power(Rational x, long exponent) {
+  (exponent >= 0 ? mpq_mul_2exp : mpq_div_2exp)(x.get_mpq_t(), x.get_mpq_t(),
+                                                static_cast<mp_bitcnt_t>(std::abs(exponent)));
+  return x;
+}
+
+// Down to a multiple of 2^exponent.
+Rational rounded_down(const Rational& x, long exponent) {
+  const Rational scaled = times_power(x, -exponent);
+  mpz_class whole;
+  mpz_fdiv_q(whole.get_mpz_t(), scaled.get_num_mpz_t(), scaled.get_den_mpz_t());
+  return times_power(Rational(whole), exponent);
+}
+
 const Interval& coordinate(const Vec3<Interval>& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 const Rational& coordinate(const Exact3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
@@ -72,19 +98,7 @@ ExactPoint ExactPoint::lifted(const ExactPoint& from, const ExactPoint& to, doub
                               double lift) {
   const Exact3& n = plane.normal_exact();
   const Exact3 way = to.exact() - from.exact();
-  const auto magnitude = [](const Exact3& v) {  // about the binary logarithm; no double need hold it
-    long most = LONG_MIN;
-    for (const Rational* x : {&v.x, &v.y, &v.z}) {
-      if (sgn(*x) == 0) continue;
-      most = std::max(most, static_cast<long>(mpz_sizeinbase(x->get_num_mpz_t(), 2)) -
-                                static_cast<long>(mpz_sizeinbase(x->get_den_mpz_t(), 2)));
-    }
-    return most;
-  };
-  Rational scale(1);
-  const long binary = magnitude(way) - magnitude(n);
-  (binary >= 0 ? mpq_mul_2exp : mpq_div_2exp)(scale.get_mpq_t(), scale.get_mpq_t(),
-                                              static_cast<mp_bitcnt_t>(std::abs(binary)));
+  const Rational scale = times_power(Rational(1), magnitude(way) - magnitude(n));
   return ExactPoint(from.exact() + Rational(step) * (way + Rational(scale * Rational(lift)) * n));
 }
 
@@ -184,7 +198,18 @@ double length_estimate(const Point& v) {
 
 ExactPoint point_near(const ExactPoint& x, const ExactPoint& to, int level) {
   constexpr int kDoubles = 3;
-  if (level >= kDoubles) return ExactPoint::between(x, to, std::ldexp(1.0, -5 - 24 * (level - kDoubles + 1)));
+  if (level >= kDoubles) {
+    // With numbers as short as the distance allows: they must not grow from leg to leg of a walk.
+    const int bits = 24 * (level - kDoubles + 1);
+    const Exact3& from = x.exact();
+    const Exact3 way = to.exact() - from;
+    const long size = magnitude(way);
+    if (size == LONG_MIN) return ExactPoint(from);
+    const Rational step = times_power(Rational(1), -5 - bits);
+    const Exact3 p = from + step * way;
+    const long grid = size - 5 - 2 * bits;
+    return ExactPoint(Exact3{rounded_down(p.x, grid), rounded_down(p.y, grid), rounded_down(p.z, grid)});
+  }
   const Point a = x.estimate(), b = to.estimate();
   Point p;
   for (std::size_t k = 0; k < 3; ++k) p[k] = a[k] + std::ldexp(b[k] - a[k], -5 - 8 * level);

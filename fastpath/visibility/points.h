@@ -100,8 +100,8 @@ inline Vec3<Rational> normal_of<Rational>(const Plane& h) {
 // The length of a vector, without underflow; zero only for the zero vector.
 double length_estimate(const Point& v);
 
-// A point near x on the way to another. Near, nearer and nearer with level 0, 1, ...: first a point with double coordinates close to the way,
-// then exactly on it. It refers to both.
+// A point near x and close to the way to another. Near, nearer and nearer, and closer and closer, with level 0, 1, ...: first with double coordinates,
+// then with as many bits as it takes.
 ExactPoint point_near(const ExactPoint& x, const ExactPoint& to, int level);
 
 // How often rationals had to decide, on this thread.

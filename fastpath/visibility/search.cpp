@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 #include "fastpath/visibility/apex.h"
@@ -97,6 +98,7 @@ class Search::Work {
   bool round() {
     set.clear();
     beyond.clear();
+    csvs_met.clear();
     const auto restart = [](Contact& c) {
       c.probes.clear();
       c.fresh = false;
@@ -416,9 +418,13 @@ class Search::Work {
     }
     std::vector<Contact*> order;
     order.swap(touched);
+    for (const Contact* c : order) {
+      if (c->apex->on_edge()) csvs_met.insert(c);
+    }
+    const bool too_many = csvs_met.size() > options.csv_limit + scene.edges.size();
     for (Contact* c : order) {
       c->fresh = false;
-      if (c->generation > options.generation_limit) {
+      if (c->generation > options.generation_limit || (too_many && c->apex->on_edge())) {
         beyond.push_back(c->x);
         continue;
       }
@@ -653,6 +659,7 @@ class Search::Work {
   std::vector<std::vector<std::unique_ptr<Contact>>> on_edge;
   std::vector<std::unique_ptr<Contact>> corners;
   std::vector<Contact*> touched;
+  std::set<const Contact*> csvs_met;  // in this round
   std::vector<const ExactPoint*> beyond;
 };
 

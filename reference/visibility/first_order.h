@@ -35,7 +35,9 @@ struct Options {
   Mode mode = Mode::sheet;
   Formulation formulation = Formulation::plain;
   int generation_limit =
-      16;           // D17: wedges of a later generation are not built; what they could show is labelled visible
+      16;  // D17: wedges of a later generation are not built; what they could show is labelled visible
+  std::size_t csv_limit =
+      1000;         // D17: nor are those of more CSVs than this and one for each edge; they are left out by whole waves
   int threads = 0;  // 0: as many as the machine has; the result does not depend on it
   bool check_two_walks =
       true;  // D14: walk twice, from two independent v, and count disagreements (a debug build stops at one)

@@ -84,6 +84,7 @@ class Search {
   bool round() {
     wedges_ = WedgeSet(scene_);
     beyond_limit_.clear();
+    csvs_met_.clear();
     for (auto& [key, apex] : csvs_) apex->start_round();
     for (auto& [key, apex] : corners_) apex->start_round();
     new_cuts_.assign(complex_.edges.size(), {});
@@ -185,7 +186,11 @@ class Search {
       return before(a->x(), b->x());
     });
     for (Apex* apex : order) {
-      if (apex->generation > options_.generation_limit) {
+      if (apex->on_edge()) csvs_met_.insert(apex);
+    }
+    const bool too_many = csvs_met_.size() > options_.csv_limit + complex_.edges.size();
+    for (Apex* apex : order) {
+      if (apex->generation > options_.generation_limit || (too_many && apex->on_edge())) {
         beyond_limit_.push_back(apex->x());
         continue;
       }
@@ -445,6 +450,7 @@ class Search {
   std::map<std::pair<std::uint32_t, Point3>, std::unique_ptr<Apex>, CsvLess> csvs_;
   std::map<std::uint32_t, std::unique_ptr<Apex>> corners_;
   std::set<Apex*> touched_;
+  std::set<const Apex*> csvs_met_;  // in this round
   std::vector<Point3> beyond_limit_;
 };
 
