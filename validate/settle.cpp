@@ -12,6 +12,8 @@ void settle(Judgement& judgement, const scene::TriangleMesh& mesh, const exact::
   if (open.empty()) return;
   VisibleSetOptions options;
   options.mode = mode;
+  options.only = open;
+  options.trust_map = false;  // what is open lies in Omega: the map has said all it knows
   const VisibleSet exact = exact_visible_set(mesh, cell, options);
   for (const std::uint32_t t : open) {
     const TriangleSight& found = exact.triangles[t];

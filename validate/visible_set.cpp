@@ -30,6 +30,10 @@ class Search {
       in_omega = reference::first_order_visibility(mesh_, cell_, map_options).visible;
     }
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (!options_.only.empty() && !std::binary_search(options_.only.begin(), options_.only.end(), t)) {
+        result.triangles.push_back({Sight::undecided, false, std::nullopt, Proof::none});
+        continue;
+      }
       const bool may_be_seen = !in_omega || std::binary_search(in_omega->begin(), in_omega->end(), t);
       result.triangles.push_back(decide(t, may_be_seen));
     }

@@ -34,7 +34,8 @@ struct VisibleSetOptions {
   std::uint64_t window_limit = 0;  // windows per triangle; 0: none
   bool trust_map =
       true;  // see docs/visible-set.md, section 5; false: hidden triangles are proved hidden without the first-order map
-  bool points_first = true;  // false: sweep the edges before asking single points; slower, for the tests
+  std::vector<std::uint32_t> only;  // ascending: decides these and leaves the others undecided; empty: all
+  bool points_first = true;         // false: sweep the edges before asking single points; slower, for the tests
   PlantedSightBug planted_bug{};
 };
 
