@@ -1,13 +1,13 @@
 #include "fastpath/visibility/search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
 #include <tuple>
 
 #include "fastpath/visibility/apex.h"
+#include "fastpath/visibility/beside.h"
 #include "fastpath/visibility/contour.h"
 #include "scene/error.h"
 
@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::uint64_t kSourceSeed = 0x51, kVertexSeed = 0xa7;
 constexpr int kRetries = 12;
-
-double length(const Point& v) { return length_estimate(v); }
-double inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 }  // namespace
 
@@ -65,11 +61,11 @@ class Search::Work {
     std::vector<std::pair<std::vector<Probe>, std::vector<std::uint32_t>>> known;  // existing sectors by probes
   };
 
-  // A part of a contour edge between neighbouring cuts, seen from one supporting plane (D13a). `beside` is a point of free space that stands for the
-  // space just off y in H-, next to the polygon between y and the touching vertex.
+  // A part of a contour edge between neighbouring cuts, seen from one supporting plane (D13a), with a point beside it.
   struct Source {
     std::size_t contour = 0;
-    const ExactPoint *lo = nullptr, *hi = nullptr, *y = nullptr, *beside = nullptr;
+    EdgePart part;
+    const ExactPoint* beside = nullptr;
     int level = 0;  // of nearness of `beside`
     std::uint64_t seed = kSourceSeed;
     Walk walk;
@@ -173,7 +169,7 @@ class Search::Work {
 
   void make_sources() {
     std::map<std::tuple<std::size_t, const ExactPoint*, const ExactPoint*>, Source> known;
-    for (Source& s : sources) known.emplace(std::tuple(s.contour, s.lo, s.hi), std::move(s));
+    for (Source& s : sources) known.emplace(std::tuple(s.contour, s.part.lo, s.part.hi), std::move(s));
     sources.clear();
     for (std::size_t c = 0; c < contours.size(); ++c) {
       const LocalEdge& e = scene.edges[contours[c].edge];
@@ -189,9 +185,7 @@ class Search::Work {
         } else {
           Source s;
           s.contour = c;
-          s.lo = stops[i];
-          s.hi = stops[i + 1];
-          s.y = pool.keep(ExactPoint::between(*s.lo, *s.hi, 0.4716796875));
+          s.part = {stops[i], stops[i + 1], pool.keep(ExactPoint::between(*stops[i], *stops[i + 1], 0.4716796875))};
           place(s);
           sources.push_back(std::move(s));
         }
@@ -200,55 +194,17 @@ class Search::Work {
     counts.sources = std::max<std::uint64_t>(counts.sources, sources.size());
   }
 
-  auto through(const LocalEdge& edge) const {
-    return [this, &edge](const Plane& h) {
-      return h.side(scene.points[edge.a]) == 0 && h.side(scene.points[edge.b]) == 0;
-    };
-  }
-
-  // Chooses `beside` and walks from it. Without a place the source counts as visible.
+  // Without a place the source counts as visible.
   void place(Source& s) {
     const ContourEdge& c = contours[s.contour];
-    const LocalEdge& edge = scene.edges[c.edge];
-    const ExactPoint &touching = scene.cell.vertices[static_cast<std::size_t>(c.touching.front())],
-                     &a = scene.points[edge.a], &b = scene.points[edge.b];
-    const Point y = s.y->estimate(), along = minus(b.estimate(), a.estimate());
-    Point to = minus(touching.estimate(), y);  // across the edge
-    const double shift = -inner(to, along) / inner(along, along);
-    for (std::size_t k = 0; k < 3; ++k) to[k] += shift * along[k];
-    const Vec3<Interval>& n = c.plane->normal_approximate();
-    const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
-    const double size = std::min(length(to), length(minus(s.hi->estimate(), s.lo->estimate())));
-    constexpr int kDoubles = 4;
-    if (!(length(to) > 0 && length(up) > 0)) s.level = std::max(s.level, kDoubles);
-    for (; s.level < 2 * kDoubles; ++s.level) {
-      const ExactPoint beside = [&] {
-        if (s.level >= kDoubles) {  // features smaller than the spacing of doubles
-          const double step = std::ldexp(1.0, -5 - 24 * (s.level - kDoubles + 1));
-          const Exact3 across = touching.exact() + Rational(std::isfinite(shift) ? shift : 0) * (b.exact() - a.exact());
-          return ExactPoint::lifted(*s.y, ExactPoint(across), step, *c.plane, 0x1p-5);
-        }
-        const double step = std::ldexp(size, -5 - 7 * s.level);
-        Point p;
-        for (std::size_t k = 0; k < 3; ++k)
-          p[k] = y[k] + step * (to[k] / length(to)) + step * 0x1p-5 * (up[k] / length(up));
-        return ExactPoint(p);
-      }();
-      // Between H- and the event surface of the other supporting plane there is one label.
-      if (c.plane->side(beside) <= 0 || (c.other && c.other->side(beside) >= 0)) continue;
-      const bool blocked = scene.tree.any(SegmentTest(beside, *s.y), [&](std::uint32_t i) {
-        const std::uint32_t t = scene.occluders[i];
-        if (std::find(edge.pieces.begin(), edge.pieces.end(), t) != edge.pieces.end()) return false;
-        return scene.crosses(*s.y, beside, t) != Crossing::no;
-      });
-      if (blocked || set.may_meet(beside, *s.y, 0, through(edge))) continue;
-      s.beside = pool.keep(beside);
+    const std::optional<ExactPoint> beside = beside_edge(scene, set, c, s.part, s.level);
+    s.beside = beside ? pool.keep(*beside) : nullptr;
+    if (beside) {
       s.walk = walk(s.beside, s.seed);
-      return;
+    } else {
+      s.walk = Walk{};
+      s.walk.end = Walk::End::unresolved;
     }
-    s.beside = nullptr;
-    s.walk = Walk{};
-    s.walk.end = Walk::End::unresolved;
   }
 
   bool newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first) {
@@ -266,7 +222,7 @@ class Search::Work {
       Source& s = sources[i];
       if (s.lit) continue;
       std::size_t from = first;
-      if (s.beside && set.may_meet(*s.beside, *s.y, first, through(scene.edges[contours[s.contour].edge]))) {
+      if (s.beside && set.may_meet(*s.beside, *s.part.y, first, holds_edge(scene, contours[s.contour].edge))) {
         ++s.level;
         place(s);
         from = 0;
@@ -287,7 +243,7 @@ class Search::Work {
       if (c->apex->sees_cell_in_one_part()) {
         from.push_back(*walker.viewpoint(v));
       } else {
-        from = viewpoints_of_parts(*c->apex);
+        from = viewpoints_of_parts(scene, *c->apex, *walker.viewpoint(0));
       }
       for (const ExactPoint& p : from) add_vertex_source(v, p);
     }
@@ -306,85 +262,6 @@ class Search::Work {
       vertex_sources.push_back(std::move(s));
       return;
     }
-  }
-
-  // Points of V such that every local face at x from which V is seen is seen from one of them: near every vertex of V, and near the places where the
-  // planes of incident pieces cross edges of V.
-  std::vector<ExactPoint> viewpoints_of_parts(const Apex& apex) {
-    const auto& s = scene.cell.vertices;
-    std::vector<ExactPoint> found;
-    const auto weights = [&](double others) {
-      std::vector<double> w(s.size());
-      for (std::size_t j = 0; j < s.size(); ++j)
-        w[j] = others * static_cast<double>(3 + (7 * j + 11 * found.size()) % 13) / 16;
-      return w;
-    };
-    for (std::size_t i = 0; i < s.size(); ++i) {
-      for (const double others : {0x1p-8, 0x1p-20}) {
-        std::vector<double> w = weights(others);
-        w[i] = 1;
-        found.push_back(scene.cell.interior_point(w));
-      }
-    }
-    const Point x = apex.x()->estimate();
-    const auto& pieces = apex.on_edge() ? scene.edges[apex.id()].pieces : scene.point_pieces[apex.id()];
-    for (const std::uint32_t t : pieces) {
-      const Plane& h = scene.planes[t];
-      for (const auto& [i, j] : scene.cell.edges) {
-        const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-        if (h.side(s[a]) * h.side(s[b]) >= 0) continue;
-        const ExactPoint c = ExactPoint::on_plane(s[a], s[b], h);
-        const Point pc = c.estimate(), pa = s[a].estimate(), pb = s[b].estimate();
-        const double part = length(minus(pc, pa)) / length(minus(pb, pa));
-        for (const double step : {0x1p-4, 0x1p-10, 0x1p-20}) {
-          for (const double way : {-step, step}) {
-            if (!(part + way > 0 && part + way < 1)) continue;
-            std::vector<double> w = weights(step * 0x1p-5);
-            w[a] = 1 - part - way;
-            w[b] = part + way;
-            found.push_back(scene.cell.interior_point(w));
-          }
-        }
-      }
-      // Beside the directions of incident edges that point into V.
-      for (const std::uint32_t c : scene.pieces[t].corners) {
-        const Point along = minus(scene.points[c].estimate(), x);
-        if (length(along) == 0) continue;
-        const Point center = walker.viewpoint(0)->estimate();
-        const double far = length(minus(center, x)) / length(along);
-        const Vec3<Interval>& n = h.normal_approximate();
-        const Point up{n.x.inf(), n.y.inf(), n.z.inf()};
-        for (const double reach : {0.25, 0.5, 0.75, 1.0, 1.25, 1.5}) {
-          for (const double way : {-0x1p-12, 0x1p-12}) {
-            Point p;
-            for (std::size_t k = 0; k < 3; ++k)
-              p[k] = x[k] + reach * far * along[k] + way * far * length(along) * up[k] / length(up);
-            if (!std::isfinite(p[0] + p[1] + p[2])) continue;
-            const ExactPoint v(p);
-            if (scene.cell.interior_contains(v)) found.push_back(v);
-          }
-        }
-      }
-    }
-    // All of those near vertices, and one more for each other face; where faces cannot be told apart, all.
-    std::vector<const ExactPoint*> to;
-    for (const ExactPoint& v : found) to.push_back(&v);
-    std::vector<int> face;
-    try {
-      face = apex.faces_of(to);
-    } catch (const scene::Error& error) {
-      if (error.code() != scene::ErrorCode::internal) throw;
-      return found;
-    }
-    std::vector<ExactPoint> out;
-    std::vector<int> done;
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      const bool is_new = std::find(done.begin(), done.end(), face[i]) == done.end();
-      if (!is_new && i >= 2 * s.size()) continue;
-      done.push_back(face[i]);
-      out.push_back(found[i]);
-    }
-    return out;
   }
 
   void light_vertex(VertexSource& v) {
@@ -410,11 +287,11 @@ class Search::Work {
       s.lit = true;
       const ContourEdge& c = contours[s.contour];
       for (int k = 0; k < static_cast<int>(c.touching.size()); ++k)
-        jobs.push_back({s.contour, k, s.lo, s.hi, nullptr, 0});
+        jobs.push_back({s.contour, k, s.part.lo, s.part.hi, nullptr, 0});
       const LocalEdge& e = scene.edges[c.edge];
       const ExactPoint *a = &scene.points[e.a], *b = &scene.points[e.b];
-      if (s.lo == a) add_probe(corner(e.a), {Probe::Kind::contour, b, c.plane, 0, nullptr});
-      if (s.hi == b) add_probe(corner(e.b), {Probe::Kind::contour, a, c.plane, 0, nullptr});
+      if (s.part.lo == a) add_probe(corner(e.a), {Probe::Kind::contour, b, c.plane, 0, nullptr});
+      if (s.part.hi == b) add_probe(corner(e.b), {Probe::Kind::contour, a, c.plane, 0, nullptr});
     }
     std::vector<Contact*> order;
     order.swap(touched);
@@ -467,7 +344,7 @@ class Search::Work {
       if (j > i) {
         const std::size_t c = sources[i].contour;
         for (int k = 0; k < static_cast<int>(contours[c].touching.size()); ++k)
-          jobs.push_back({c, k, sources[i].lo, sources[j - 1].hi, nullptr, 0});
+          jobs.push_back({c, k, sources[i].part.lo, sources[j - 1].part.hi, nullptr, 0});
       }
       i = std::max(j, i + 1);
     }
