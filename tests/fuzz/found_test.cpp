@@ -59,7 +59,7 @@ TEST(Found, HugeTrianglesSeenFromAPoint) {
                {{-3.273390607896142e+150, -3.273390607896142e+150, -3.273390607896142e+150}}});
 }
 
-TEST(ReferenceCampaignLong, FindsNothing) {
+void campaign_finds_nothing(const char* name) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
   const scene::TemporaryFolder folder;
   CampaignOptions options;
@@ -67,11 +67,14 @@ TEST(ReferenceCampaignLong, FindsNothing) {
   options.cases = 320;
   options.jobs = 2;
   options.out = folder.path();
-  const auto subject = make_subject("reference");
+  const auto subject = make_subject(name);
   const CampaignSummary summary = run_campaign(options, *subject);
   std::cout << to_text(summary, options.out);
   EXPECT_EQ(summary.exit_code(), 0);
 }
+
+TEST(ReferenceCampaignLong, FindsNothing) { campaign_finds_nothing("reference"); }
+TEST(FastCampaignLong, FindsNothing) { campaign_finds_nothing("fast"); }
 
 }  // namespace
 }  // namespace clues::fuzz
