@@ -126,16 +126,23 @@ class LocalMap::Parts {
     }
   }
 
+  // A trace along an edge of the piece cuts nothing, and several pieces may have it: which of them is lit there a walk says.
+  bool runs_along_an_edge(const Plane& plane, std::uint32_t t) const {
+    int corners = 0;
+    for (int i = 0; i < 3; ++i) corners += plane.side(scene.corner(t, i)) == 0;
+    return corners >= 2;
+  }
+
   void mark_traces(const ValidPiece& piece, std::vector<std::array<bool, 2>>& cut) const {
     const OnWedge& on = *piece.on;
     if (piece.blocker >= 0) {
       const std::uint32_t t = on.blockers[static_cast<std::size_t>(piece.blocker)].piece;
-      cut[t][scene.planes[t].side(*on.center) > 0 ? 0 : 1] = true;
+      if (!runs_along_an_edge(*on.plane, t)) cut[t][scene.planes[t].side(*on.center) > 0 ? 0 : 1] = true;
     }
     // A piece seen edge-on is cut on the side, or sides, on which the strip runs along it.
     for (const Radial& r : on.radials) {
       const int after = on.turn(piece.ray0, r.w), before = on.turn(r.w, piece.ray1);
-      if (after < 0 || before < 0) continue;
+      if (after < 0 || before < 0 || runs_along_an_edge(*on.plane, r.piece)) continue;
       if (piece.blocker >= 0) {
         const Blocker& b = on.blockers[static_cast<std::size_t>(piece.blocker)];
         if (on.turn(b.u, b.w, r.u) < 0 || on.turn(b.u, b.w, r.w) < 0) continue;

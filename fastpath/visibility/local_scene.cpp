@@ -132,6 +132,10 @@ ExactPoint LocalCell::interior_point(const std::vector<double>& weights) const {
     ExactPoint p(sum);
     if (interior_contains(p)) return p;
   }
+  return combination(weights);
+}
+
+ExactPoint LocalCell::combination(const std::vector<double>& weights) const {
   Exact3 sum{0, 0, 0};
   Rational total = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {

@@ -35,6 +35,8 @@ struct LocalCell {
   // A point of int V near the combination of the vertices with these positive weights. Doubles if the cell has dimension 3 and rounding
   // stays inside, else exactly that combination.
   ExactPoint interior_point(const std::vector<double>& weights) const;
+  // Exactly that combination.
+  ExactPoint combination(const std::vector<double>& weights) const;
 };
 
 struct LocalOrigin {

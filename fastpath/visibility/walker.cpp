@@ -44,12 +44,14 @@ const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::
   const auto& s = scene_->cell.vertices;
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (!good(s[i])) continue;
-    for (int k = 2; k < 60; k += 3) {  // closer and closer to the vertex
+    // Closer and closer to the vertex; where doubles are too coarse for that, exactly.
+    for (int k = 2; k < 1000; k += k < 60 ? 3 : k) {
       std::vector<double> weights(s.size());
       for (std::size_t j = 0; j < s.size(); ++j)
         weights[j] = std::ldexp(static_cast<double>(1 + mix(seed * 31 + j) % 61), j == i ? 0 : -k);
       weights[i] = 61;
-      const ExactPoint* v = pool.keep(scene_->cell.interior_point(weights));
+      const ExactPoint* v =
+          pool.keep(k < 40 ? scene_->cell.interior_point(weights) : scene_->cell.combination(weights));
       if (good(*v)) return v;
     }
   }
@@ -155,7 +157,10 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
         v = both ? in_front(*on, &*before, number, pool) : nullptr;
         if (!v) v = in_front(*on, nullptr, number, pool);
         if (!v) {
-          walk.end = Walk::End::surface;
+          const auto& s = scene_->cell.vertices;
+          const bool faced =
+              std::any_of(s.begin(), s.end(), [&](const ExactPoint& x) { return height_sign(*on, x) > 0; });
+          walk.end = faced ? Walk::End::unresolved : Walk::End::surface;
           return walk;
         }
       }

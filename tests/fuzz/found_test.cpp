@@ -59,6 +59,37 @@ TEST(Found, HugeTrianglesSeenFromAPoint) {
                {{-3.273390607896142e+150, -3.273390607896142e+150, -3.273390607896142e+150}}});
 }
 
+// ulp_perturbed 54 of seed 20261122, fast path: no point of the cell in front of the plate was found, so the plate was called hidden. The one unsound answer of a campaign.
+TEST(Found, ACornerOfTheCellOneUlpBeyondThePlaneOfAPlate) {
+  is_answered({"found",
+               0,
+               0,
+               mesh_of({{2, 0, -0}, {4, 0, 3}, {2, 0, 3}, {2, 2, -0}, {2, 2, 3}, {4, 2, 3}},
+                       {{0, 1, 2}, {3, 4, 5}, {0, 2, 4}, {0, 4, 3}}),
+               {{0, -3, -1}, {1, -3, -1}, {0, 2, -1}, {0, 2.0000000000000004, 2}}});
+}
+
+// axis_boxes 15 of seed 20261121, fast path: of the two surfaces at an edge that a wedge ends at, the wrong one was called lit. It listed a hidden triangle.
+TEST(Found, AWedgeThatEndsAtASharedEdge) {
+  is_answered({"found",
+               0,
+               0,
+               mesh_of({{5, 2, 2}, {8, 5, 2}, {5, 5, 2}, {5, 2, 0}, {5, 5, 0}, {2, 2, 1}, {4, 5, 1}, {4, 2, 1}},
+                       {{0, 1, 2}, {3, 0, 2}, {3, 2, 4}, {5, 6, 7}}),
+               {{1, -2, -2}}});
+}
+
+// nonconvex_solids 61 of seed 20261122, fast path: the same with a triangle that the wedge runs along.
+TEST(Found, AWedgeAlongTheEdgesOfFlatTriangles) {
+  is_answered(
+      {"found",
+       0,
+       0,
+       mesh_of({{0, 4, 6}, {0, 4.625, 5.625}, {0, 7, 4}, {0, 6.5, 5.5}, {1, 5, 6}, {0, 4, 4}, {1, 4, 4}, {1, 4, 6}},
+               {{0, 1, 2}, {3, 1, 4}, {0, 5, 6}, {0, 6, 7}}),
+       {{0, 2.5, 5.5}, {0, 2, 6}}});
+}
+
 void campaign_finds_nothing(const char* name) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
   const scene::TemporaryFolder folder;
