@@ -51,7 +51,8 @@ class Walker {
     int side;
   };
   int height_sign(const Surface& s, const ExactPoint& x) const;
-  // A point of int V strictly in front of the surface (and of `also`, if given and possible); none if V has none in front of the first.
+  // A point of int V strictly in front of the surface (and of `also`, if given and possible); none if V has none in front of the first, or it is not found
+  // within 2^-992 of a vertex.
   const ExactPoint* in_front(const Surface& on, const Surface* also, std::uint64_t seed, Pool& pool) const;
   enum class Both : std::uint8_t { apart, touch, meet };  // V, or the closed V only, with the space in front of both
   Both in_front_of_both(const Surface& a, const Surface& b) const;
