@@ -354,7 +354,7 @@ void Apex::split(Pool& pool, const Plane* plane, const ExactPoint* ray0, const E
 
 std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) const {
   if (sectors_.empty() || probes.empty()) return {};
-  return decide_directions([&]<class NT>() { return existing_in<NT>(probes); });
+  return decide<Integer>([&]<class NT>() { return existing_in<NT>(probes); });
 }
 
 template <class NT>
@@ -418,7 +418,7 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
 }
 
 std::vector<int> Apex::faces_of(const std::vector<const ExactPoint*>& to) const {
-  const std::vector<std::vector<int>> names = decide_directions([&]<class NT>() {
+  const std::vector<std::vector<int>> names = decide<Integer>([&]<class NT>() {
     const Star<NT> star(*this);
     std::vector<std::vector<int>> out;
     for (const ExactPoint* p : to) out.push_back(star.face_of(star.to(*p)));

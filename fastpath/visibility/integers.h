@@ -44,15 +44,4 @@ template <>
 Vec3<Integer> moved_by<Integer>(const Vec3<Integer>& limit, const Vec3<Integer>& aside, const Vec3<Integer>& off,
                                 int exponent);
 
-// Evaluates f<NT>() in intervals and, when that is unsure, in whole numbers.
-template <class F>
-auto decide_directions(const F& f) {
-  try {
-    return f.template operator()<Interval>();
-  } catch (const Unsure&) {
-    ++exact_decisions();
-    return f.template operator()<Integer>();
-  }
-}
-
 }  // namespace clues::fastpath

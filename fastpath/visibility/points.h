@@ -107,14 +107,14 @@ ExactPoint point_near(const ExactPoint& x, const ExactPoint& to, int level);
 // How often rationals had to decide, on this thread.
 std::uint64_t& exact_decisions();
 
-// Evaluates f<NT>() in intervals and, when that is unsure, in rationals.
-template <class F>
+// Evaluates f<NT>() in intervals and, when that is unsure, exactly: in rationals, or in whole numbers where only directions are asked for (integers.h).
+template <class Exact = Rational, class F>
 auto decide(const F& f) {
   try {
     return f.template operator()<Interval>();
   } catch (const Unsure&) {
     ++exact_decisions();
-    return f.template operator()<Rational>();
+    return f.template operator()<Exact>();
   }
 }
 
