@@ -22,7 +22,7 @@ std::string table_line(const std::string& name, const reference::VisibilityMap& 
 
 std::string overlap_graph_of(const reference::VisibilityMap& map) {
   const exact::SceneQuery scene(map.complex, map.cell);
-  return reference::to_graphviz(reference::overlap_of_occluders(scene), map.complex);
+  return reference::to_graphviz(reference::overlap_of_occluders(scene), scene);
 }
 
 class ExactMapper : public CellMapper {

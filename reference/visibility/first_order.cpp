@@ -126,6 +126,7 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   put("walks", s.walks);
   if (map.formulation == Formulation::traversal) {
     put("traversal_by_order", s.by_order);
+    put("traversal_cycles", s.cycles);
     put("traversal_clusters", s.clusters);
     put("traversal_passes", s.passes);
     put("traversal_shaft_tests", s.shaft_tests);

@@ -82,7 +82,8 @@ struct Statistics {
   std::uint64_t shaft_tests = 0;  // boxes and surfaces asked for whether they are dark
   std::uint64_t passes = 0;
   std::uint64_t by_order = 0;  // passes in which no sight line helped, and the overlap order decided
-  std::uint64_t clusters = 0;  // overlap cycles that were visited as one
+  std::uint64_t cycles = 0;    // overlap cycles met by it
+  std::uint64_t clusters = 0;  // those that trimming did not break
 };
 
 struct VisibilityMap {

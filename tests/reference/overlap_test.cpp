@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "judges.h"
 #include "reference/visibility/traversal/shaft.h"
@@ -44,6 +46,29 @@ void add_frame(SceneBuilder& s, int axis, double at, double u0, double v0, doubl
   s.quad(p(u0, v1), p(u0, v0), p(a0, b0), p(a0, b1));
 }
 
+// The members of the one cycle, trimmed.
+struct Trimmed {
+  std::vector<std::uint32_t> members;  // pieces, ascending
+  std::size_t parts = 0;
+  bool broken = false;
+  std::vector<std::uint32_t> front;  // pieces to visit next
+};
+
+Trimmed trim_all_pieces(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
+                        const std::vector<std::uint32_t>& triangles) {
+  const exact::Complex complex = exact::build_complex(mesh, &cell);
+  const exact::SceneQuery scene(complex, cell);
+  EXPECT_EQ(complex.pieces.size(), mesh.triangles.size()) << "pieces are triangles in these scenes";
+  const OverlapGraph graph = reference::overlap_of_pieces(scene, triangles);
+  const auto cycles = graph.cyclic();
+  EXPECT_EQ(cycles.size(), 1U);
+  const auto parts = reference::trimmed(scene, graph, cycles.at(0));
+  EXPECT_TRUE(parts);
+  std::vector<std::uint32_t> members;
+  for (const std::uint32_t n : graph.components[cycles[0]]) members.push_back(graph.members[n].front());
+  return {members, parts->members.size(), parts->cyclic().empty(), reference::pieces_in_front(scene, graph).pieces};
+}
+
 // Neither loops nor hides: the traversal ends with the map of the plain formulation, and nothing that it hides is seen.
 void expect_harmless(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell) {
   reference::Options options;
@@ -67,8 +92,30 @@ TEST(Overlap, CyclesOfThreeToEightParts) {
     ASSERT_EQ(cycles.size(), 1U);
     EXPECT_EQ(graph.components[cycles[0]].size(), static_cast<std::size_t>(parts));
     EXPECT_EQ(graph.in_front(), cycles);  // the plate behind comes after it
+    std::vector<std::uint32_t> planks(2 * static_cast<std::size_t>(parts));
+    std::iota(planks.begin(), planks.end(), 0U);
+    const Trimmed trimmed = trim_all_pieces(s.mesh(), cell, planks);
+    EXPECT_TRUE(trimmed.broken) << trimmed.parts << " parts of " << trimmed.members.size();
+    EXPECT_GT(trimmed.parts, trimmed.members.size());
     expect_harmless(s.mesh(), cell);
   }
+}
+
+// Between two planks of a wheel, where they overlap, there is a small plate: it is a member of the cycle, but all of it is behind the lower plank.
+TEST(Overlap, TrimmingLeavesOutAMemberThatIsBehindOthers) {
+  SceneBuilder s;
+  const auto cell = box_cell(-0.125, -0.125, -6, 0.125, 0.125, -5.875);
+  add_pinwheel(s, 4, 2, 0);
+  s.triangle({1.01, 1.06, 0.25}, {1.03, 1.06, 0.25}, {1.02, 1.08, 0.25});
+  std::vector<std::uint32_t> all(9);
+  std::iota(all.begin(), all.end(), 0U);
+  const Trimmed trimmed = trim_all_pieces(s.mesh(), cell, all);
+  EXPECT_TRUE(std::binary_search(trimmed.members.begin(), trimmed.members.end(), 8U));
+  EXPECT_TRUE(trimmed.broken);
+  EXPECT_FALSE(trimmed.front.empty());
+  EXPECT_FALSE(std::binary_search(trimmed.front.begin(), trimmed.front.end(), 8U));
+  s.plate(-5, -5, 5, 5, 3);
+  expect_harmless(s.mesh(), cell);
 }
 
 TEST(Overlap, InterlockedRings) {
@@ -116,6 +163,13 @@ TEST(Overlap, B13TheGrooveThatTrimmingLeavesAsItIs) {
   const OverlapGraph graph = reference::overlap_of_pieces(scene, {0, 1});
   EXPECT_EQ(graph.components.size(), 1U);
   EXPECT_EQ(graph.in_front(), std::vector<std::uint32_t>{0});
+  const auto parts = reference::trimmed(scene, graph, 0);
+  ASSERT_TRUE(parts);
+  EXPECT_EQ(parts->members.size(), 2U);  // given back unchanged
+  EXPECT_EQ(parts->components.size(), 1U);
+  const auto front = reference::pieces_in_front(scene, graph);
+  EXPECT_EQ(front.pieces, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(front.clusters, 1U);
   expect_harmless(s.mesh(), cell);
 }
 
@@ -154,8 +208,8 @@ TEST(Overlap, GraphvizNamesTrianglesAndFramesCycles) {
   const auto cell = box_cell(-0.125, -0.125, -6, 0.125, 0.125, -5.875);
   const exact::Complex complex = exact::build_complex(s.mesh(), &cell);
   const exact::SceneQuery scene(complex, cell);
-  const std::string text = reference::to_graphviz(reference::overlap_of_occluders(scene), complex);
-  EXPECT_NE(text.find("cycle of 3"), std::string::npos);
+  const std::string text = reference::to_graphviz(reference::overlap_of_occluders(scene), scene);
+  EXPECT_NE(text.find("cycle of 3: broken by trimming"), std::string::npos);
   EXPECT_NE(text.find("n3 [label=\"6 7\"]"), std::string::npos);
   EXPECT_NE(text.find("n3 -> n0"), std::string::npos);
   EXPECT_EQ(text.find("n0 -> n3"), std::string::npos);

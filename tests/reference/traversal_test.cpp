@@ -30,7 +30,7 @@ VisibilityMap map_by(Formulation formulation, const scene::TriangleMesh& mesh, c
 }
 
 struct Totals {
-  std::uint64_t scenes = 0, pieces = 0, visited = 0, seen = 0, passes = 0, by_order = 0, clusters = 0;
+  std::uint64_t scenes = 0, pieces = 0, visited = 0, seen = 0, passes = 0, by_order = 0, cycles = 0, clusters = 0;
   void add(const VisibilityMap& map) {
     ++scenes;
     pieces += map.complex.pieces.size();
@@ -38,11 +38,13 @@ struct Totals {
     seen += map.statistics.surfaces_seen;
     passes += map.statistics.passes;
     by_order += map.statistics.by_order;
+    cycles += map.statistics.cycles;
     clusters += map.statistics.clusters;
   }
   void print() const {
     std::cout << scenes << " scenes, " << pieces << " pieces, " << visited << " visited, " << seen << " seen, "
-              << passes << " passes, " << by_order << " by order, " << clusters << " clusters\n";
+              << passes << " passes, " << by_order << " by order, " << cycles << " cycles, " << clusters
+              << " clusters\n";
   }
 };
 

@@ -14,41 +14,42 @@
 
 namespace clues::reference {
 
+using exact::Point3;
+
 namespace {
 
-exact::TriangleCorners corners_of(const exact::Complex& complex, std::uint32_t t) {
+std::vector<Point3> corners_of(const exact::Complex& complex, std::uint32_t t) {
   const auto& c = complex.pieces[t].corners;
   return {complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]};
 }
 
-CGAL::Bbox_3 box_of(const exact::TriangleCorners& t) { return t[0].bbox() + t[1].bbox() + t[2].bbox(); }
+// Polygons of nodes. Those of one group do not overlap each other.
+struct Polygons {
+  std::vector<std::vector<Point3>> corners;
+  std::vector<std::uint32_t> node, group;
+};
 
-OverlapGraph graph_of(const exact::SceneQuery& scene, std::vector<std::vector<std::uint32_t>> members) {
-  OverlapGraph graph;
-  graph.members = std::move(members);
-  const exact::Complex& complex = scene.complex();
-  std::vector<std::uint32_t> pieces, node_of;
+void find_arcs(const exact::ConvexCell& cell, const Polygons& polygons, OverlapGraph& graph) {
   std::vector<CGAL::Bbox_3> boxes;
-  for (std::uint32_t n = 0; n < graph.members.size(); ++n) {
-    for (const std::uint32_t t : graph.members[n]) {
-      pieces.push_back(t);
-      node_of.push_back(n);
-      boxes.push_back(box_of(corners_of(complex, t)));
-    }
+  for (const auto& corners : polygons.corners) {
+    boxes.emplace_back();
+    for (const Point3& p : corners) boxes.back() += p.bbox();
   }
   const exact::BoxTree tree(std::move(boxes));
   std::set<std::pair<std::uint32_t, std::uint32_t>> arcs;
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Shaft shaft(corners_of(complex, pieces[i]), scene.cell());
+  for (std::size_t i = 0; i < polygons.corners.size(); ++i) {
+    const Shaft shaft(polygons.corners[i], cell);
     for (const std::uint32_t j :
          tree.candidates([&](const CGAL::Bbox_3& b) { return CGAL::do_overlap(b, shaft.box()); })) {
-      const std::pair arc(node_of[i], node_of[j]);
-      if (arc.first == arc.second || arcs.contains(arc)) continue;
-      if (shaft.is_entered_by(corners_of(complex, pieces[j]))) arcs.insert(arc);
+      const std::pair arc(polygons.node[i], polygons.node[j]);
+      if (polygons.group[i] == polygons.group[j] || arcs.contains(arc)) continue;
+      if (shaft.is_entered_by(polygons.corners[j])) arcs.insert(arc);
     }
   }
   graph.arcs.assign(arcs.begin(), arcs.end());
+}
 
+void find_components(OverlapGraph& graph) {
   boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> boost_graph(graph.members.size());
   for (const auto& [from, to] : graph.arcs) boost::add_edge(from, to, boost_graph);
   std::vector<std::uint32_t> found(graph.members.size());
@@ -63,6 +64,21 @@ OverlapGraph graph_of(const exact::SceneQuery& scene, std::vector<std::vector<st
     graph.component.push_back(it->second);
     graph.components[it->second].push_back(n);
   }
+}
+
+OverlapGraph graph_of(const exact::SceneQuery& scene, std::vector<std::vector<std::uint32_t>> members) {
+  OverlapGraph graph;
+  graph.members = std::move(members);
+  Polygons polygons;
+  for (std::uint32_t n = 0; n < graph.members.size(); ++n) {
+    for (const std::uint32_t t : graph.members[n]) {
+      polygons.corners.push_back(corners_of(scene.complex(), t));
+      polygons.node.push_back(n);
+    }
+  }
+  polygons.group = polygons.node;
+  find_arcs(scene.cell(), polygons, graph);
+  find_components(graph);
   return graph;
 }
 
@@ -120,7 +136,64 @@ OverlapGraph overlap_of_occluders(const exact::SceneQuery& scene) {
   return graph_of(scene, std::move(members));
 }
 
-std::string to_graphviz(const OverlapGraph& graph, const exact::Complex& complex) {
+std::optional<OverlapGraph> trimmed(const exact::SceneQuery& scene, const OverlapGraph& graph,
+                                    std::uint32_t component) {
+  OverlapGraph out;
+  Polygons parts;
+  const auto overlaps = [&](std::uint32_t node, std::uint32_t other) {
+    return std::binary_search(graph.arcs.begin(), graph.arcs.end(), std::pair(other, node));
+  };
+  for (const std::uint32_t node : graph.components[component]) {
+    for (const std::uint32_t t : graph.members[node]) {
+      std::vector<std::vector<Point3>> of_piece{corners_of(scene.complex(), t)};
+      for (const std::uint32_t other : graph.components[component]) {
+        if (!overlaps(node, other)) continue;
+        for (const std::uint32_t behind : graph.members[other]) {
+          const Shaft shaft(corners_of(scene.complex(), behind), scene.cell());
+          std::vector<std::vector<Point3>> cut;
+          for (const auto& part : of_piece) std::ranges::move(shaft.cut(part), std::back_inserter(cut));
+          of_piece = std::move(cut);
+          if (parts.corners.size() + of_piece.size() > kMostParts) return std::nullopt;
+        }
+      }
+      for (auto& part : of_piece) {
+        parts.corners.push_back(std::move(part));
+        parts.node.push_back(static_cast<std::uint32_t>(out.members.size()));
+        parts.group.push_back(node);
+        out.members.push_back({t});
+      }
+    }
+  }
+  find_arcs(scene.cell(), parts, out);
+  find_components(out);
+  return out;
+}
+
+Front pieces_in_front(const exact::SceneQuery& scene, const OverlapGraph& graph) {
+  Front front;
+  auto& pieces = front.pieces;
+  const auto add = [&pieces](const OverlapGraph& g, std::uint32_t component) {
+    for (const std::uint32_t n : g.components[component])
+      pieces.insert(pieces.end(), g.members[n].begin(), g.members[n].end());
+  };
+  for (const std::uint32_t c : graph.in_front()) {
+    const bool cycle = graph.components[c].size() > 1;
+    const auto parts = cycle ? trimmed(scene, graph, c) : std::nullopt;
+    front.cycles += cycle;
+    front.clusters += cycle && (!parts || !parts->cyclic().empty());
+    if (parts) {
+      for (const std::uint32_t p : parts->in_front()) add(*parts, p);
+    } else {
+      add(graph, c);
+    }
+  }
+  std::sort(pieces.begin(), pieces.end());
+  pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+  return front;
+}
+
+std::string to_graphviz(const OverlapGraph& graph, const exact::SceneQuery& scene) {
+  const exact::Complex& complex = scene.complex();
   std::string text =
       "// An arc from A to B: B reaches into the shaft between A and the cell. Frames hold cycles.\n"
       "digraph overlap {\n  node [shape=box];\n";
@@ -144,8 +217,12 @@ std::string to_graphviz(const OverlapGraph& graph, const exact::Complex& complex
       line(graph.components[c].front(), "  ");
       continue;
     }
-    text += fmt::format("  subgraph cluster_{} {{\n    color=red;\n    label=\"cycle of {}\";\n", c,
-                        graph.components[c].size());
+    const auto parts = trimmed(scene, graph, c);
+    const char* outcome = !parts                    ? "too large to be trimmed"
+                          : parts->cyclic().empty() ? "broken by trimming"
+                                                    : "a cluster";
+    text += fmt::format("  subgraph cluster_{} {{\n    color=red;\n    label=\"cycle of {}: {}\";\n", c,
+                        graph.components[c].size(), outcome);
     for (const std::uint32_t node : graph.components[c]) line(node, "    ");
     text += "  }\n";
   }

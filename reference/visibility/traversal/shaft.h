@@ -1,23 +1,25 @@
-// The shaft between a triangle and the cell: their convex hull. Everything that decides the labels of the triangle lies in it: a sight line, a leg of
-// a walk and the segment from a wedge point by its source to V all stay inside.
+// The shaft between a triangle, or a convex part of one, and the cell: their convex hull. Everything that decides the labels there lies in it: a sight line, a
+// leg of a walk and the segment from a wedge point by its source to V all stay inside.
 #pragma once
 
-#include <array>
+#include <span>
+#include <vector>
 
 #include "exact/convex_cell.h"
 #include "exact/kernel.h"
-#include "exact/point_occlusion.h"
 
 namespace clues::reference {
 
 class Shaft {
  public:
-  Shaft(const exact::TriangleCorners& triangle, const exact::ConvexCell& cell);
+  Shaft(std::span<const exact::Point3> corners, const exact::ConvexCell& cell);
 
-  // Whether the triangle reaches into the open shaft. Touching it does not count; a flat shaft (triangle and V in one plane) has no inside.
-  bool is_entered_by(const exact::TriangleCorners& triangle) const;
-  // Whether the triangle lies in the closed shaft.
-  bool holds(const exact::TriangleCorners& triangle) const;
+  // Whether the polygon reaches into the open shaft. Touching it does not count; a flat shaft (polygon and V in one plane) has no inside.
+  bool is_entered_by(std::span<const exact::Point3> polygon) const;
+  // Whether the polygon lies in the closed shaft.
+  bool holds(std::span<const exact::Point3> polygon) const;
+  // What the shaft cuts a convex polygon into: the part inside last. One that does not reach into it is left whole.
+  std::vector<std::vector<exact::Point3>> cut(const std::vector<exact::Point3>& polygon) const;
   const CGAL::Bbox_3& box() const { return box_; }
 
  private:

@@ -49,6 +49,7 @@ void carry_over(Statistics& all, const Statistics& last) {
   all.shaft_tests = before.shaft_tests;
   all.passes = before.passes;
   all.by_order = before.by_order;
+  all.cycles = before.cycles;
   all.clusters = before.clusters;
 }
 
@@ -104,10 +105,10 @@ Traversal traverse(const exact::SceneQuery& whole, const Options& options, Stati
     if (lit.empty() || spread.visited() != before) continue;
     ++statistics.by_order;  // all suspended
     const OverlapGraph graph = overlap_of_pieces(whole, lit);
-    for (const std::uint32_t c : graph.in_front()) {
-      statistics.clusters += graph.components[c].size() > 1;
-      for (const std::uint32_t n : graph.components[c]) spread.visit_with_neighbours(graph.members[n].front());
-    }
+    const Front front = pieces_in_front(whole, graph);
+    statistics.cycles += front.cycles;
+    statistics.clusters += front.clusters;
+    for (const std::uint32_t t : front.pieces) spread.visit_with_neighbours(t);
   }
 }
 
