@@ -89,6 +89,7 @@ void straighten(Border& border, const std::vector<Point2>& points) {
 
 struct PlaneCut::Triangulated {
   Cut cdt;
+  std::map<decltype(Cut::Constraint_id().vl_ptr()), std::size_t> segment_of;
 };
 
 PlaneCut::PlaneCut(const exact::Plane3& plane) : plane_(plane), frame_(plane), cut_(std::make_unique<Triangulated>()) {}
@@ -111,11 +112,11 @@ void PlaneCut::add_polygon(const std::vector<Point3>& corners) {
   std::vector<Point2> flat;
   for (const Point3& p : corners) flat.push_back(frame_(p));
   if (CGAL::orientation(flat[0], flat[1], flat[2]) == CGAL::RIGHT_TURN) std::reverse(flat.begin(), flat.end());
-  for (std::size_t i = 0; i < flat.size(); ++i) segments_.push_back({flat[i], flat[(i + 1) % flat.size()]});
+  for (std::size_t i = 0; i < flat.size(); ++i) segments_.push_back({flat[i], flat[(i + 1) % flat.size()], 0, 0});
   polygons_.push_back(std::move(flat));
 }
 
-void PlaneCut::add_segment(const Point3& a3, const Point3& b3) {
+void PlaneCut::add_segment(const Point3& a3, const Point3& b3, unsigned left, unsigned right) {
   Point2 a = frame_(a3), b = frame_(b3);
   const std::vector<Point2>& polygon = polygons_.back();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -124,20 +125,54 @@ void PlaneCut::add_segment(const Point3& a3, const Point3& b3) {
     if (at_a != CGAL::LEFT_TURN && at_b != CGAL::LEFT_TURN) return;  // outside, or along the outline
     if (at_a == CGAL::RIGHT_TURN || at_b == CGAL::RIGHT_TURN) {
       const FT u = CGAL::determinant(t - s, a - s), w = CGAL::determinant(t - s, b - s);
-      (at_a == CGAL::RIGHT_TURN ? a : b) = collapsed(a + (u / (u - w)) * (b - a));
+      (at_a == CGAL::RIGHT_TURN ? a : b) = a + (u / (u - w)) * (b - a);
     }
   }
-  segments_.push_back({a, b});
+  segments_.push_back({collapsed(a), collapsed(b), left, right});
+}
+
+void PlaneCut::insert_segments() {
+  for (Segment& s : segments_) {
+    if (s.a < s.b) continue;
+    std::swap(s.a, s.b);
+    std::swap(s.left, s.right);
+  }
+  std::sort(segments_.begin(), segments_.end(),
+            [](const Segment& x, const Segment& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  std::size_t kept = 0;
+  for (Segment& s : segments_) {
+    if (kept > 0 && segments_[kept - 1].a == s.a && segments_[kept - 1].b == s.b) {
+      segments_[kept - 1].left |= s.left;
+      segments_[kept - 1].right |= s.right;
+    } else {
+      segments_[kept++] = s;
+    }
+  }
+  segments_.erase(segments_.begin() + static_cast<std::ptrdiff_t>(kept), segments_.end());
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    const auto id = cut_->cdt.insert_constraint(segments_[i].a, segments_[i].b);
+    cut_->segment_of.emplace(id.vl_ptr(), i);
+  }
+}
+
+void PlaneCut::collect_marks() {
+  const Cut& cdt = cut_->cdt;
+  for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
+    for (int i = 0; i < 3; ++i) {
+      if (!cdt.is_constrained({f, i})) continue;
+      const auto from = f->vertex(Cut::ccw(i)), to = f->vertex(Cut::cw(i));  // f lies left
+      const bool along = from->point() < to->point();
+      for (auto c = cdt.contexts_begin(from, to); c != cdt.contexts_end(from, to); ++c) {
+        const Segment& s = segments_[cut_->segment_of.at(c->id().vl_ptr())];
+        components_[static_cast<std::size_t>(f->info())].marks |= along ? s.left : s.right;
+      }
+    }
+  }
 }
 
 const std::vector<PlaneCut::Component>& PlaneCut::components() {
   Cut& cdt = cut_->cdt;
-  for (auto& [a, b] : segments_) {
-    if (b < a) std::swap(a, b);
-  }
-  std::sort(segments_.begin(), segments_.end());
-  segments_.erase(std::unique(segments_.begin(), segments_.end()), segments_.end());
-  for (const auto& [a, b] : segments_) cdt.insert_constraint(a, b);
+  insert_segments();
   for (auto v = cdt.finite_vertices_begin(); v != cdt.finite_vertices_end(); ++v) v->set_point(collapsed(v->point()));
   for (auto f = cdt.all_faces_begin(); f != cdt.all_faces_end(); ++f) f->info() = kUnset;
   std::vector<double> sizes;
@@ -156,6 +191,7 @@ const std::vector<PlaneCut::Component>& PlaneCut::components() {
     components_[i].flat = inside(a, b, c);
   }
   for (Component& c : components_) c.inner = lift(c.flat);
+  collect_marks();
   return components_;
 }
 

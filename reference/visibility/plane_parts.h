@@ -19,13 +19,15 @@ class PlaneCut {
 
   // A convex polygon of the plane: its outline cuts, and components() tell whether it covers them. Polygons count from 0.
   void add_polygon(const std::vector<exact::Point3>& corners);
-  // The part of segment ab (of the plane) inside the polygon that was added last.
-  void add_segment(const exact::Point3& a, const exact::Point3& b);
+  // The part of segment ab (of the plane) inside the polygon that was added last. The parts that border on it get the marks (bits) of the side on which they
+  // lie, left when the plane's normal points up.
+  void add_segment(const exact::Point3& a, const exact::Point3& b, unsigned left = 0, unsigned right = 0);
 
-  // Parts of the plane between the segments, with a point inside.
+  // Parts of the plane between the segments, with a point inside, and the marks of all segments around.
   struct Component {
     exact::Point3 inner;
     exact::Point2 flat;
+    unsigned marks = 0;
   };
   // Ends the adding. For n segments with k crossings O((n + k) log n) expected.
   const std::vector<Component>& components();
@@ -42,12 +44,19 @@ class PlaneCut {
  private:
   struct Triangulated;
 
+  struct Segment {
+    exact::Point2 a, b;
+    unsigned left = 0, right = 0;
+  };
+
   exact::Point3 lift(const exact::Point2& q) const;
+  void insert_segments();
+  void collect_marks();
 
   exact::Plane3 plane_;
   PlaneFrame frame_;
   std::vector<std::vector<exact::Point2>> polygons_;  // counter-clockwise
-  std::vector<std::array<exact::Point2, 2>> segments_;
+  std::vector<Segment> segments_;
   std::vector<Component> components_;
   std::unique_ptr<Triangulated> cut_;
 };

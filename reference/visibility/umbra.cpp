@@ -85,6 +85,9 @@ std::vector<Point3> wide_polygon(const Plane3& h, const Box& box) {
   return corners;
 }
 
+// Marks of parts of a plane: visible on the side to which the plane's normal points, and on the other.
+constexpr unsigned kLitBefore = 1, kLitBehind = 2;
+
 class Builder {
  public:
   Builder(const Omega& omega, const Box& box)
@@ -232,9 +235,10 @@ class Builder {
       for (const std::uint32_t other :
            tree_.candidates([&](const CGAL::Bbox_3& b) { return CGAL::do_overlap(b, box); })) {
         if (std::binary_search(own.begin(), own.end(), other)) continue;
-        if (const auto trace = trace_of(sheets_[other].corners, plane)) {
-          cut.add_segment(trace->first, trace->second);
-        }
+        const auto trace = trace_of(sheets_[other].corners, plane);
+        if (!trace) continue;
+        const auto [left, right] = lit_beside(sheets_[other], *trace, plane);
+        cut.add_segment(trace->first, trace->second, left, right);
       }
     }
     Part out;
@@ -243,10 +247,14 @@ class Builder {
     for (const PlaneCut::Component& c : components) {
       classes.push_back(-1);
       const Sheet* best = nullptr;  // a surface if any, else a wedge piece, else the box
+      unsigned lit = c.marks;
       for (std::size_t k = 0; k < own.size(); ++k) {
         if (!cut.covers(k, c)) continue;
         const Sheet& s = sheets_[own[k]];
         if (!best || s.kind < best->kind) best = &s;
+        if (s.kind != UmbraFacetKind::wedge) continue;
+        const bool up = CGAL::is_positive(s.plane.orthogonal_vector() * plane.orthogonal_vector());
+        lit |= up ? kLitBefore : kLitBehind;
       }
       if (!best) continue;
       ++out.parts;
@@ -256,6 +264,7 @@ class Builder {
       bool hidden[2] = {false, false};  // behind, before
       for (const bool front : {false, true}) {
         const Vector3 off = front ? n : -n;
+        if ((lit & (front ? kLitBefore : kLitBehind)) != 0) continue;
         const bool nowhere = std::any_of(sides_.begin(), sides_.end(), [&](const Plane3& side) {
           return side.has_on(c.inner) && CGAL::is_positive(side.orthogonal_vector() * off);
         });
@@ -276,6 +285,20 @@ class Builder {
     return out;
   }
 
+  // The H- side of a valid wedge piece is visible (D13). So is a part of the plane on its H- side that ends at the piece: on the side of
+  // the plane, or both, to which the piece reaches. Left and right of the trace, seen with the plane's normal up.
+  static std::pair<unsigned, unsigned> lit_beside(const Sheet& sheet, const std::pair<Point3, Point3>& trace,
+                                                  const Plane3& plane) {
+    if (sheet.kind != UmbraFacetKind::wedge) return {0, 0};
+    unsigned lit = 0;
+    for (const Point3& p : sheet.corners) {
+      const CGAL::Oriented_side side = plane.oriented_side(p);
+      if (side != CGAL::ON_ORIENTED_BOUNDARY) lit |= side == CGAL::ON_POSITIVE_SIDE ? kLitBefore : kLitBehind;
+    }
+    const Vector3 left = CGAL::cross_product(plane.orthogonal_vector(), trace.second - trace.first);
+    return CGAL::is_positive(sheet.plane.orthogonal_vector() * left) ? std::pair(lit, 0U) : std::pair(0U, lit);
+  }
+
   static std::optional<std::pair<Point3, Point3>> trace_of(const std::vector<Point3>& corners, const Plane3& plane) {
     std::vector<Point3> ends;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -285,7 +308,7 @@ class Builder {
         ends.push_back(a);
       } else if (at_b != CGAL::ON_ORIENTED_BOUNDARY && at_a != at_b) {
         const FT u = exact::value_at(plane, a), w = exact::value_at(plane, b);
-        ends.push_back(exact::collapsed(a + (u / (u - w)) * (b - a)));
+        ends.push_back(a + (u / (u - w)) * (b - a));
       }
     }
     if (ends.size() != 2) return std::nullopt;  // touches in a corner
