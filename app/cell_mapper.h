@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/common.h"
+#include "app/simplify_choice.h"
 #include "app/umbra_output.h"
 #include "reference/visibility/first_order.h"
 #include "scene/cell_spec.h"
@@ -20,13 +22,14 @@ struct MapRequest {
   std::string asked_method;  // as the user wrote it
   RefineChoice refine;
   validate::Refinement refinement = validate::Refinement::none;  // as --method and --refine together say
+  SimplifyChoice simplify;
   UmbraRequest umbra;
 };
 
 struct MappedCell {
   std::string name;
   std::string bytes;          // what goes into the file
-  std::string summary;        // one line of the table
+  std::string summary;        // one line of the table, and one more of what simplification did
   std::string overlap_graph;  // GraphViz, where it was asked for
   std::string umbra_bytes, umbra_summary;
 };
@@ -46,7 +49,8 @@ class CellMapper {
 bool wants_plain_list(const std::filesystem::path& out);  // *.pvs, *.txt
 
 // The bytes of the result file: JSON, or a plain list where the output is named like one.
-std::string bytes_of(scene::Result result, const MapRequest& request, const std::string& sha256);
+std::string bytes_of(scene::Result result, const MapRequest& request, const std::string& sha256,
+                     const std::optional<scene::Simplification>& simplification = {});
 
 // Both keep references to mesh and request. The fast one refuses what only the exact one can do (Error unsupported).
 std::unique_ptr<CellMapper> exact_mapper(const scene::TriangleMesh& mesh, const std::string& sha256,

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,8 @@ validate::Refinement wanted_refinement(const MapRequest& request) {
              : validate::Refinement::backprojection;
 }
 
+nlohmann::json json_of(const std::optional<double>& x) { return x ? nlohmann::json(*x) : nlohmann::json(); }
+
 // Everything that the results depend on.
 std::string request_text(const MapRequest& request, const std::string& sha256) {
   return nlohmann::json{{"format", "clues-cells/1"},
@@ -50,6 +53,8 @@ std::string request_text(const MapRequest& request, const std::string& sha256) {
                         {"refine", request.refine.refine},
                         {"max_depth", request.refine.max_depth},
                         {"tolerance_area", request.refine.tolerance_area},
+                        {"min_occlusion", json_of(request.simplify.min_occlusion)},
+                        {"simplify_boundaries", json_of(request.simplify.simplify_boundaries)},
                         {"kernel", request.method.kernel},
                         {"map", request.with_map},
                         {"render_states", request.with_states},
@@ -131,11 +136,16 @@ int run_map(MapRequest request) {
   while (request.out.size() > 1 && request.out.back() == '/') request.out.pop_back();  // "cells/" is the folder "cells"
   request.refinement = wanted_refinement(request);
   request.refine.to_reference();  // complains of bad numbers now
+  request.simplify.check();
   request.asked_method = request.method.method;
   if (request.method.method == "backprojected") request.method.method = "first-order";  // refined afterwards
   request.method.check();
   if (request.refinement != validate::Refinement::none && !request.umbra.file.empty()) {
     throw Error(ErrorCode::unsupported, "--umbra is for first-order maps; leave out --refine and --method");
+  }
+  if (request.simplify.asked() && !request.umbra.file.empty()) {
+    throw Error(ErrorCode::unsupported,
+                "--umbra is of the whole hidden space; leave out --min-occlusion and --simplify-boundaries");
   }
   if (request.cell.empty() == request.cells.empty()) {
     throw Error(ErrorCode::bad_argument, "give one of --cell and --cells (see `clues map --help`)");
@@ -183,11 +193,13 @@ int run_map(MapRequest request) {
 
 bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" || out.extension() == ".txt"; }
 
-std::string bytes_of(scene::Result result, const MapRequest& request, const std::string& sha256) {
+std::string bytes_of(scene::Result result, const MapRequest& request, const std::string& sha256,
+                     const std::optional<scene::Simplification>& simplification) {
   result.scene_file = fs::path(request.scene).filename().string();
   result.scene_sha256 = sha256;
   const bool plain = request.cells.empty() && wants_plain_list(request.out);
-  return plain ? scene::to_pvs_text(result.visible) : scene::to_json_text(result);
+  if (plain) return scene::to_pvs_text(result.visible);
+  return simplification ? scene::to_json_text(result, *simplification) : scene::to_json_text(result);
 }
 
 void add_map_command(CLI::App& program, int& status) {
@@ -203,6 +215,7 @@ void add_map_command(CLI::App& program, int& status) {
                    "Write here, for GraphViz, which occluders overlap which as the cell sees them, and the cycles")
       ->type_name("FILE.dot");
   request->refine.add_to(*command);
+  request->simplify.add_to(*command);
   command->add_flag("--map", request->with_map,
                     "Put the regions, segments and wedges into the result too, in exact coordinates");
   command->add_flag("--render-states", request->with_states,
@@ -219,17 +232,21 @@ void add_map_command(CLI::App& program, int& status) {
                     "With --cells and -o: go on with a run that was stopped; cells whose files are there are not made "
                     "again");
   command->footer(
-      std::string("DESCRIPTION\n"
-                  "  Lists the triangles of which some point may be seen from some point of the cell. No visible "
-                  "triangle is ever\n"
-                  "  left out; the answer may hold some that only look visible to the method (first-order). Refinement "
-                  "takes out\n"
-                  "  more of these, at a cost; clues precision says how many may be left.\n"
-                  "  A table counts the triangles whose sides facing the cell are seen wholly, partly, or not at all.\n"
-                  "  The same input gives the same bytes, whatever --threads says. An existing file OUT is replaced "
-                  "as a whole, or,\n"
-                  "  when anything fails, not at all. With --cells the file of each cell is written when the cell is "
-                  "finished.\n\n") +
+      std::string(
+          "DESCRIPTION\n"
+          "  Lists the triangles of which some point may be seen from some point of the cell. No visible "
+          "triangle is ever\n"
+          "  left out; the answer may hold some that only look visible to the method (first-order). Refinement "
+          "takes out\n"
+          "  more of these, at a cost; clues precision says how many may be left.\n"
+          "  --simplify-boundaries and --min-occlusion give up some of what is hidden, never more, where that makes "
+          "the map\n"
+          "  smaller, and say how much (docs/precision.md).\n"
+          "  A table counts the triangles whose sides facing the cell are seen wholly, partly, or not at all.\n"
+          "  The same input gives the same bytes, whatever --threads says. An existing file OUT is replaced "
+          "as a whole, or,\n"
+          "  when anything fails, not at all. With --cells the file of each cell is written when the cell is "
+          "finished.\n\n") +
       cell_help +
       "\n  grid:NXxNYxNZ:box:...   (--cells) the box cut into NX*NY*NZ equal boxes\n\n"
       "EXAMPLES\n"
@@ -238,6 +255,7 @@ void add_map_command(CLI::App& program, int& status) {
       "  clues map town.obj --cell box:0,0,1,2,2,2 --umbra town.umbra.json\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --formulation traversal --overlap-graph town.dot\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --method backprojected --max-depth 2\n"
+      "  clues map town.obj --cell box:0,0,1,2,2,2 --simplify-boundaries 0.05 --min-occlusion 0.01\n"
       "  clues map town.obj --cells grid:4x4x1:box:0,0,1,8,8,2 -o cells/\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   3 the umbra is not closed where a limit was reached   4 an oracle "

@@ -35,8 +35,9 @@ class ExactMapper : public CellMapper {
     options.threads = threads;
     options.progress = progress;
     const auto cell = exact::ConvexCell::from_doubles(spec.points);
-    if (request_.refinement != validate::Refinement::none) return mapped(refined(cell, options), spec);
-    if (request_.umbra.file.empty()) return mapped(reference::first_order_visibility(mesh_, cell, options), spec);
+    if (request_.refinement != validate::Refinement::none) return simplified(refined(cell, options), spec, threads);
+    if (request_.umbra.file.empty())
+      return simplified(reference::first_order_visibility(mesh_, cell, options), spec, threads);
     const reference::Omega omega(mesh_, cell, options);
     if (progress) progress("umbra", 0, 1);
     MappedCell out = mapped(omega.map(), spec);
@@ -55,13 +56,20 @@ class ExactMapper : public CellMapper {
     validate::refine(bounds, request_.refinement, request_.refine.to_reference());
     return bounds.refined_map(request_.refinement == validate::Refinement::cells ? "subdivided" : "backprojected");
   }
-  MappedCell mapped(const reference::VisibilityMap& map, const scene::CellSpec& spec) const {
+  MappedCell mapped(const reference::VisibilityMap& map, const scene::CellSpec& spec,
+                    const std::optional<scene::Simplification>& simplification = {}) const {
     return {spec.name,
-            bytes_of(reference::to_result(map, spec, request_.with_map, request_.with_states), request_, sha256_),
-            table_line(spec.name, map),
+            bytes_of(reference::to_result(map, spec, request_.with_map, request_.with_states), request_, sha256_,
+                     simplification),
+            table_line(spec.name, map) + (simplification ? summary_of(*simplification) : ""),
             request_.overlap_graph.empty() ? "" : overlap_graph_of(map),
             "",
             ""};
+  }
+  MappedCell simplified(const reference::VisibilityMap& map, const scene::CellSpec& spec, int threads) const {
+    if (!request_.simplify.asked()) return mapped(map, spec);
+    const auto simpler = reference::with_simpler_occlusion(map, request_.simplify.to_reference(threads));
+    return mapped(simpler.map, spec, record_of(simpler, request_.simplify));
   }
 
   const scene::TriangleMesh& mesh_;

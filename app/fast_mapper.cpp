@@ -85,6 +85,7 @@ std::unique_ptr<CellMapper> fast_mapper(const scene::TriangleMesh& mesh, const s
                                       {!request.overlap_graph.empty(), "--overlap-graph"},
                                       {request.with_states, "--render-states"},
                                       {request.method.formulation != "plain", "--formulation"},
+                                      {request.simplify.asked(), "simplification"},
                                       {request.refinement != validate::Refinement::none, "refinement"}}) {
     if (asked) {
       throw scene::Error(scene::ErrorCode::unsupported,

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "scene/simplification.h"
+
 namespace clues::scene {
 namespace {
 
@@ -56,9 +58,7 @@ Json to_array(const std::vector<Item>& items) {
   return array;
 }
 
-}  // namespace
-
-std::string to_json_text(const Result& result) {
+Json to_json(const Result& result) {
   Json json = {
       {"format", "clues-result/1"},
       {"scene", {{"file", result.scene_file}, {"sha256", result.scene_sha256}, {"triangles", result.scene_triangles}}},
@@ -77,8 +77,30 @@ std::string to_json_text(const Result& result) {
     json["segments"] = to_array(result.segments);
     json["wedges"] = to_array(result.wedges);
   }
-  // File names need not be UTF-8; JSON must.
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json;
+}
+
+// File names need not be UTF-8; JSON must.
+std::string dumped(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+Json to_json(const Simplification::Figures& figures) {
+  return {{"occlusion_regions", figures.occlusion_regions},
+          {"boundary_segments", figures.boundary_segments},
+          {"hidden_area_estimate", figures.hidden_area}};
+}
+
+}  // namespace
+
+std::string to_json_text(const Result& result) { return dumped(to_json(result)); }
+
+std::string to_json_text(const Result& result, const Simplification& simplification) {
+  Json json = to_json(result);
+  json["simplification"] = {{"min_occlusion", simplification.min_occlusion},
+                            {"simplify_boundaries", simplification.simplify_boundaries},
+                            {"before", to_json(simplification.before)},
+                            {"after", to_json(simplification.after)},
+                            {"entered", simplification.entered}};
+  return dumped(json);
 }
 
 }  // namespace clues::scene

@@ -222,6 +222,8 @@ TEST(Map, TheFastKernelRefusesWhatItCannotDo) {
   for (const std::vector<std::string>& more : {std::vector<std::string>{"--umbra", "u.json"},
                                                {"--formulation", "traversal"},
                                                {"--map", "--render-states"},
+                                               {"--min-occlusion", "1"},
+                                               {"--simplify-boundaries", "0.1"},
                                                {"--overlap-graph", "g.dot"}}) {
     std::vector<std::string> arguments{"map", "scene.off", "--cell", screen_cell, "--kernel", "fast"};
     arguments.insert(arguments.end(), more.begin(), more.end());

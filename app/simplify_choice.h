@@ -1,0 +1,26 @@
+// clues map: how far occlusion may be given up for fewer boundary segments (FIG. 30).
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "reference/visibility/effective_occlusion.h"
+#include "scene/simplification.h"
+
+namespace clues::app {
+
+struct SimplifyChoice {
+  std::optional<double> min_occlusion, simplify_boundaries;
+
+  void add_to(CLI::App& command);
+  void check() const;  // throws Error bad_argument
+  bool asked() const { return min_occlusion || simplify_boundaries; }
+  reference::OcclusionControls to_reference(int threads) const;
+};
+
+scene::Simplification record_of(const reference::SimplifiedMap& simplified, const SimplifyChoice& choice);
+
+std::string summary_of(const scene::Simplification& simplification);  // one line
+
+}  // namespace clues::app

@@ -1,0 +1,305 @@
+#include "reference/visibility/effective_occlusion.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "exact/area.h"
+#include "exact/scene_query.h"
+#include "reference/visibility/flat_set.h"
+#include "reference/visibility/side_faces.h"
+#include "scene/error.h"
+
+namespace clues::reference {
+
+using exact::FT;
+using exact::Point3;
+
+namespace {
+
+struct HiddenRegion {
+  std::size_t side = 0;  // side_index
+  Face2 face;
+  std::uint64_t segments = 0;
+  FT fraction;  // of the piece
+  double area = 0;
+  bool whole = false;
+};
+
+// The regions of a map by side_index; those of a side are neighbours in the list.
+using SideRegions = std::map<std::size_t, std::vector<const Region*>>;
+
+SideRegions by_side(const VisibilityMap& map) {
+  SideRegions sides;
+  for (const Region& r : map.regions) sides[side_index(r.piece, r.front)].push_back(&r);
+  return sides;
+}
+
+FT twice_triangle(const TriangleFrame& frame) {
+  const auto& f = frame.flat();
+  return twice_area({f[0], f[1], f[2]});
+}
+
+std::uint32_t piece_of(std::size_t side) { return static_cast<std::uint32_t>(side / 2); }
+bool is_front(std::size_t side) { return side % 2 == 0; }
+
+bool faces_cell(const VisibilityMap& map, std::size_t side) {
+  const auto wanted = is_front(side) ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
+  const auto& cell = map.cell.vertices();
+  return std::any_of(cell.begin(), cell.end(),
+                     [&](const Point3& v) { return map.complex.planes[piece_of(side)].oriented_side(v) == wanted; });
+}
+
+Face2 flat_face(const Region& r, const TriangleFrame& frame) {
+  Face2 face;
+  for (const auto& ring : r.rings) {
+    face.emplace_back();
+    for (const Point3& p : ring) face.back().push_back(frame.frame()(p));
+  }
+  return face;
+}
+
+FlatSet set_with(bool visible, const std::vector<const Region*>& regions, const TriangleFrame& frame) {
+  std::vector<Face2> faces;
+  for (const Region* r : regions) {
+    if (r->visible == visible) faces.push_back(flat_face(*r, frame));
+  }
+  return faces.size() == regions.size() ? whole_of(frame) : FlatSet(twice_triangle(frame), faces);
+}
+
+template <class Work>
+void in_parallel(std::size_t count, int threads, const Work& work) {
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, work); });
+}
+
+void measure(HiddenRegion& region, const exact::Complex& complex, const TriangleFrame& frame) {
+  FT twice(0);
+  for (const Ring2& ring : region.face) twice += twice_area(ring);  // holes run clockwise
+  region.fraction = exact::collapsed(twice / twice_triangle(frame));
+  region.segments = boundary_segments(region.face, frame.flat());
+  region.whole = region.fraction == FT(1);
+  const auto& c = complex.pieces[piece_of(region.side)].corners;
+  region.area = exact::area_estimate(complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]) *
+                CGAL::to_double(region.fraction);
+}
+
+// Those of all sides that face the cell, by side.
+std::vector<HiddenRegion> hidden_regions(const VisibilityMap& map, int threads) {
+  std::vector<std::pair<std::size_t, std::vector<const Region*>>> sides;
+  for (auto& [side, regions] : by_side(map)) {
+    const bool hides = std::any_of(regions.begin(), regions.end(), [](const Region* r) { return !r->visible; });
+    if (hides && faces_cell(map, side)) sides.emplace_back(side, std::move(regions));
+  }
+  std::vector<std::vector<HiddenRegion>> found(sides.size());
+  in_parallel(sides.size(), threads, [&](std::size_t k) {
+    const TriangleFrame frame(map.complex, piece_of(sides[k].first));
+    for (Face2& face : set_with(false, sides[k].second, frame).faces()) {
+      found[k].push_back({sides[k].first, std::move(face), 0, FT(0), 0, false});
+      measure(found[k].back(), map.complex, frame);
+    }
+  });
+  std::vector<HiddenRegion> all;
+  for (auto& some : found) std::move(some.begin(), some.end(), std::back_inserter(all));
+  return all;
+}
+
+// A hidden region along a part of an edge of the complex.
+struct Stretch {
+  std::size_t region = 0;
+  Point3 from, to;  // from < to
+};
+
+std::map<std::uint32_t, std::vector<Stretch>> stretches_by_edge(const exact::Complex& complex,
+                                                                const std::vector<HiddenRegion>& regions) {
+  std::map<std::uint32_t, std::vector<Stretch>> edges;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const std::uint32_t t = piece_of(regions[i].side);
+    if (complex.in_cell[t]) continue;
+    const TriangleFrame frame(complex, t);
+    const auto& f = frame.flat();
+    for (const Ring2& ring : regions[i].face) {
+      for (std::size_t j = 0; j < ring.size(); ++j) {
+        const auto &p = ring[j], &q = ring[(j + 1) % ring.size()];
+        for (int k = 0; k < 3; ++k) {
+          if (!CGAL::collinear(f[k], f[k + 1], p) || !CGAL::collinear(f[k], f[k + 1], q)) continue;
+          Point3 from = frame.lift(p), to = frame.lift(q);
+          if (to < from) std::swap(from, to);
+          edges[complex.piece_edges[t][static_cast<std::size_t>(k)]].push_back({i, from, to});
+        }
+      }
+    }
+  }
+  return edges;
+}
+
+bool runs_along(const exact::Complex& complex, std::uint32_t piece, const exact::Edge& edge) {  // from a to b
+  const auto& c = complex.pieces[piece].corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (c[k] == edge.a && c[(k + 1) % 3] == edge.b) return true;
+  }
+  return false;
+}
+
+// Per hidden region the number of its occlusion region: that of the first hidden region in it.
+std::vector<std::size_t> joined(const exact::Complex& complex, const std::vector<HiddenRegion>& regions) {
+  std::vector<std::size_t> leader(regions.size());
+  std::iota(leader.begin(), leader.end(), std::size_t{0});
+  const auto find = [&](std::size_t i) {
+    while (leader[i] != i) i = leader[i] = leader[leader[i]];
+    return i;
+  };
+  for (const auto& [e, stretches] : stretches_by_edge(complex, regions)) {
+    const exact::Edge& edge = complex.edges[e];
+    if (edge.pieces.size() != 2) continue;
+    const bool same_sides = runs_along(complex, edge.pieces[0], edge) != runs_along(complex, edge.pieces[1], edge);
+    for (const Stretch& x : stretches) {
+      for (const Stretch& y : stretches) {
+        const std::size_t s = regions[x.region].side, u = regions[y.region].side;
+        if (piece_of(s) >= piece_of(u) || (is_front(s) == is_front(u)) != same_sides) continue;
+        if (!(std::max(x.from, y.from) < std::min(x.to, y.to))) continue;
+        const auto [first, second] = std::minmax(find(x.region), find(y.region));
+        leader[second] = first;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < leader.size(); ++i) leader[i] = find(i);
+  return leader;
+}
+
+// By leader.
+std::map<std::size_t, OcclusionRegion> summed(const VisibilityMap& map, const std::vector<HiddenRegion>& regions,
+                                              const std::vector<std::size_t>& leader) {
+  std::map<std::size_t, OcclusionRegion> sums;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    OcclusionRegion& sum = sums[leader[i]];
+    sum.segments += regions[i].segments;
+    sum.hidden_area += regions[i].area;
+    sum.whole_pieces += regions[i].whole;
+    for (const exact::Origin& o : map.complex.pieces[piece_of(regions[i].side)].origins)
+      sum.triangles.push_back(o.triangle);
+  }
+  for (auto& [i, sum] : sums) {
+    std::sort(sum.triangles.begin(), sum.triangles.end());
+    sum.triangles.erase(std::unique(sum.triangles.begin(), sum.triangles.end()), sum.triangles.end());
+  }
+  return sums;
+}
+
+OcclusionFigures figures(const std::map<std::size_t, OcclusionRegion>& sums) {
+  OcclusionFigures out;
+  for (const auto& [i, sum] : sums) {
+    ++out.regions;
+    out.segments += sum.segments;
+    out.hidden_area += sum.hidden_area;
+  }
+  return out;
+}
+
+void simplify(std::vector<HiddenRegion>& regions, const exact::Complex& complex, const OcclusionControls& controls) {
+  in_parallel(regions.size(), controls.threads, [&](std::size_t i) {
+    HiddenRegion& region = regions[i];
+    if (region.segments < 2) return;
+    const TriangleFrame frame(complex, piece_of(region.side));
+    const FT budget = exact::collapsed(FT(controls.max_loss) * region.fraction * twice_triangle(frame));
+    Face2 simpler = simplified(region.face, frame.flat(), budget, controls.planted);
+    if (simpler == region.face) return;
+    region.face = std::move(simpler);
+    measure(region, complex, frame);
+  });
+}
+
+// The map with these faces as what is hidden on these sides.
+VisibilityMap rebuilt(const VisibilityMap& map, const std::map<std::size_t, std::vector<Face2>>& changed,
+                      const OcclusionControls& controls) {
+  std::vector<std::size_t> order;
+  for (const auto& [side, faces] : changed) order.push_back(side);
+  const SideRegions old = by_side(map);
+  std::vector<SideFaces> made(order.size());
+  in_parallel(order.size(), controls.threads, [&](std::size_t k) {
+    const std::uint32_t t = piece_of(order[k]);
+    const TriangleFrame frame(map.complex, t);
+    FlatSet hidden(twice_triangle(frame));
+    for (const Face2& face : changed.at(order[k])) hidden = unite(hidden, FlatSet(twice_triangle(frame), {face}));
+    if (controls.planted == PlantedStep::none && !subtract(hidden, set_with(false, old.at(order[k]), frame)).empty())
+      throw scene::Error(scene::ErrorCode::internal, "simplification: a hidden region grew");
+    made[k] = side_faces(subtract(whole_of(frame), hidden), frame, t, is_front(order[k]));
+  });
+  VisibilityMap out{map.complex, map.cell, map.mode, map.formulation, map.wedges,
+                    {},          {},       {},       map.statistics,  map.method};
+  const auto is_changed = [&](const auto& x) { return changed.count(side_index(x.piece, x.front)) > 0; };
+  std::remove_copy_if(map.regions.begin(), map.regions.end(), std::back_inserter(out.regions), is_changed);
+  std::remove_copy_if(map.segments.begin(), map.segments.end(), std::back_inserter(out.segments), is_changed);
+  for (SideFaces& side : made) {
+    std::move(side.regions.begin(), side.regions.end(), std::back_inserter(out.regions));
+    std::move(side.segments.begin(), side.segments.end(), std::back_inserter(out.segments));
+  }
+  const auto by_place = [](const auto& x, const auto& y) {
+    return side_index(x.piece, x.front) < side_index(y.piece, y.front);
+  };
+  std::stable_sort(out.regions.begin(), out.regions.end(), by_place);
+  std::stable_sort(out.segments.begin(), out.segments.end(), by_place);
+  const auto visible = std::count_if(out.regions.begin(), out.regions.end(), [](const Region& r) { return r.visible; });
+  out.statistics.regions_visible = static_cast<std::uint64_t>(visible);
+  out.statistics.regions_hidden = out.regions.size() - out.statistics.regions_visible;
+  find_visible(exact::SceneQuery(out.complex, out.cell), out);
+  return out;
+}
+
+}  // namespace
+
+double OcclusionRegion::effective() const {
+  return segments == 0 ? std::numeric_limits<double>::infinity() : hidden_area / static_cast<double>(segments);
+}
+
+std::vector<OcclusionRegion> occlusion_regions(const VisibilityMap& map) {
+  const std::vector<HiddenRegion> regions = hidden_regions(map, 1);
+  std::vector<OcclusionRegion> out;
+  for (auto& [i, sum] : summed(map, regions, joined(map.complex, regions))) out.push_back(std::move(sum));
+  return out;
+}
+
+SimplifiedMap with_simpler_occlusion(const VisibilityMap& map, const OcclusionControls& controls) {
+  std::vector<HiddenRegion> regions = hidden_regions(map, controls.threads);
+  const std::vector<HiddenRegion> old = regions;
+  const std::vector<std::size_t> leader = joined(map.complex, regions);  // simplification leaves what lies on edges
+  if (controls.max_loss > 0) simplify(regions, map.complex, controls);
+  auto sums = summed(map, regions, leader);
+  std::erase_if(sums, [&](const auto& sum) { return sum.second.effective() < controls.min_occlusion; });
+
+  std::map<std::size_t, std::vector<Face2>> kept;
+  std::map<std::size_t, bool> changed;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const bool stays = sums.count(leader[i]) > 0;
+    changed[regions[i].side] |= !stays || regions[i].face != old[i].face;
+    auto& faces = kept[regions[i].side];
+    if (stays) faces.push_back(regions[i].face);
+  }
+  std::erase_if(kept, [&](const auto& side) { return !changed.at(side.first); });
+  SimplifiedMap out{rebuilt(map, kept, controls), figures(summed(map, old, leader)), figures(sums), {}};
+  std::set_difference(out.map.visible.begin(), out.map.visible.end(), map.visible.begin(), map.visible.end(),
+                      std::back_inserter(out.entered));
+  return out;
+}
+
+bool hides_no_more(const VisibilityMap& before, const VisibilityMap& after, int threads) {
+  const SideRegions old = by_side(before), now = by_side(after);
+  std::vector<std::size_t> order;
+  for (const auto& [side, regions] : now) order.push_back(side);
+  std::vector<char> more(order.size(), 0);
+  in_parallel(order.size(), threads, [&](std::size_t k) {
+    const TriangleFrame frame(before.complex, piece_of(order[k]));
+    const FlatSet hidden = set_with(false, now.at(order[k]), frame);
+    const auto was = old.find(order[k]);
+    more[k] = was == old.end() ? !hidden.empty() : !subtract(hidden, set_with(false, was->second, frame)).empty();
+  });
+  return std::none_of(more.begin(), more.end(), [](char m) { return m != 0; });
+}
+
+}  // namespace clues::reference

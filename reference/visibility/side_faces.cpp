@@ -1,0 +1,65 @@
+#include "reference/visibility/side_faces.h"
+
+#include <algorithm>
+
+namespace clues::reference {
+
+using exact::Point2;
+using exact::Point3;
+
+namespace {
+
+void add_faces(const FlatSet& set, bool visible, const TriangleFrame& frame, std::uint32_t t, bool front,
+               SideFaces& out) {
+  const auto twice_triangle = twice_area({frame.flat()[0], frame.flat()[1], frame.flat()[2]});
+  for (const Face2& face : set.faces()) {
+    Region r{t, front, visible, {}, exact::FT(0), frame.lift(inner_point(face, 0))};
+    for (const Ring2& ring : face) {
+      r.area_fraction += twice_area(ring) / twice_triangle;
+      r.rings.emplace_back();
+      for (const Point2& q : ring) r.rings.back().push_back(frame.lift(q));
+    }
+    r.area_fraction = exact::collapsed(r.area_fraction);
+    out.regions.push_back(std::move(r));
+  }
+}
+
+// The borders of the set inside the triangle.
+void add_borders(const FlatSet& set, const TriangleFrame& frame, std::uint32_t t, bool front, SideFaces& out) {
+  const auto& f = frame.flat();
+  for (const Face2& face : set.faces()) {
+    for (const Ring2& ring : face) {
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const Point2 &p = ring[i], &q = ring[(i + 1) % ring.size()];
+        bool outline = false;
+        for (int k = 0; k < 3; ++k) outline |= CGAL::collinear(f[k], f[k + 1], p) && CGAL::collinear(f[k], f[k + 1], q);
+        if (outline) continue;
+        Point3 a = frame.lift(p), b = frame.lift(q);
+        if (CGAL::lexicographically_xyz_smaller(b, a)) std::swap(a, b);
+        out.segments.push_back({t, front, true, a, b});
+      }
+    }
+  }
+}
+
+}  // namespace
+
+FlatSet whole_of(const TriangleFrame& frame) {
+  const auto& f = frame.flat();
+  return FlatSet(twice_area({f[0], f[1], f[2]}), {Face2{Ring2{f[0], f[1], f[2]}}});
+}
+
+SideFaces side_faces(const FlatSet& visible, const TriangleFrame& frame, std::uint32_t piece, bool front) {
+  SideFaces out;
+  add_faces(visible, true, frame, piece, front, out);
+  add_faces(subtract(whole_of(frame), visible), false, frame, piece, front, out);
+  add_borders(visible, frame, piece, front, out);
+  std::sort(out.regions.begin(), out.regions.end(),
+            [](const Region& x, const Region& y) { return CGAL::lexicographically_xyz_smaller(x.sample, y.sample); });
+  std::sort(out.segments.begin(), out.segments.end(), [](const DmSegment& x, const DmSegment& y) {
+    return x.a != y.a ? CGAL::lexicographically_xyz_smaller(x.a, y.a) : CGAL::lexicographically_xyz_smaller(x.b, y.b);
+  });
+  return out;
+}
+
+}  // namespace clues::reference

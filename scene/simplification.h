@@ -1,0 +1,25 @@
+// What the simplification of a map's occlusion (FIG. 30) was asked for, and what it gave up and saved: a part of a result file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/result.h"
+
+namespace clues::scene {
+
+struct Simplification {
+  struct Figures {
+    std::uint64_t occlusion_regions = 0, boundary_segments = 0;
+    double hidden_area = 0;  // an estimate, in units of the scene, squared
+  };
+  double min_occlusion = 0, simplify_boundaries = 0;
+  Figures before, after;
+  std::vector<std::uint32_t> entered;  // triangles that are in the PVS because of it, ascending
+};
+
+// As for the result alone, with the key "simplification".
+std::string to_json_text(const Result& result, const Simplification& simplification);
+
+}  // namespace clues::scene
