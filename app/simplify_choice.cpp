@@ -13,9 +13,10 @@ using scene::ErrorCode;
 
 void SimplifyChoice::add_to(CLI::App& command) {
   command
-      .add_option("--min-occlusion", min_occlusion,
-                  "Let occlusion regions become visible that hide less than AREA, in units of the scene, squared, for\n"
-                  "each segment of their boundaries; after --simplify-boundaries")
+      .add_option(
+          "--min-occlusion", min_occlusion,
+          "Drop the boundaries of occlusion regions that cut off less than AREA, in units of the scene, squared,\n"
+          "for each segment; triangles that are hidden wholly stay so. After --simplify-boundaries")
       ->type_name("AREA");
   command
       .add_option(
@@ -42,19 +43,19 @@ reference::OcclusionControls SimplifyChoice::to_reference(int threads) const {
 
 scene::Simplification record_of(const reference::SimplifiedMap& simplified, const SimplifyChoice& choice) {
   const auto figures = [](const reference::OcclusionFigures& f) {
-    return scene::Simplification::Figures{f.regions, f.segments, f.hidden_area};
+    return scene::Simplification::Figures{f.regions, f.segments, f.hidden_area, f.visible_triangles};
   };
   return {choice.min_occlusion.value_or(0), choice.simplify_boundaries.value_or(0), figures(simplified.before),
-          figures(simplified.after), simplified.entered};
+          figures(simplified.after)};
 }
 
 std::string summary_of(const scene::Simplification& s) {
   const double kept = s.before.hidden_area > 0 ? 100 * s.after.hidden_area / s.before.hidden_area : 100;
   return fmt::format(
       "simplified: boundary segments {} -> {}, hidden area {:.6g} -> {:.6g} ({:.2f} %), occlusion regions {} -> {}, "
-      "triangles entered {}\n",
+      "visible triangles {} -> {}\n",
       s.before.boundary_segments, s.after.boundary_segments, s.before.hidden_area, s.after.hidden_area, kept,
-      s.before.occlusion_regions, s.after.occlusion_regions, s.entered.size());
+      s.before.occlusion_regions, s.after.occlusion_regions, s.before.visible_triangles, s.after.visible_triangles);
 }
 
 }  // namespace clues::app

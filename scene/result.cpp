@@ -86,7 +86,8 @@ std::string dumped(const Json& json) { return json.dump(2, ' ', false, Json::err
 Json to_json(const Simplification::Figures& figures) {
   return {{"occlusion_regions", figures.occlusion_regions},
           {"boundary_segments", figures.boundary_segments},
-          {"hidden_area_estimate", figures.hidden_area}};
+          {"hidden_area_estimate", figures.hidden_area},
+          {"visible_triangles", figures.visible_triangles}};
 }
 
 }  // namespace
@@ -98,8 +99,7 @@ std::string to_json_text(const Result& result, const Simplification& simplificat
   json["simplification"] = {{"min_occlusion", simplification.min_occlusion},
                             {"simplify_boundaries", simplification.simplify_boundaries},
                             {"before", to_json(simplification.before)},
-                            {"after", to_json(simplification.after)},
-                            {"entered", simplification.entered}};
+                            {"after", to_json(simplification.after)}};
   return dumped(json);
 }
 

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "scene/result.h"
 
@@ -13,10 +12,10 @@ struct Simplification {
   struct Figures {
     std::uint64_t occlusion_regions = 0, boundary_segments = 0;
     double hidden_area = 0;  // an estimate, in units of the scene, squared
+    std::uint64_t visible_triangles = 0;
   };
   double min_occlusion = 0, simplify_boundaries = 0;
   Figures before, after;
-  std::vector<std::uint32_t> entered;  // triangles that are in the PVS because of it, ascending
 };
 
 // As for the result alone, with the key "simplification".

@@ -181,6 +181,7 @@ std::map<std::size_t, OcclusionRegion> summed(const VisibilityMap& map, const st
     OcclusionRegion& sum = sums[leader[i]];
     sum.segments += regions[i].segments;
     sum.hidden_area += regions[i].area;
+    if (regions[i].segments > 0) sum.bordered_area += regions[i].area;
     sum.whole_pieces += regions[i].whole;
     for (const exact::Origin& o : map.complex.pieces[piece_of(regions[i].side)].origins)
       sum.triangles.push_back(o.triangle);
@@ -192,9 +193,10 @@ std::map<std::size_t, OcclusionRegion> summed(const VisibilityMap& map, const st
   return sums;
 }
 
-OcclusionFigures figures(const std::map<std::size_t, OcclusionRegion>& sums) {
+OcclusionFigures figures(const VisibilityMap& map, const std::vector<HiddenRegion>& regions) {
   OcclusionFigures out;
-  for (const auto& [i, sum] : sums) {
+  out.visible_triangles = map.visible.size();
+  for (const auto& [i, sum] : summed(map, regions, joined(map.complex, regions))) {
     ++out.regions;
     out.segments += sum.segments;
     out.hidden_area += sum.hidden_area;
@@ -255,7 +257,7 @@ VisibilityMap rebuilt(const VisibilityMap& map, const std::map<std::size_t, std:
 }  // namespace
 
 double OcclusionRegion::effective() const {
-  return segments == 0 ? std::numeric_limits<double>::infinity() : hidden_area / static_cast<double>(segments);
+  return segments == 0 ? std::numeric_limits<double>::infinity() : bordered_area / static_cast<double>(segments);
 }
 
 std::vector<OcclusionRegion> occlusion_regions(const VisibilityMap& map) {
@@ -266,26 +268,26 @@ std::vector<OcclusionRegion> occlusion_regions(const VisibilityMap& map) {
 }
 
 SimplifiedMap with_simpler_occlusion(const VisibilityMap& map, const OcclusionControls& controls) {
-  std::vector<HiddenRegion> regions = hidden_regions(map, controls.threads);
-  const std::vector<HiddenRegion> old = regions;
-  const std::vector<std::size_t> leader = joined(map.complex, regions);  // simplification leaves what lies on edges
+  const std::vector<HiddenRegion> old = hidden_regions(map, controls.threads);
+  std::vector<HiddenRegion> regions = old;
   if (controls.max_loss > 0) simplify(regions, map.complex, controls);
-  auto sums = summed(map, regions, leader);
-  std::erase_if(sums, [&](const auto& sum) { return sum.second.effective() < controls.min_occlusion; });
+  const std::vector<std::size_t> leader = joined(map.complex, regions);
+  const auto sums = summed(map, regions, leader);
 
-  std::map<std::size_t, std::vector<Face2>> kept;
-  std::map<std::size_t, bool> changed;
+  std::vector<HiddenRegion> kept;
+  std::map<std::size_t, std::vector<Face2>> changed;
   for (std::size_t i = 0; i < regions.size(); ++i) {
-    const bool stays = sums.count(leader[i]) > 0;
-    changed[regions[i].side] |= !stays || regions[i].face != old[i].face;
-    auto& faces = kept[regions[i].side];
-    if (stays) faces.push_back(regions[i].face);
+    const bool stays = regions[i].segments == 0 || sums.at(leader[i]).effective() >= controls.min_occlusion;
+    if (!stays || regions[i].face != old[i].face) changed[regions[i].side];
+    if (stays) kept.push_back(std::move(regions[i]));
   }
-  std::erase_if(kept, [&](const auto& side) { return !changed.at(side.first); });
-  SimplifiedMap out{rebuilt(map, kept, controls), figures(summed(map, old, leader)), figures(sums), {}};
-  std::set_difference(out.map.visible.begin(), out.map.visible.end(), map.visible.begin(), map.visible.end(),
-                      std::back_inserter(out.entered));
-  return out;
+  for (const HiddenRegion& region : kept) {
+    const auto side = changed.find(region.side);
+    if (side != changed.end()) side->second.push_back(region.face);
+  }
+  VisibilityMap simpler = rebuilt(map, changed, controls);
+  const OcclusionFigures after = figures(simpler, kept);
+  return {std::move(simpler), figures(map, old), after};
 }
 
 bool hides_no_more(const VisibilityMap& before, const VisibilityMap& after, int threads) {

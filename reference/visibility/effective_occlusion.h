@@ -4,6 +4,9 @@
 // A *hidden region* is a connected part of one side of a piece of the complex. An *occlusion region* is made of hidden regions joined over edges: two of them belong
 // together when their sides meet at an edge of exactly two pieces and both are hidden along some of its length. Only sides that some point of the cell is strictly in front of
 // count: the others face away and are hidden by no one. Where more than two pieces meet, another surface begins, and with it another occlusion region.
+//
+// Where an occlusion region is not worth its boundary, the parts of it that the boundary cuts off become visible; pieces that are hidden wholly cost nothing and stay. So the PVS
+// never changes: a side with a boundary is seen already. (The published text removes the region as a whole, and this as an alternative: the same segments for more of what is hidden.)
 #pragma once
 
 #include <cstddef>
@@ -19,11 +22,12 @@ namespace clues::reference {
 // of the mesh costs nothing.
 struct OcclusionRegion {
   std::uint64_t segments = 0;
-  double hidden_area = 0;                // an estimate, in units of the scene, squared; the same in every run
+  double hidden_area = 0;                // areas are estimates, in units of the scene, squared; the same in every run
+  double bordered_area = 0;              // without the pieces that are hidden wholly
   std::uint64_t whole_pieces = 0;        // sides of pieces that lie in it wholly
   std::vector<std::uint32_t> triangles;  // input triangles with a hidden region in it, ascending
 
-  // Hidden area for each segment. The published measure takes the area seen in an image from one viewpoint, and the new triangles of one way to cut the visible
+  // Bordered area for each segment: what would be given up for it. The published measure takes the area seen in an image from one viewpoint, and the new triangles of one way to cut the visible
   // side; this one depends on neither. Infinite without a segment: there is nothing to save.
   double effective() const;
 };
@@ -32,7 +36,7 @@ struct OcclusionRegion {
 std::vector<OcclusionRegion> occlusion_regions(const VisibilityMap& map);
 
 struct OcclusionControls {
-  double min_occlusion = 0;  // occlusion regions of which effective() is less become visible, after the simplification
+  double min_occlusion = 0;  // where effective() is less, after the simplification, the boundary goes
   double max_loss =
       0;            // 0 to 1: the largest part of its area that a hidden region gives up for a simpler border, exactly
   int threads = 0;  // 0: as many as the machine has; the result does not depend on it
@@ -43,13 +47,13 @@ struct OcclusionFigures {
   std::uint64_t regions = 0;  // occlusion regions
   std::uint64_t segments = 0;
   double hidden_area = 0;  // estimate
+  std::uint64_t visible_triangles = 0;
 };
 
 struct SimplifiedMap {
   VisibilityMap
       map;  // sides of which nothing was given up are as they were; the others have no DM segments but the borders of what is visible
   OcclusionFigures before, after;
-  std::vector<std::uint32_t> entered;  // triangles of the PVS that were not in it before, ascending
 };
 
 // Throws Error internal should anything have become hidden.

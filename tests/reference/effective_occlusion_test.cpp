@@ -84,8 +84,7 @@ TEST(EffectiveOcclusion, Fig30RemovalBelowTheThresholdAndNotAtIt) {
   EXPECT_EQ(removed.before.segments, 7U);
   EXPECT_EQ(removed.after.segments, 0U);
   EXPECT_EQ(removed.after.regions, 1U) << "what has no boundary stays hidden";
-  EXPECT_TRUE(removed.entered.empty()) << "a triangle that is partly hidden was in the PVS already";
-  EXPECT_EQ(removed.map.visible, map.visible);
+  EXPECT_EQ(removed.map.visible, map.visible) << "a triangle that is partly hidden was in the PVS already";
 }
 
 TEST(EffectiveOcclusion, Fig30SimplifiedKeepsWhatItMust) {
@@ -104,7 +103,7 @@ TEST(EffectiveOcclusion, Fig30SimplifiedKeepsWhatItMust) {
   EXPECT_EQ(last, 3U) << "never less than a contour has";
 }
 
-// A shadow over sixteen squares, the four in the middle wholly in it: one region, which goes as a whole or stays.
+// A shadow over sixteen squares, the four in the middle wholly in it: one region.
 SceneBuilder tiles(bool with_fin) {
   SceneBuilder s;
   for (int x = -8; x < 8; x += 4) {
@@ -122,11 +121,11 @@ TEST(EffectiveOcclusion, HiddenRegionsOfNeighboursAreOneOcclusionRegion) {
   ASSERT_EQ(regions.size(), 1U);
   EXPECT_EQ(regions[0].whole_pieces, 8U);
   EXPECT_EQ(regions[0].triangles.size(), 30U) << "the shadow does not reach into the halves of two corners";
+  EXPECT_NEAR(regions[0].hidden_area - regions[0].bordered_area, 8 * 8, 1e-9);
   const SimplifiedMap out = with_simpler_occlusion(map, controls(1.001 * regions[0].effective(), 0));
-  EXPECT_EQ(out.entered.size(), 8U);
-  EXPECT_EQ(out.map.visible.size(), map.visible.size() + 8);
-  EXPECT_TRUE(std::includes(out.map.visible.begin(), out.map.visible.end(), map.visible.begin(), map.visible.end()));
-  EXPECT_EQ(out.after.hidden_area, 0);
+  EXPECT_EQ(out.after.segments, 0U);
+  EXPECT_NEAR(out.after.hidden_area, 8 * 8, 1e-9) << "the eight triangles in the middle cost nothing and stay";
+  EXPECT_EQ(out.map.visible, map.visible);
 }
 
 TEST(EffectiveOcclusion, WhereAnotherSurfaceBeginsAnotherRegionBegins) {
@@ -262,11 +261,11 @@ void expect_less(const SimplifiedMap& more, const SimplifiedMap& less) {
   EXPECT_TRUE(hides_no_more(more.map, less.map));
   EXPECT_LE(less.after.segments, more.after.segments);
   EXPECT_LE(less.after.hidden_area, more.after.hidden_area);
-  EXPECT_TRUE(std::includes(less.entered.begin(), less.entered.end(), more.entered.begin(), more.entered.end()));
+  EXPECT_EQ(less.map.visible, more.map.visible);
 }
 
 struct Saved {
-  std::uint64_t before = 0, simplified = 0, entered = 0, points = 0;
+  std::uint64_t before = 0, simplified = 0, points = 0;
 };
 
 void judge(const VisibilityMap& map, std::size_t points, Saved& saved) {
@@ -285,7 +284,6 @@ void judge(const VisibilityMap& map, std::size_t points, Saved& saved) {
   for (const double loss : {0.05, 0.25, 1.0}) {
     SimplifiedMap out = with_simpler_occlusion(map, controls(0, loss));
     expect_less(last, out);
-    EXPECT_TRUE(out.entered.empty());
     EXPECT_GE(out.after.hidden_area, (1 - loss) * out.before.hidden_area * (1 - 1e-9));
     last = std::move(out);
   }
@@ -300,7 +298,6 @@ void judge(const VisibilityMap& map, std::size_t points, Saved& saved) {
     last = std::move(out);
   }
   EXPECT_EQ(last.after.segments, 0U);
-  saved.entered += last.entered.size();
 }
 
 void judge_scenes(std::uint64_t per_kind, std::size_t points) {
@@ -315,11 +312,11 @@ void judge_scenes(std::uint64_t per_kind, std::size_t points) {
   EXPECT_LT(saved.simplified, saved.before);
   EXPECT_GT(saved.points, 0U);
   std::cout << "seed " << kSeed << ", " << per_kind << " scenes of each kind: " << saved.before << " segments, "
-            << saved.simplified << " where everything but a contour may go; " << saved.entered
-            << " triangles entered with all boundaries removed; " << saved.points << " hidden points by the oracle\n";
+            << saved.simplified << " where everything but a contour may go; " << saved.points
+            << " hidden points by the oracle\n";
 }
 
-TEST(EffectiveOcclusion, NothingBecomesHiddenInRandomScenes) { judge_scenes(2, 4); }
+TEST(EffectiveOcclusion, NothingBecomesHiddenInRandomScenes) { judge_scenes(2, 2); }
 
 TEST(EffectiveOcclusionLong, NothingBecomesHiddenInRandomScenes) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
@@ -360,7 +357,7 @@ TEST(EffectiveOcclusion, RefinedMapsAreSimplifiedToo) {
         refine_by_cells(bounds, {1, 0});
       else
         refine_by_backprojection(bounds, {1, 0});
-      judge(bounds.refined_map(by_cells ? "subdivided" : "backprojected"), 4, saved);
+      judge(bounds.refined_map(by_cells ? "subdivided" : "backprojected"), 2, saved);
     }
   }
   EXPECT_LT(saved.simplified, saved.before);
