@@ -55,6 +55,7 @@ std::string request_text(const MapRequest& request, const std::string& sha256) {
                         {"tolerance_area", request.refine.tolerance_area},
                         {"min_occlusion", json_of(request.simplify.min_occlusion)},
                         {"simplify_boundaries", json_of(request.simplify.simplify_boundaries)},
+                        {"intersect_planes", json_of(request.simplify.intersect_planes)},
                         {"kernel", request.method.kernel},
                         {"map", request.with_map},
                         {"render_states", request.with_states},
@@ -145,7 +146,12 @@ int run_map(MapRequest request) {
   }
   if (request.simplify.asked() && !request.umbra.file.empty()) {
     throw Error(ErrorCode::unsupported,
-                "--umbra is of the whole hidden space; leave out --min-occlusion and --simplify-boundaries");
+                "--umbra is of the whole hidden space; leave out --min-occlusion, --simplify-boundaries and "
+                "--intersect-planes");
+  }
+  if (request.simplify.intersect_planes && request.refinement != validate::Refinement::none) {
+    throw Error(ErrorCode::unsupported,
+                "--intersect-planes needs the wedges of a first-order map; leave out --refine and --method");
   }
   if (request.cell.empty() == request.cells.empty()) {
     throw Error(ErrorCode::bad_argument, "give one of --cell and --cells (see `clues map --help`)");

@@ -24,9 +24,20 @@ void SimplifyChoice::add_to(CLI::App& command) {
           "Give boundaries fewer segments, at the cost of at most this part, 0 to 1, of the area of each hidden\n"
           "region of a triangle")
       ->type_name("LOSS");
+  command
+      .add_option(
+          "--intersect-planes", intersect_planes,
+          "At inside corners of silhouettes let the planes of the two wedges meet, in place of the swept wedges\n"
+          "between, where none of these is more than DEGREES, 0 to 90, from the line in which they meet, and\n"
+          "that saves a segment. Before the others; not with --refine")
+      ->type_name("DEGREES");
 }
 
 void SimplifyChoice::check() const {
+  if (intersect_planes && !(*intersect_planes >= 0 && *intersect_planes <= 90)) {
+    throw Error(ErrorCode::bad_argument,
+                fmt::format("--intersect-planes {}: use an angle, 0 to 90 degrees", *intersect_planes));
+  }
   if (min_occlusion && !(*min_occlusion >= 0 && std::isfinite(*min_occlusion))) {
     throw Error(ErrorCode::bad_argument, fmt::format("--min-occlusion {}: use an area, 0 or more", *min_occlusion));
   }
@@ -38,23 +49,31 @@ void SimplifyChoice::check() const {
 
 reference::OcclusionControls SimplifyChoice::to_reference(int threads) const {
   check();
-  return {min_occlusion.value_or(0), simplify_boundaries.value_or(0), threads, reference::PlantedStep::none};
+  return {min_occlusion.value_or(0), simplify_boundaries.value_or(0), threads, reference::PlantedStep::none,
+          intersect_planes};
 }
 
 scene::Simplification record_of(const reference::SimplifiedMap& simplified, const SimplifyChoice& choice) {
   const auto figures = [](const reference::OcclusionFigures& f) {
     return scene::Simplification::Figures{f.regions, f.segments, f.hidden_area, f.visible_triangles};
   };
-  return {choice.min_occlusion.value_or(0), choice.simplify_boundaries.value_or(0), figures(simplified.before),
-          figures(simplified.after)};
+  return {choice.min_occlusion.value_or(0),
+          choice.simplify_boundaries.value_or(0),
+          figures(simplified.before),
+          figures(simplified.after),
+          choice.intersect_planes,
+          simplified.inside_corners,
+          simplified.by_planes};
 }
 
 std::string summary_of(const scene::Simplification& s) {
   const double kept = s.before.hidden_area > 0 ? 100 * s.after.hidden_area / s.before.hidden_area : 100;
+  const std::string corners =
+      s.intersect_planes ? fmt::format("inside corners by planes {} of {}, ", s.by_planes, s.inside_corners) : "";
   return fmt::format(
-      "simplified: boundary segments {} -> {}, hidden area {:.6g} -> {:.6g} ({:.2f} %), occlusion regions {} -> {}, "
+      "simplified: {}boundary segments {} -> {}, hidden area {:.6g} -> {:.6g} ({:.2f} %), occlusion regions {} -> {}, "
       "visible triangles {} -> {}\n",
-      s.before.boundary_segments, s.after.boundary_segments, s.before.hidden_area, s.after.hidden_area, kept,
+      corners, s.before.boundary_segments, s.after.boundary_segments, s.before.hidden_area, s.after.hidden_area, kept,
       s.before.occlusion_regions, s.after.occlusion_regions, s.before.visible_triangles, s.after.visible_triangles);
 }
 

@@ -1,4 +1,4 @@
-// clues map: how far occlusion may be given up for fewer boundary segments (FIG. 30).
+// clues map: how far occlusion may be given up for fewer boundary segments (FIGS. 20B, 30).
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,11 +11,11 @@
 namespace clues::app {
 
 struct SimplifyChoice {
-  std::optional<double> min_occlusion, simplify_boundaries;
+  std::optional<double> min_occlusion, simplify_boundaries, intersect_planes;
 
   void add_to(CLI::App& command);
   void check() const;  // throws Error bad_argument
-  bool asked() const { return min_occlusion || simplify_boundaries; }
+  bool asked() const { return min_occlusion || simplify_boundaries || intersect_planes; }
   reference::OcclusionControls to_reference(int threads) const;
 };
 

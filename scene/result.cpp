@@ -100,6 +100,11 @@ std::string to_json_text(const Result& result, const Simplification& simplificat
                             {"simplify_boundaries", simplification.simplify_boundaries},
                             {"before", to_json(simplification.before)},
                             {"after", to_json(simplification.after)}};
+  if (simplification.intersect_planes) {
+    json["simplification"]["intersect_planes"] = *simplification.intersect_planes;
+    json["simplification"]["inside_corners"] = simplification.inside_corners;
+    json["simplification"]["by_planes"] = simplification.by_planes;
+  }
   return dumped(json);
 }
 

@@ -1,7 +1,8 @@
-// What the simplification of a map's occlusion (FIG. 30) was asked for, and what it gave up and saved: a part of a result file.
+// What the simplification of a map's occlusion (FIGS. 20B, 30) was asked for, and what it gave up and saved: a part of a result file.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "scene/result.h"
@@ -16,6 +17,8 @@ struct Simplification {
   };
   double min_occlusion = 0, simplify_boundaries = 0;
   Figures before, after;
+  std::optional<double> intersect_planes;           // degrees
+  std::uint64_t inside_corners = 0, by_planes = 0;  // within the angle; of these, used
 };
 
 // As for the result alone, with the key "simplification".

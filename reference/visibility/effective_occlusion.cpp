@@ -13,6 +13,7 @@
 #include "exact/area.h"
 #include "exact/scene_query.h"
 #include "reference/visibility/flat_set.h"
+#include "reference/visibility/inside_corners.h"
 #include "reference/visibility/side_faces.h"
 #include "scene/error.h"
 
@@ -254,6 +255,38 @@ VisibilityMap rebuilt(const VisibilityMap& map, const std::map<std::size_t, std:
   return out;
 }
 
+struct WithPlanes {
+  VisibilityMap map;
+  std::uint64_t corners = 0, taken = 0;
+};
+
+WithPlanes with_planes(const VisibilityMap& map, const OcclusionControls& controls) {
+  std::vector<InsideCorner> corners = inside_corners(map);
+  std::erase_if(corners, [&](const InsideCorner& c) { return !c.within(*controls.corner_angle); });
+  std::vector<std::pair<std::size_t, std::vector<const Region*>>> sides;
+  if (!corners.empty()) {
+    for (auto& [side, regions] : by_side(map)) {
+      if (regions.size() > 1) sides.emplace_back(side, std::move(regions));
+    }
+  }
+  std::vector<std::vector<char>> taken(sides.size(), std::vector<char>(corners.size(), 0));
+  std::vector<std::vector<Face2>> hidden(sides.size());
+  in_parallel(sides.size(), controls.threads, [&](std::size_t k) {
+    const std::uint32_t t = piece_of(sides[k].first);
+    const FlatSet old = set_with(false, sides[k].second, TriangleFrame(map.complex, t));
+    hidden[k] = hidden_by_planes(old, map, t, is_front(sides[k].first), corners, taken[k]).faces();
+  });
+  std::map<std::size_t, std::vector<Face2>> changed;
+  std::vector<char> anywhere(corners.size(), 0);
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    if (std::count(taken[k].begin(), taken[k].end(), 0) == static_cast<std::ptrdiff_t>(corners.size())) continue;
+    changed[sides[k].first] = std::move(hidden[k]);
+    for (std::size_t i = 0; i < corners.size(); ++i) anywhere[i] |= taken[k][i];
+  }
+  return {rebuilt(map, changed, controls), corners.size(),
+          static_cast<std::uint64_t>(std::count(anywhere.begin(), anywhere.end(), 1))};
+}
+
 }  // namespace
 
 double OcclusionRegion::effective() const {
@@ -268,6 +301,16 @@ std::vector<OcclusionRegion> occlusion_regions(const VisibilityMap& map) {
 }
 
 SimplifiedMap with_simpler_occlusion(const VisibilityMap& map, const OcclusionControls& controls) {
+  if (controls.corner_angle) {
+    const WithPlanes planes = with_planes(map, controls);
+    OcclusionControls rest = controls;
+    rest.corner_angle.reset();
+    SimplifiedMap out = with_simpler_occlusion(planes.map, rest);
+    out.before = figures(map, hidden_regions(map, controls.threads));
+    out.inside_corners = planes.corners;
+    out.by_planes = planes.taken;
+    return out;
+  }
   const std::vector<HiddenRegion> old = hidden_regions(map, controls.threads);
   std::vector<HiddenRegion> regions = old;
   if (controls.max_loss > 0) simplify(regions, map.complex, controls);

@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "reference/visibility/boundary_simplification.h"
@@ -41,6 +42,8 @@ struct OcclusionControls {
       0;            // 0 to 1: the largest part of its area that a hidden region gives up for a simpler border, exactly
   int threads = 0;  // 0: as many as the machine has; the result does not depend on it
   PlantedStep planted = PlantedStep::none;
+  std::optional<double> corner_angle = std::
+      nullopt;  // FIG. 20B, before all else: the planes meet where that is within so many degrees of every swept wedge
 };
 
 struct OcclusionFigures {
@@ -54,6 +57,8 @@ struct SimplifiedMap {
   VisibilityMap
       map;  // sides of which nothing was given up are as they were; the others have no DM segments but the borders of what is visible
   OcclusionFigures before, after;
+  std::uint64_t inside_corners = 0,
+                by_planes = 0;  // FIG. 20B: those within the angle, and those of them that saved a segment
 };
 
 // Throws Error internal should anything have become hidden.
