@@ -149,10 +149,7 @@ class Simplifier {
       return made(r, i, true, {b, *x, c});
     }
     if (side != CGAL::LEFT_TURN) return std::nullopt;
-    // A segment that is extended backwards is shortened: it must not vanish.
-    if (at_b == CGAL::LEFT_TURN && !CGAL::collinear_are_strictly_ordered_along_line(a, *x, b)) return std::nullopt;
-    if (at_c == CGAL::LEFT_TURN && !CGAL::collinear_are_strictly_ordered_along_line(c, *x, d)) return std::nullopt;
-    Step step = made(r, i, true, {b, c, *x});
+    Step step = made(r, i, true, {b, c, *x});  // beyond a, or d, x has that corner in the way
     if (at_b == CGAL::LEFT_TURN) step.may_touch = {b};
     if (at_c == CGAL::LEFT_TURN) step.may_touch = {c};
     return step;

@@ -137,6 +137,25 @@ TEST(BoundarySimplification, APinchIsNotCutOpen) {
   }
 }
 
+// A spike that touches the opposite side of the hole it is in: that side goes straight on there, and must keep the corner.
+TEST(BoundarySimplification, ACornerThatIsTouchedStays) {
+  const FlatSet square = set_of({ring({{10, 10}, {60, 10}, {60, 60}, {10, 60}})});
+  const FlatSet set = subtract(subtract(square, set_of({ring({{20, 20}, {40, 20}, {40, 30}, {20, 25}})})),
+                               set_of({ring({{20, 35}, {40, 30}, {40, 40}, {20, 40}})}));
+  ASSERT_EQ(set.faces().size(), 1U);
+  const Face2 face = set.faces()[0];
+  EXPECT_EQ(simpler(face, FT(0)), face);
+}
+
+TEST(BoundarySimplification, ADartGoesOnAlongItsOwnSides) {
+  const Face2 dart{ring({{10, 10}, {50, 10}, {50, 50}, {40, 20}})};
+  EXPECT_EQ(simpler(dart, FT(266)), dart);
+  const Face2 out = simpler(dart, FT(267));  // either side of the reflex corner, extended: 800/3
+  EXPECT_EQ(out[0].size(), 3U);
+  EXPECT_EQ(twice_area(set_of(dart)) - twice_area(set_of(out)), FT(800) / FT(3));
+  EXPECT_EQ(std::count(out[0].begin(), out[0].end(), Point2(FT(110) / FT(3), FT(10))), 1);
+}
+
 TEST(BoundarySimplification, WhatStandsInATriangleIsNotCutOff) {
   // Three corners of the four would go for chords, were the hole not in the triangles that they give up.
   const Face2 face{ring({{10, 10}, {40, 10}, {40, 40}, {10, 41}}), ring({{30, 20}, {29, 21}, {30, 22}})};
