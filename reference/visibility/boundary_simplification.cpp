@@ -26,9 +26,9 @@ bool on_outline(const Kernel::Triangle_2& outline, const Point2& p, const Point2
 struct Corner {
   Point2 p;
   bool boundary = true;  // the segment does not lie on the outline
-  std::optional<std::pair<Point2, Point2>>
-      line;  // two points of the original border that the segment runs along. A chord has none, and is never
-             // extended: so corners are old ones or crossings of old lines, and numbers stay short
+  // Two points of the original border that the segment runs along. A chord has none and is never extended: so corners are old ones or crossings of old lines, and
+  // numbers stay short.
+  std::optional<std::pair<Point2, Point2>> line;
 };
 
 using Ring = std::vector<Corner>;

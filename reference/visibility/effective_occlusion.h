@@ -5,8 +5,9 @@
 // together when their sides meet at an edge of exactly two pieces and both are hidden along some of its length. Only sides that some point of the cell is strictly in front of
 // count: the others face away and are hidden by no one. Where more than two pieces meet, another surface begins, and with it another occlusion region.
 //
-// Where an occlusion region is not worth its boundary, the parts of it that the boundary cuts off become visible; pieces that are hidden wholly cost nothing and stay. So the PVS
-// never changes: a side with a boundary is seen already. (The published text removes the region as a whole, and this as an alternative: the same segments for more of what is hidden.)
+// Where an occlusion region is not worth its boundary, the parts of it that the boundary cuts off become visible; pieces that are hidden wholly cost nothing and stay.
+// So the PVS never changes: a side with a boundary is seen already. (The published text removes the region as a whole, and names this as an alternative: it saves the
+// same segments and gives up less.)
 #pragma once
 
 #include <cstddef>
@@ -28,8 +29,8 @@ struct OcclusionRegion {
   std::uint64_t whole_pieces = 0;        // sides of pieces that lie in it wholly
   std::vector<std::uint32_t> triangles;  // input triangles with a hidden region in it, ascending
 
-  // Bordered area for each segment: what would be given up for it. The published measure takes the area seen in an image from one viewpoint, and the new triangles of one way to cut the visible
-  // side; this one depends on neither. Infinite without a segment: there is nothing to save.
+  // Bordered area for each segment: what would be given up for it. The published measure takes the area seen in an image from one viewpoint, and the new triangles of
+  // one way to cut the visible side; this one depends on neither. Infinite without a segment: there is nothing to save.
   double effective() const;
 };
 
@@ -38,9 +39,8 @@ std::vector<OcclusionRegion> occlusion_regions(const VisibilityMap& map);
 
 struct OcclusionControls {
   double min_occlusion = 0;  // where effective() is less, after the simplification, the boundary goes
-  double max_loss =
-      0;            // 0 to 1: the largest part of its area that a hidden region gives up for a simpler border, exactly
-  int threads = 0;  // 0: as many as the machine has; the result does not depend on it
+  double max_loss = 0;       // 0 to 1: the largest part of its area that a hidden region gives up for a simpler border
+  int threads = 0;           // 0: as many as the machine has; the result does not depend on it
   PlantedStep planted = PlantedStep::none;
   std::optional<double> corner_angle = std::
       nullopt;  // FIG. 20B, before all else: the planes meet where that is within so many degrees of every swept wedge
@@ -54,8 +54,8 @@ struct OcclusionFigures {
 };
 
 struct SimplifiedMap {
-  VisibilityMap
-      map;  // sides of which nothing was given up are as they were; the others have no DM segments but the borders of what is visible
+  // Sides of which nothing was given up are as they were; the others have no DM segments but the borders of what is visible.
+  VisibilityMap map;
   OcclusionFigures before, after;
   std::uint64_t inside_corners = 0,
                 by_planes = 0;  // FIG. 20B: those within the angle, and those of them that saved a segment
