@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "exact/cell_cut.h"
 #include "reference/visibility/exactness.h"
 #include "scene/error.h"
 
@@ -45,62 +44,6 @@ void join(std::vector<ContourSegment>& segments) {
   }
   segments = std::move(joined);
 }
-
-class Refiner {
- public:
-  Refiner(Bounds& bounds, const RefineOptions& options) : bounds_(bounds), options_(options) {}
-
-  std::vector<DepthFigures> run(const DepthReport& report) {
-    std::vector<DepthFigures> depths;
-    const auto note = [&](int depth) {
-      depths.push_back({depth, cells_, bounds_.maps(), bounds_.viewpoints(), bounds_.area()});
-      if (report) report(depths.back());
-    };
-    bounds_.look_around(0);
-    note(0);
-    open_ = bounds_.open_sides();
-    std::vector<ContourSegment> segments = inexact_segments(bounds_.first_order(), open_);
-    for (int depth = 1; depth <= options_.max_depth; ++depth) {
-      if (std::none_of(open_.begin(), open_.end(), [](bool o) { return o; })) break;
-      if (depths.back().area.excess() <= options_.tolerance_area) break;
-      std::vector<ContourSegment> next;
-      for (const ContourSegment& s : segments) {
-        if (adjust(s) == Outcome::no_gain) continue;
-        const Point3 middle = exact::collapsed(CGAL::midpoint(s.lo, s.hi));
-        next.push_back({s.edge, s.lo, middle, s.plane, s.center});
-        next.push_back({s.edge, middle, s.hi, s.plane, s.center});
-      }
-      segments = std::move(next);
-      bounds_.look_around(depth);
-      note(depth);
-      open_ = bounds_.open_sides();
-    }
-    return depths;
-  }
-
- private:
-  enum class Outcome { touches, no_gain, gain };
-
-  // T4: hidden is what both V+ and V- call hidden. Where the segment sees V up to the wedge's own plane there is nothing to adjust, but
-  // parts of it may see less.
-  Outcome adjust(const ContourSegment& s) {
-    const ConvexCell& cell = bounds_.first_order().cell;
-    const Plane3 plane =
-        adjusted_plane(s, seen_by_segment(bounds_.first_order().complex, s, cell, bounds_.options()), cell);
-    const auto plus = exact::part_beside(cell, plane, exact::Side::negative);
-    const auto minus = exact::part_beside(cell, plane, exact::Side::positive);
-    if (!plus || !minus) return Outcome::touches;
-    cells_ += 2;
-    const SideSets by_plus = bounds_.sets_of(bounds_.map_of(*plus, open_));
-    const SideSets by_minus = bounds_.sets_of(bounds_.map_of(*minus, open_));
-    return bounds_.restrict_to(bounds_.united(by_plus, by_minus), open_) ? Outcome::gain : Outcome::no_gain;
-  }
-
-  Bounds& bounds_;
-  RefineOptions options_;
-  std::vector<bool> open_;
-  std::uint64_t cells_ = 1;
-};
 
 }  // namespace
 
@@ -175,7 +118,8 @@ std::vector<Point3> seen_by_segment(const exact::Complex& complex, const Contour
   return seen;
 }
 
-Plane3 adjusted_plane(const ContourSegment& segment, const std::vector<Point3>& seen, const ConvexCell& cell) {
+std::optional<Plane3> adjusted_plane(const ContourSegment& segment, const std::vector<Point3>& seen,
+                                     const ConvexCell& cell) {
   const Point3 &a = segment.lo, &b = segment.hi;
   // Seen along the line of the segment, V fills an angle of at most a half turn, from the wedge's plane on; first: what it meets first.
   const CGAL::Orientation turn = CGAL::orientation(a, b, segment.center, cell.center());
@@ -184,15 +128,10 @@ Plane3 adjusted_plane(const ContourSegment& segment, const std::vector<Point3>& 
   for (const Point3& q : seen) {
     if (!CGAL::collinear(a, b, q) && (!first || ahead(q, *first))) first = q;
   }
-  const Point3 touched = first ? *first : cell.center();
-  const Plane3 plane(a, b, touched);
-  // V(s) lies ahead of `touched`, on the side of the plane that `turn` tells.
+  if (!first) return std::nullopt;
+  const Plane3 plane(a, b, *first);
+  // V(s) lies ahead of `first`, on the side of the plane that `turn` tells.
   return turn == CGAL::POSITIVE ? plane.opposite() : plane;
-}
-
-std::vector<DepthFigures> refine_by_backprojection(Bounds& bounds, const RefineOptions& options,
-                                                   const DepthReport& report) {
-  return Refiner(bounds, options).run(report);
 }
 
 }  // namespace clues::reference

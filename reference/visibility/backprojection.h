@@ -8,7 +8,7 @@
 // well (T4; raw adjusted wedges hide visible geometry, hazard A-4). So what is accepted as hidden is what the maps of V+ and of V- both call
 // hidden: V-'s own wedges, of the occluders between s and V-, are the cut that makes the wedge a UBP. By D21 every plane whatever gives a sound bound this way;
 // which plane is chosen decides what is gained, never whether the answer is right. What s sees is therefore computed without the triangles whose planes hold s:
-// they hide nothing from it (hazards ). Where s sees nothing of V (hazard A-11) the plane through s and V's centre will do. Neighbouring segments need no
+// they hide nothing from it (hazards ). Where s sees nothing of V (hazard A-11) its wedge is left as it is: what hides s has segments of its own. Neighbouring segments need no
 // joining pieces of their own (FIG. 24C, hazards ): the halves are cells, and their maps have the SE-MV wedges that close their umbrae.
 #pragma once
 
@@ -37,13 +37,14 @@ std::vector<exact::Point3> seen_by_segment(const exact::Complex& complex, const 
                                            const exact::ConvexCell& cell, const Options& options);
 
 // The plane through the segment that touches what it sees, turned from the wedge's own plane towards V; V(s) in the closed negative side. The wedge's own plane if that
-// touches V(s) already; the plane through V's centre if nothing is seen.
-exact::Plane3 adjusted_plane(const ContourSegment& segment, const std::vector<exact::Point3>& seen,
-                             const exact::ConvexCell& cell);
+// touches V(s) already; none if nothing is seen.
+std::optional<exact::Plane3> adjusted_plane(const ContourSegment& segment, const std::vector<exact::Point3>& seen,
+                                            const exact::ConvexCell& cell);
 
-// Depth by depth: V is cut by the adjusted plane of every inexact segment of its first-order map, and what both halves call hidden is hidden. Segments that gained
-// something, or whose plane touches all of V, are halved for the next depth: the planes of the parts converge to the quadric through edge, obstacle and cell, from the
-// safe side. V+ and V- are mapped to first order: that is where the question T4 asks again ends. Depth 0 is the first-order map; `cells` counts the halves too.
+// Depth by depth, adjusted_cuts.cpp: V is cut by the adjusted planes of the inexact segments of its first-order map, and what both halves call hidden is hidden. The halves
+// are cells, with inexact segments of their own, and are cut by the same rule at the next depth: what T4 asks of V- is the same question again. A segment is halved for
+// the next depth whether its plane cut anything or not: the planes of its parts converge to the quadric through edge, obstacle and cell, from the safe side.
+// Depth 0 is the first-order map; `cells` counts the halves too.
 std::vector<DepthFigures> refine_by_backprojection(Bounds& bounds, const RefineOptions& options,
                                                    const DepthReport& report = {});
 

@@ -21,6 +21,7 @@ struct DepthFigures {
   int depth = 0;
   std::uint64_t cells = 1, maps = 0, viewpoints = 0;
   AreaEstimate area;
+  std::uint64_t backprojections = 0;  // maps of what a segment sees of the cell
 };
 
 using DepthReport = std::function<void(const DepthFigures&)>;

@@ -1,0 +1,130 @@
+// T4 as a recursion. A part of V has its first-order map; each cut of it, by the adjusted plane of one of its segments, gives another upper bound of what it sees:
+// what its two halves see together. All of them hold at once (D21), so what the part sees is in their intersection, and the bound of the halves shrinks in the same way.
+//
+// Cuts cost two maps each, and a part may have many segments. What an adjusted wedge can take away lies between two planes (deviation.h); where little of
+// what is in doubt lies there, nothing is cut.
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "exact/cell_cut.h"
+#include "reference/visibility/backprojection.h"
+#include "reference/visibility/deviation.h"
+
+namespace clues::reference {
+
+using exact::ConvexCell;
+using exact::Plane3;
+using exact::Point3;
+
+namespace {
+
+// A cut is made if it may take away more than this share of the excess. Smaller shares cost many more maps and gain little: docs/precision.md.
+constexpr double least_share = 1.0 / 64;
+
+struct Part {
+  ConvexCell cell;
+  SideSets first_order;
+  std::vector<bool> open;                // sides of which it may see more than is known to be seen
+  std::vector<ContourSegment> segments;  // to be adjusted at the next depth
+  std::vector<std::array<std::size_t, 2>> cuts;
+};
+
+class AdjustedCuts {
+ public:
+  AdjustedCuts(Bounds& bounds, const RefineOptions& options) : bounds_(bounds), options_(options) {}
+
+  std::vector<DepthFigures> run(const DepthReport& report) {
+    std::vector<DepthFigures> depths;
+    const auto note = [&](int depth) {
+      depths.push_back({depth, cells_, bounds_.maps(), bounds_.viewpoints(), bounds_.area(), backprojections_});
+      if (report) report(depths.back());
+    };
+    bounds_.look_around(0);
+    note(0);
+    open_ = bounds_.open_sides();
+    parts_.push_back(
+        {bounds_.first_order().cell, bounds_.upper(), open_, inexact_segments(bounds_.first_order(), open_), {}});
+    for (int depth = 1; depth <= options_.max_depth; ++depth) {
+      if (std::none_of(open_.begin(), open_.end(), [](bool o) { return o; })) break;
+      const double excess = depths.back().area.excess();
+      if (excess <= options_.tolerance_area) break;
+      least_gain_ = excess * least_share;
+      const std::size_t parts = parts_.size();  // the halves made now wait for the next depth
+      for (std::size_t i = 0; i < parts; ++i) {
+        if (adjust(i)) bounds_.restrict_to(upper_of(0), open_);
+      }
+      bounds_.look_around(depth);
+      note(depth);
+      open_ = bounds_.open_sides();
+    }
+    return depths;
+  }
+
+ private:
+  // Whether the part was cut.
+  bool adjust(std::size_t i) {
+    const std::vector<ContourSegment> segments = std::exchange(parts_[i].segments, {});
+    if (segments.empty()) return false;
+    const ConvexCell cell = parts_[i].cell;
+    for (std::size_t k = 0; k < open_.size(); ++k) parts_[i].open[k] = parts_[i].open[k] && open_[k];
+    const DoubtfulArea doubtful(bounds_, parts_[i].first_order, parts_[i].open);
+    const std::size_t cuts = parts_[i].cuts.size();
+    for (const ContourSegment& s : segments) {
+      if (!(doubtful.between(s.plane, separating_plane(s, cell)) > least_gain_)) continue;
+      ++backprojections_;
+      const auto seen = seen_by_segment(bounds_.first_order().complex, s, cell, bounds_.options());
+      const auto plane = adjusted_plane(s, seen, cell);
+      if (!plane) continue;
+      if (doubtful.between(s.plane, *plane) > least_gain_) cut(i, *plane);
+      const Point3 middle = exact::collapsed(CGAL::midpoint(s.lo, s.hi));
+      parts_[i].segments.push_back({s.edge, s.lo, middle, s.plane, s.center});
+      parts_[i].segments.push_back({s.edge, middle, s.hi, s.plane, s.center});
+    }
+    return parts_[i].cuts.size() > cuts;
+  }
+
+  void cut(std::size_t i, const Plane3& plane) {
+    const auto plus = exact::part_beside(parts_[i].cell, plane, exact::Side::negative);
+    const auto minus = exact::part_beside(parts_[i].cell, plane, exact::Side::positive);
+    if (!plus || !minus) return;
+    cells_ += 2;
+    parts_[i].cuts.push_back({parts_.size(), parts_.size() + 1});
+    for (const ConvexCell* half : {&*plus, &*minus}) {
+      const std::vector<bool> wanted = parts_[i].open;
+      const VisibilityMap map = bounds_.map_of(*half, wanted);
+      Part part{*half, bounds_.sets_of(map), wanted, {}, {}};
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+        part.open[k] = wanted[k] && !subtract(part.first_order[k], bounds_.lower()[k]).empty();
+      part.segments = inexact_segments(map, part.open);
+      parts_.push_back(std::move(part));
+    }
+  }
+
+  SideSets upper_of(std::size_t i) const {
+    SideSets seen = parts_[i].first_order;
+    for (const auto& [plus, minus] : parts_[i].cuts) {
+      const SideSets by_both = bounds_.united(upper_of(plus), upper_of(minus));
+      for (std::size_t k = 0; k < seen.size(); ++k) {
+        if (parts_[i].open[k]) seen[k] = intersect(seen[k], by_both[k]);
+      }
+    }
+    return seen;
+  }
+
+  Bounds& bounds_;
+  RefineOptions options_;
+  std::vector<bool> open_;
+  std::vector<Part> parts_;
+  double least_gain_ = 0;
+  std::uint64_t cells_ = 1, backprojections_ = 0;
+};
+
+}  // namespace
+
+std::vector<DepthFigures> refine_by_backprojection(Bounds& bounds, const RefineOptions& options,
+                                                   const DepthReport& report) {
+  return AdjustedCuts(bounds, options).run(report);
+}
+
+}  // namespace clues::reference
