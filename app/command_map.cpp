@@ -56,6 +56,7 @@ std::string request_text(const MapRequest& request, const std::string& sha256) {
                         {"min_occlusion", json_of(request.simplify.min_occlusion)},
                         {"simplify_boundaries", json_of(request.simplify.simplify_boundaries)},
                         {"intersect_planes", json_of(request.simplify.intersect_planes)},
+                        {"retract", request.refine.retract},
                         {"kernel", request.method.kernel},
                         {"map", request.with_map},
                         {"render_states", request.with_states},
@@ -138,6 +139,7 @@ int run_map(MapRequest request) {
   request.refinement = wanted_refinement(request);
   request.refine.to_reference();  // complains of bad numbers now
   request.simplify.check();
+  request.refine.check_retract(request.refinement);
   request.asked_method = request.method.method;
   if (request.method.method == "backprojected") request.method.method = "first-order";  // refined afterwards
   request.method.check();

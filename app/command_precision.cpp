@@ -26,6 +26,7 @@ int run_precision(const PrecisionRequest& request) {
   const auto options = request.method.to_reference();
   const auto refinement = request.refine.refinement(validate::Refinement::cells);
   const auto refine = request.refine.to_reference();
+  request.refine.check_retract(refinement);
   for (const std::string* path : {&request.out, &request.svg}) {
     if (!path->empty()) require_writable_parent(*path);
   }

@@ -96,6 +96,10 @@ void RefineChoice::add_to(CLI::App& command) {
           "Done when no more than this area, in units of the scene, is neither known to be visible nor known to\n"
           "be hidden (default 0)")
       ->type_name("X");
+  command.add_flag(
+      "--retract", retract,
+      "Backprojection: where an adjusted wedge would run into the surface at its own edge, take the plane\n"
+      "of a neighbouring edge nearer to the cell. Seldom gains anything");
 }
 
 reference::RefineOptions RefineChoice::to_reference() const {
@@ -105,7 +109,7 @@ reference::RefineOptions RefineChoice::to_reference() const {
   if (!(tolerance_area >= 0)) {
     throw Error(ErrorCode::bad_argument, fmt::format("--tolerance-area {}: use 0 or more", tolerance_area));
   }
-  return {max_depth, tolerance_area};
+  return {max_depth, tolerance_area, retract};
 }
 
 validate::Refinement RefineChoice::refinement(validate::Refinement otherwise) const {
@@ -114,6 +118,11 @@ validate::Refinement RefineChoice::refinement(validate::Refinement otherwise) co
   if (refine == "backprojection") return validate::Refinement::backprojection;
   if (refine == "both") return validate::Refinement::both;
   throw Error(ErrorCode::bad_argument, "--refine " + refine + ": no such refinement; use cell, backprojection or both");
+}
+
+void RefineChoice::check_retract(validate::Refinement wanted) const {
+  if (retract && wanted != validate::Refinement::backprojection && wanted != validate::Refinement::both)
+    throw Error(ErrorCode::bad_argument, "--retract is about backprojection; add --refine backprojection or both");
 }
 
 void require_writable_parent(const std::filesystem::path& path) {

@@ -31,10 +31,12 @@ struct RefineChoice {
   std::string refine;  // "cell", "backprojection", "both"; empty: the command's default
   int max_depth = 4;
   double tolerance_area = 0;
+  bool retract = false;
 
   void add_to(CLI::App& command);
   reference::RefineOptions to_reference() const;                          // throws Error bad_argument
   validate::Refinement refinement(validate::Refinement otherwise) const;  // throws Error bad_argument
+  void check_retract(validate::Refinement wanted) const;                  // throws Error bad_argument
 };
 
 // The two paragraphs about SPEC and exit codes that every footer needs.

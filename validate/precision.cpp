@@ -43,11 +43,13 @@ const char* name_of(Refinement refinement) {
 }
 
 std::string to_table(const PrecisionReport& report) {
-  std::string text = "depth  cells   maps  viewpoints       witnessed         refined          excess  of facing\n";
+  std::string text =
+      "depth  cells   maps  backprojections  viewpoints       witnessed         refined          excess  of facing\n";
   for (const DepthFigures& d : report.depths) {
     const double share = d.area.facing > 0 ? 100 * d.area.excess() / d.area.facing : 0;
-    text += fmt::format("{:>5}  {:>5}  {:>5}  {:>10}  {:>14.6g}  {:>14.6g}  {:>14.6g}  {:>7.3f} %\n", d.depth, d.cells,
-                        d.maps, d.viewpoints, d.area.lower, d.area.upper, d.area.excess(), share);
+    text += fmt::format("{:>5}  {:>5}  {:>5}  {:>15}  {:>10}  {:>14.6g}  {:>14.6g}  {:>14.6g}  {:>7.3f} %\n", d.depth,
+                        d.cells, d.maps, d.backprojections, d.viewpoints, d.area.lower, d.area.upper, d.area.excess(),
+                        share);
   }
   const auto decided =
       std::count_if(report.triangles.begin(), report.triangles.end(), [](const auto& t) { return t.lower == t.upper; });
@@ -69,6 +71,7 @@ std::string to_json_text(const PrecisionReport& report, const std::string& scene
                       {"cells", d.cells},
                       {"maps", d.maps},
                       {"viewpoints", d.viewpoints},
+                      {"backprojections", d.backprojections},
                       {"area",
                        {{"facing", d.area.facing},
                         {"witnessed", d.area.lower},

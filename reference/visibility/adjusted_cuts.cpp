@@ -10,6 +10,7 @@
 #include "exact/cell_cut.h"
 #include "reference/visibility/backprojection.h"
 #include "reference/visibility/deviation.h"
+#include "reference/visibility/retraction.h"
 
 namespace clues::reference {
 
@@ -28,6 +29,7 @@ struct Part {
   std::vector<bool> open;                // sides of which it may see more than is known to be seen
   std::vector<ContourSegment> segments;  // to be adjusted at the next depth
   std::vector<std::array<std::size_t, 2>> cuts;
+  std::size_t whole = 0, other = 0;  // what was cut, and the other half; 0, 0: V
 };
 
 class AdjustedCuts {
@@ -68,15 +70,17 @@ class AdjustedCuts {
     if (segments.empty()) return false;
     const ConvexCell cell = parts_[i].cell;
     for (std::size_t k = 0; k < open_.size(); ++k) parts_[i].open[k] = parts_[i].open[k] && open_[k];
-    const DoubtfulArea doubtful(bounds_, parts_[i].first_order, parts_[i].open);
+    const DoubtfulArea doubtful(bounds_, seen_alone(i), parts_[i].open);
     const std::size_t cuts = parts_[i].cuts.size();
     for (const ContourSegment& s : segments) {
       if (!(doubtful.between(s.plane, separating_plane(s, cell)) > least_gain_)) continue;
-      ++backprojections_;
-      const auto seen = seen_by_segment(bounds_.first_order().complex, s, cell, bounds_.options());
-      const auto plane = adjusted_plane(s, seen, cell);
+      const auto plane = plane_of(s, cell);
       if (!plane) continue;
       if (doubtful.between(s.plane, *plane) > least_gain_) cut(i, *plane);
+      if (options_.retract) {
+        const auto nearer = retracted(s, *plane, cell);
+        if (nearer && doubtful.between(nearer->first_order, nearer->adjusted) > least_gain_) cut(i, nearer->adjusted);
+      }
       const Point3 middle = exact::collapsed(CGAL::midpoint(s.lo, s.hi));
       parts_[i].segments.push_back({s.edge, s.lo, middle, s.plane, s.center});
       parts_[i].segments.push_back({s.edge, middle, s.hi, s.plane, s.center});
@@ -84,21 +88,58 @@ class AdjustedCuts {
     return parts_[i].cuts.size() > cuts;
   }
 
+  std::optional<Plane3> plane_of(const ContourSegment& s, const ConvexCell& cell) {
+    ++backprojections_;
+    return adjusted_plane(s, seen_by_segment(bounds_.first_order().complex, s, cell, bounds_.options()), cell);
+  }
+
+  // The planes of the first edge on the way to the cell whose adjusted plane does not run into its surface; none if the segment's own does not.
+  struct Planes {
+    Plane3 first_order, adjusted;
+  };
+  std::optional<Planes> retracted(const ContourSegment& s, const Plane3& own, const ConvexCell& cell) {
+    const exact::Complex& complex = bounds_.first_order().complex;
+    ContourSegment source = s;
+    std::optional<Plane3> plane = own;
+    while (runs_into_surface(complex, source.edge, *plane)) {
+      const auto nearer = nearer_edge(complex, source, cell);
+      if (!nearer) return std::nullopt;
+      source = *nearer;
+      plane = plane_of(source, cell);
+      if (!plane) return std::nullopt;
+    }
+    if (source.edge == s.edge) return std::nullopt;
+    return Planes{source.plane, *plane};
+  }
+
   void cut(std::size_t i, const Plane3& plane) {
     const auto plus = exact::part_beside(parts_[i].cell, plane, exact::Side::negative);
     const auto minus = exact::part_beside(parts_[i].cell, plane, exact::Side::positive);
     if (!plus || !minus) return;
     cells_ += 2;
-    parts_[i].cuts.push_back({parts_.size(), parts_.size() + 1});
+    const std::array<std::size_t, 2> cuts{parts_.size(), parts_.size() + 1};
+    parts_[i].cuts.push_back(cuts);
     for (const ConvexCell* half : {&*plus, &*minus}) {
       const std::vector<bool> wanted = parts_[i].open;
       const VisibilityMap map = bounds_.map_of(*half, wanted);
-      Part part{*half, bounds_.sets_of(map), wanted, {}, {}};
+      Part part{*half, bounds_.sets_of(map), wanted, {}, {}, i, half == &*plus ? cuts[1] : cuts[0]};
       for (std::size_t k = 0; k < wanted.size(); ++k)
         part.open[k] = wanted[k] && !subtract(part.first_order[k], bounds_.lower()[k]).empty();
       part.segments = inexact_segments(map, part.open);
       parts_.push_back(std::move(part));
     }
+  }
+
+  // T4 asks of V- what is hidden from V+: a place that both halves may see is not decided by looking closer at one of them.
+  SideSets seen_alone(std::size_t i) const {
+    SideSets seen = parts_[i].first_order;
+    for (std::size_t half = i; half != 0; half = parts_[half].whole) {
+      const SideSets by_other = upper_of(parts_[half].other);
+      for (std::size_t k = 0; k < seen.size(); ++k) {
+        if (parts_[i].open[k]) seen[k] = subtract(seen[k], by_other[k]);
+      }
+    }
+    return seen;
   }
 
   SideSets upper_of(std::size_t i) const {

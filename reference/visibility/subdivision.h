@@ -14,6 +14,7 @@ namespace clues::reference {
 struct RefineOptions {
   int max_depth = 4;          // cuts on the way from V to a part
   double tolerance_area = 0;  // done when the estimated excess is no more than this
+  bool retract = false;       // by backprojection: retraction.h
 };
 
 // The state after one more depth; cells: the parts that V is cut into.

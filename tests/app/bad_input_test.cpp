@@ -100,6 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"UnknownKernel", {"--cell", cell, "--kernel", "quick"}, "quick"},
         BadCommand{"UnknownRefinement", {"--cell", cell, "--refine", "guess"}, "guess"},
         BadCommand{"NegativeDepth", {"--cell", cell, "--refine", "cell", "--max-depth", "-1"}, "--max-depth"},
+        BadCommand{"RetractWithoutBackprojection", {"--cell", cell, "--refine", "cell", "--retract"}, "--retract"},
         BadCommand{"ToleranceWithoutNumber", {"--cell", cell, "--tolerance-area", "nan"}, "--tolerance-area"},
         BadCommand{"NegativeMinOcclusion", {"--cell", cell, "--min-occlusion", "-1"}, "--min-occlusion"},
         BadCommand{"MinOcclusionNan", {"--cell", cell, "--min-occlusion", "nan"}, "--min-occlusion"},

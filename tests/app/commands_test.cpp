@@ -70,6 +70,7 @@ TEST(Map, RefinedMapsHoldTheVisibleTrianglesAndSayHowTheyWereMade) {
   for (const auto& [arguments, method] :
        {std::pair<std::vector<std::string>, std::string>{{"--refine", "cell"}, "subdivided"},
         {{"--method", "backprojected"}, "backprojected"},
+        {{"--method", "backprojected", "--retract"}, "backprojected"},
         {{"--method", "backprojected", "--refine", "cell", "--tolerance-area", "0.5"}, "backprojected"}}) {
     std::vector<std::string> all{"map", "scene.off", "--cell", screen_cell, "--json", "--map", "--max-depth", "1"};
     all.insert(all.end(), arguments.begin(), arguments.end());

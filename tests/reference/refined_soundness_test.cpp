@@ -1,5 +1,5 @@
 // Refined maps (D20, D21, T4) against what shares no algorithm with them: the point-occlusion oracle, exact sight lines and the exact visible set. All generators,
-// about a thousand small scenes for each kind of refinement.
+// about a thousand small scenes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -134,7 +134,7 @@ TEST_P(RefinedSoundnessLong, NothingHiddenIsSeen) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
   const fuzz::GivenScenes none;
   const auto& [name, by] = GetParam();
-  const Judged judged = judge_generator(fuzz::generators_named({name}, none).at(0), by, {40, 2, 2, 40, 40});
+  const Judged judged = judge_generator(fuzz::generators_named({name}, none).at(0), by, {21, 2, 2, 24, 24});
   EXPECT_GT(judged.scenes, 0U);
 }
 

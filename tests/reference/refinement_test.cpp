@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "exact/cell_cut.h"
+#include "fuzz/generators/skew_edges.h"
 #include "judges.h"
 #include "reference/visibility/backprojection.h"
 #include "reference/visibility/bounds.h"
@@ -34,48 +35,6 @@ std::vector<reference::DepthFigures> refine(Bounds& bounds, By by, int depth) {
   return by == By::cells ? refine_by_cells(bounds, options) : refine_by_backprojection(bounds, options);
 }
 
-// --- scenes -----------------------------------------------------------------------------------------------------------------
-
-// Covers n . x >= g at height z, as far as 8; n has entries -1, 0, 1.
-void half_plane(SceneBuilder& scene, double nx, double ny, double g, double z) {
-  constexpr double r = 8;
-  const double s = nx * nx + ny * ny, x = nx * g / s, y = ny * g / s;
-  scene.quad({x + r * ny, y - r * nx, z}, {x + r * (ny + nx), y + r * (ny - nx), z},
-             {x + r * (nx - ny), y + r * (ny + nx), z}, {x - r * ny, y + r * nx, z});
-}
-
-// Two slits that cross each other at an angle, in two walls: their edges and those of the cell make EEE events.
-SceneBuilder two_slits() {
-  SceneBuilder scene;
-  half_plane(scene, 0, 1, 1 / 8., 2);
-  half_plane(scene, 0, -1, 1 / 8., 2);
-  half_plane(scene, 1, 1, 1 / 8., 4);
-  half_plane(scene, -1, -1, 1 / 8., 4);
-  scene.plate(-8, -8, 8, 8, 6);
-  return scene;
-}
-
-// Three half planes at different heights, whose edges are mutually skew and leave a twisted hole.
-SceneBuilder three_skew_edges() {
-  SceneBuilder scene;
-  half_plane(scene, 0, 1, 1 / 4., 2);
-  half_plane(scene, 1, -1, 1 / 4., 3);
-  half_plane(scene, -1, -1, 1 / 4., 4);
-  scene.plate(-8, -8, 8, 8, 6);
-  return scene;
-}
-
-// Four slits, each across the one before: what is seen through them is a small part of what each lets through.
-SceneBuilder keyhole() {
-  SceneBuilder scene;
-  for (const auto& [nx, ny, z] : {std::array<double, 3>{1, 0, 1}, {0, 1, 2}, {1, 1, 3}, {1, -1, 4}}) {
-    half_plane(scene, nx, ny, 1 / 16., z);
-    half_plane(scene, -nx, -ny, 1 / 16., z);
-  }
-  scene.plate(-4, -4, 4, 4, 6);
-  return scene;
-}
-
 // --- D21 --------------------------------------------------------------------------------------------------------------------
 
 // A screen in the cell hides nothing (D3). It lies above the lower quarter of the cell, and would hide the target from it, were that a cell of its own.
@@ -95,23 +54,23 @@ TEST(Subdivision, GeometryInTheCellHidesNothingFromItsParts) {
 }
 
 TEST(Subdivision, CellsOfAllDimensions) {
-  const SceneBuilder scene = two_slits();
+  const auto scene = fuzz::two_slits();
   for (const ConvexCell& cell :
        {box_cell(-1, -1, 0, 1, 1, 0.5), box_cell(-1, -1, 0, 1, 1, 0), box_cell(-1, 0.25, 0, 1, 0.25, 0)}) {
-    Bounds bounds(scene.mesh(), cell, {});
+    Bounds bounds(scene.mesh, cell, {});
     const auto depths = refine(bounds, By::cells, 2);
     EXPECT_GE(depths.back().cells, 2U);
     EXPECT_LT(depths.back().area.excess(), depths.front().area.excess());
   }
-  Bounds point(scene.mesh(), box_cell(0, 0, 0, 0, 0, 0), {});
+  Bounds point(scene.mesh, box_cell(0, 0, 0, 0, 0, 0), {});
   refine(point, By::cells, 2);
   EXPECT_TRUE(point.closed()) << "from a point first order is exact";
 }
 
 // --- precision --------------------------------------------------------------------------------------------------------------
 
-void expect_factor_four(const SceneBuilder& scene, const ConvexCell& cell, By by) {
-  Bounds bounds(scene.mesh(), cell, {});
+void expect_factor_four(const fuzz::GeneratedScene& scene, By by) {
+  Bounds bounds(scene.mesh, ConvexCell::from_doubles(scene.cell), {});
   const auto depths = refine(bounds, by, 4);
   for (std::size_t i = 0; i < depths.size(); ++i) {
     const auto& a = depths[i].area;
@@ -198,12 +157,8 @@ TEST(Backprojection, HazardA4TheRawWedgeHidesWhatIsVisible) {
       << "between the two wedges, and before the wedge of O: hidden from both parts of the cell";
 }
 
-TEST(Backprojection, ThreeSkewEdgesCloseIn) {
-  expect_factor_four(three_skew_edges(), box_cell(-1, -1, 0, 1, 1, 0.5), By::backprojection);
-}
-TEST(Subdivision, ThreeSkewEdgesCloseIn) {
-  expect_factor_four(three_skew_edges(), box_cell(-1, -1, 0, 1, 1, 0.5), By::cells);
-}
+TEST(Backprojection, ThreeSkewEdgesCloseIn) { expect_factor_four(fuzz::three_skew_edges(), By::backprojection); }
+TEST(Subdivision, ThreeSkewEdgesCloseIn) { expect_factor_four(fuzz::three_skew_edges(), By::cells); }
 
 class RefinementLong : public testing::Test {
  protected:
@@ -212,18 +167,10 @@ class RefinementLong : public testing::Test {
   }
 };
 
-TEST_F(RefinementLong, TwoSlitsCloseInByBackprojection) {
-  expect_factor_four(two_slits(), box_cell(-1, -1, 0, 1, 1, 0.5), By::backprojection);
-}
-TEST_F(RefinementLong, TwoSlitsCloseInByCells) {
-  expect_factor_four(two_slits(), box_cell(-1, -1, 0, 1, 1, 0.5), By::cells);
-}
-TEST_F(RefinementLong, KeyholeClosesInByBackprojection) {
-  expect_factor_four(keyhole(), box_cell(-0.5, -0.5, -1, 0.5, 0.5, 0), By::backprojection);
-}
-TEST_F(RefinementLong, KeyholeClosesInByCells) {
-  expect_factor_four(keyhole(), box_cell(-0.5, -0.5, -1, 0.5, 0.5, 0), By::cells);
-}
+TEST_F(RefinementLong, TwoSlitsCloseInByBackprojection) { expect_factor_four(fuzz::two_slits(), By::backprojection); }
+TEST_F(RefinementLong, TwoSlitsCloseInByCells) { expect_factor_four(fuzz::two_slits(), By::cells); }
+TEST_F(RefinementLong, KeyholeClosesInByBackprojection) { expect_factor_four(fuzz::keyhole(), By::backprojection); }
+TEST_F(RefinementLong, KeyholeClosesInByCells) { expect_factor_four(fuzz::keyhole(), By::cells); }
 
 // --- FIG. 27 ----------------------------------------------------------------------------------------------------------------
 
