@@ -11,11 +11,9 @@
 
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/skew_edges.h"
-#include "validate/precision.h"
+#include "reference/visibility/backprojection.h"
 
 namespace {
-
-using clues::validate::Refinement;
 
 double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -35,9 +33,9 @@ std::vector<Row> measure(const clues::fuzz::GeneratedScene& scene, bool by_cells
   };
   const clues::reference::RefineOptions refine{max_depth, 0, retract};
   if (by_cells) {
-    refine_by_cells(bounds, refine, report);
+    clues::reference::refine_by_cells(bounds, refine, report);
   } else {
-    refine_by_backprojection(bounds, refine, report);
+    clues::reference::refine_by_backprojection(bounds, refine, report);
   }
   return rows;
 }
