@@ -57,8 +57,22 @@ class LocalMap::Parts {
   Parts(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& o, const Box* outside)
       : options(o),
         scene(mesh, cell),
+        wanted(mesh.triangles.size(), true),
         bounds(fastpath::bounds_of(scene, outside)),
         search(scene, bounds, options, counts) {
+    make();
+  }
+  Parts(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part,
+        const LocalMapOptions& o, const std::vector<bool>& w)
+      : options(o),
+        scene(complex, whole, part),
+        wanted(w),
+        bounds(scene.bounds),
+        search(scene, bounds, options, counts) {
+    make();
+  }
+
+  void make() {
     const RoundedUp rounded_up;
     const std::uint64_t before = exact_decisions();
     counts.pieces = scene.pieces.size();
@@ -91,6 +105,7 @@ class LocalMap::Parts {
   const LocalMapOptions options;
   LocalMapCounts counts;
   LocalScene scene;
+  const std::vector<bool> wanted;  // by triangle
   IntervalBox bounds;
   Search search;
   std::vector<std::uint32_t> visible, lit;
@@ -109,7 +124,7 @@ class LocalMap::Parts {
       const LocalPiece& piece = scene.pieces[t];
       const auto all = [&](const std::vector<bool>& known) {
         return std::all_of(piece.origins.begin(), piece.origins.end(),
-                           [&](const LocalOrigin& o) { return known[o.triangle]; });
+                           [&](const LocalOrigin& o) { return known[o.triangle] || !wanted[o.triangle]; });
       };
       for (const bool front : {true, false}) {
         if (all(seen) && all(met)) break;
@@ -121,8 +136,8 @@ class LocalMap::Parts {
       }
     }
     for (std::uint32_t t = 0; t < seen.size(); ++t) {
-      if (seen[t]) visible.push_back(t);
-      if (met[t]) lit.push_back(t);
+      if (seen[t] && wanted[t]) visible.push_back(t);
+      if (met[t] && wanted[t]) lit.push_back(t);
     }
   }
 
@@ -271,7 +286,7 @@ std::uint64_t LocalMap::conservative_labels() const { return parts_->conservativ
 
 std::vector<LocalRegion> LocalMap::regions() const {
   const RoundedUp rounded_up;
-  return make_regions(parts_->scene, parts_->search.pieces(), parts_->options.mode,
+  return make_regions(parts_->scene, parts_->search.pieces(), parts_->options.mode, parts_->wanted,
                       [&](const Point& p) { return label(p) == Label::visible; });
 }
 
@@ -332,6 +347,11 @@ LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell
     }
   }
   return LocalMap(std::make_shared<const LocalMap::Parts>(mesh, cell, options, outside));
+}
+
+LocalMap make_local_map_in(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part,
+                           const LocalMapOptions& options, const std::vector<bool>& wanted) {
+  return LocalMap(std::make_shared<const LocalMap::Parts>(complex, whole, part, options, wanted));
 }
 
 }  // namespace clues::fastpath

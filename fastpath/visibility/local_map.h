@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "exact/complex.h"
 #include "exact/convex_cell.h"
 #include "fastpath/filter.h"
 #include "fastpath/visibility/box.h"
@@ -90,5 +91,10 @@ class LocalMap {
 // the hull of mesh, cell and `outside`.
 LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& options,
                         const Box* outside = nullptr);
+
+// The map of a part of a cell, or of all of it, in a complex that was cut for the whole: what lies in the whole cell does not occlude, also where it is
+// outside the part (D3, D21). Lists, and has regions of, the wanted triangles only (one for each triangle of the input).
+LocalMap make_local_map_in(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part,
+                           const LocalMapOptions& options, const std::vector<bool>& wanted);
 
 }  // namespace clues::fastpath

@@ -19,9 +19,11 @@ ExactPoint taken_over(const exact::Point3& p) {
 
 }  // namespace
 
-LocalScene::LocalScene(const scene::TriangleMesh& mesh, const exact::ConvexCell& given) {
-  const exact::Complex complex = exact::build_complex(mesh, &given);
-  const std::vector<exact::Point3>& cell_vertices = given.vertices();
+LocalScene::LocalScene(const scene::TriangleMesh& mesh, const exact::ConvexCell& given)
+    : LocalScene(exact::build_complex(mesh, &given), given, given) {}
+
+LocalScene::LocalScene(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& given) {
+  const std::vector<exact::Point3>& cell_vertices = whole.vertices();
   std::vector<bool> meets(complex.pieces.size(), false);
   CGAL::Bbox_3 cell_box = cell_vertices.front().bbox();
   for (const exact::Point3& s : cell_vertices) cell_box += s.bbox();
@@ -29,11 +31,11 @@ LocalScene::LocalScene(const scene::TriangleMesh& mesh, const exact::ConvexCell&
     const auto& c = complex.pieces[t].corners;
     const std::array<exact::Point3, 3> corners{complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]};
     if (!CGAL::do_overlap(corners[0].bbox() + corners[1].bbox() + corners[2].bbox(), cell_box)) continue;
-    meets[t] = exact::meets_cell(corners, given);
+    meets[t] = exact::meets_cell(corners, whole);
   }
 
   const RoundedUp rounded_up;
-  triangles = mesh.triangles.size();
+  triangles = complex.input_triangles;
   refined_triangles = complex.refined_triangles;
   for (const exact::Point3& p : complex.points) points.push_back(taken_over(p));
   for (std::size_t t = 0; t < complex.pieces.size(); ++t) {
@@ -52,7 +54,7 @@ LocalScene::LocalScene(const scene::TriangleMesh& mesh, const exact::ConvexCell&
   point_edges = complex.point_edges;
 
   cell.dimension = given.dimension();
-  for (const exact::Point3& s : cell_vertices) cell.vertices.push_back(taken_over(s));
+  for (const exact::Point3& s : given.vertices()) cell.vertices.push_back(taken_over(s));
   cell.edges = given.edges();
   if (cell.dimension == 3) {
     for (const exact::CellFacet& f : given.facets()) {

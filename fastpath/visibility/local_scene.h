@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "exact/complex.h"
 #include "exact/convex_cell.h"
 #include "fastpath/visibility/box_tree.h"
 #include "fastpath/visibility/points.h"
@@ -61,6 +62,8 @@ enum class Crossing : std::uint8_t { no, yes, touch };
 class LocalScene {
  public:
   LocalScene(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell);
+  // A part of a cell in a complex that was cut for the whole of it: what lies in the whole cell occludes for no part (D3, D21).
+  LocalScene(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part);
   LocalScene(const LocalScene&) = delete;
   LocalScene& operator=(const LocalScene&) = delete;
 

@@ -124,13 +124,15 @@ bool counts_for(SideMode mode, const LocalOrigin& o, bool front) {
 }
 
 std::vector<LocalRegion> make_regions(const LocalScene& scene, const PieceSet& pieces, SideMode mode,
+                                      const std::vector<bool>& wanted,
                                       const std::function<bool(const Point&)>& visible) {
   std::vector<LocalRegion> regions;
   const auto traces = traces_of_sides(scene, pieces);
   for (std::uint32_t t = 0; t < scene.pieces.size(); ++t) {
     for (const bool front : {true, false}) {
       for (const LocalOrigin& o : scene.pieces[t].origins) {
-        if (counts_for(mode, o, front)) map_side(scene, t, front, o, traces[t][front ? 0 : 1], visible, regions);
+        if (wanted[o.triangle] && counts_for(mode, o, front))
+          map_side(scene, t, front, o, traces[t][front ? 0 : 1], visible, regions);
       }
     }
   }

@@ -13,8 +13,9 @@ namespace clues::fastpath {
 // Whether the front (back) of a piece is a side of this triangle that the mode counts (D4).
 bool counts_for(SideMode mode, const LocalOrigin& o, bool front);
 
-// `visible` labels a point beside a region. O(k^2) parts on a side that k valid pieces cross.
+// Of the wanted triangles. `visible` labels a point beside a region. O(k^2) parts on a side that k valid pieces cross.
 std::vector<LocalRegion> make_regions(const LocalScene& scene, const PieceSet& pieces, SideMode mode,
+                                      const std::vector<bool>& wanted,
                                       const std::function<bool(const Point&)>& visible);
 
 }  // namespace clues::fastpath
