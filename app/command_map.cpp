@@ -32,13 +32,13 @@ namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
 
-// --method backprojected is short for --refine backprojection; with --refine cell both are wanted.
+// --method backprojected is short for --refine backprojection, --method subdivided for --refine cell; with the other of them both are wanted.
 validate::Refinement wanted_refinement(const MapRequest& request) {
   const auto refinement = request.refine.refinement(validate::Refinement::none);
-  if (request.method.method != "backprojected") return refinement;
-  return refinement == validate::Refinement::cells || refinement == validate::Refinement::both
-             ? validate::Refinement::both
-             : validate::Refinement::backprojection;
+  const std::string& method = request.method.method;
+  if (method != "backprojected" && method != "subdivided") return refinement;
+  const auto wanted = method == "subdivided" ? validate::Refinement::cells : validate::Refinement::backprojection;
+  return refinement == validate::Refinement::none || refinement == wanted ? wanted : validate::Refinement::both;
 }
 
 nlohmann::json json_of(const std::optional<double>& x) { return x ? nlohmann::json(*x) : nlohmann::json(); }
@@ -141,7 +141,8 @@ int run_map(MapRequest request) {
   request.simplify.check();
   request.refine.check_retract(request.refinement);
   request.asked_method = request.method.method;
-  if (request.method.method == "backprojected") request.method.method = "first-order";  // refined afterwards
+  if (request.method.method == "backprojected" || request.method.method == "subdivided")
+    request.method.method = "first-order";  // refined afterwards
   request.method.check();
   if (request.refinement != validate::Refinement::none && !request.umbra.file.empty()) {
     throw Error(ErrorCode::unsupported, "--umbra is for first-order maps; leave out --refine and --method");

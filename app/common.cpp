@@ -31,7 +31,8 @@ void MethodOptions::add_to(CLI::App& command) {
       ->type_name("sheet|solid");
   command
       .add_option("--method", method,
-                  "first-order (default); clues map also has backprojected, which is --refine backprojection")
+                  "first-order (default); clues map also has backprojected, which is --refine backprojection, and\n"
+                  "subdivided, which is --refine cell")
       ->type_name("NAME");
   command
       .add_option("--kernel", kernel,
@@ -51,8 +52,8 @@ void MethodOptions::check() const {
   if (mode != "sheet" && mode != "solid") {
     throw Error(ErrorCode::bad_argument, "--mode " + mode + ": no such mode; use sheet or solid");
   }
-  if (method == "backprojected") {
-    throw Error(ErrorCode::unsupported, "--method backprojected is for clues map; use --method first-order here");
+  if (method == "backprojected" || method == "subdivided") {
+    throw Error(ErrorCode::unsupported, "--method " + method + " is for clues map; use --method first-order here");
   }
   if (method != "first-order") {
     throw Error(ErrorCode::bad_argument, "--method " + method + ": no such method; use first-order");

@@ -12,7 +12,7 @@ namespace clues::fastpath {
 namespace {
 
 constexpr int kOnEdge = 16;    // places of an edge that are asked whether something obstructs them
-constexpr int kOnSegment = 5;  // places of an obstructed segment that look at the cell
+constexpr int kOnSegment = 8;  // places of an obstructed segment that look at the cell
 constexpr int kBisections = 20;
 
 Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -82,6 +82,7 @@ class Around {
     return std::hypot(dot_of(x, n_), dot_of(x, u_));
   }
   double position(const Point& v) const { return dot_of(minus(v, edge_.from), d_); }
+  const Point& center() const { return edge_.center; }
   double length() const { return position(edge_.to); }
   Point at(double position) const { return moved(edge_.from, position, d_, 0, d_); }
   // A point of the edge moved off it, towards the cell and H-: beside all that meets there.
@@ -137,32 +138,12 @@ class Chooser {
     const auto sees = [&](double position, const Point& v) {
       return !queries_.any_hit({v, around->beside(position, step)}, {{}, &cell_});
     };
-    double lo = HUGE_VAL, hi = -HUGE_VAL;
-    for (int i = 0; i < kOnEdge; ++i) {
-      if (sees((i + 0.5) / kOnEdge * length, edge.center)) continue;
-      lo = std::min(lo, static_cast<double>(i) / kOnEdge * length);
-      hi = std::max(hi, static_cast<double>(i + 1) / kOnEdge * length);
+    // Runs of places that something hides from the touching vertex; elsewhere the wedge is exact (FIG. 27).
+    for (int i = 0, begin = 0; i <= kOnEdge; ++i) {
+      if (i < kOnEdge && !sees((i + 0.5) / kOnEdge * length, edge.center)) continue;
+      if (begin < i) consider_segment(*around, begin * length / kOnEdge, i * length / kOnEdge, widest, sees);
+      begin = i + 1;
     }
-    if (lo > hi) return;  // FIG. 27: exact
-    // The first that any place of the segment sees, coming from the wedge's plane; what is between samples is searched for by bisection.
-    double first = widest;
-    for (int i = 0; i < kOnSegment; ++i) {
-      const double y = lo + (hi - lo) * (i + 0.5) / kOnSegment;
-      const Point* seen = nullptr;
-      for (const Point& v : places_) {
-        if (around->angle(v) < (seen ? around->angle(*seen) : first) && sees(y, v)) seen = &v;
-      }
-      if (!seen) continue;
-      Point from = edge.center, to = *seen;
-      for (int k = 0; k < kBisections; ++k) {
-        const Point middle = along(from, to, 0.5);
-        (sees(y, middle) ? to : from) = middle;
-      }
-      first = std::min(first, around->angle(from));
-    }
-    offer(*around, lo, hi, first, 1);
-    // A plane through the middle of the part helps too, a little less surely; it is what is left where the segment sees nothing, or all there is.
-    offer(*around, lo, hi, around->angle(center_), 0.5);
   }
 
   std::optional<CutPlane> best() const {
@@ -171,6 +152,39 @@ class Chooser {
   }
 
  private:
+  // D20: the segment, its halves and its quarters, each with what it sees of the part.
+  template <class Sees>
+  void consider_segment(const Around& around, double lo, double hi, double widest, const Sees& sees) {
+    const auto at = [&](int i) { return lo + (hi - lo) * i / kOnSegment; };
+    std::array<double, kOnSegment> first{};
+    for (int i = 0; i < kOnSegment; ++i)
+      first[static_cast<std::size_t>(i)] = first_seen(around, (at(i) + at(i + 1)) / 2, widest, sees);
+    for (int width = kOnSegment; width >= 2; width /= 2) {
+      for (int i = 0; i < kOnSegment; i += width) {
+        const double angle = *std::min_element(first.begin() + i, first.begin() + i + width);
+        if (angle < widest) offer(around, at(i), at(i + width), angle, 1);
+        // A plane through the middle of the part helps too, less surely; it is what is left where the segment sees nothing, or all there is.
+        offer(around, at(i), at(i + width), around.angle(center_), 0.5);
+      }
+    }
+  }
+
+  // The angle before which a place of the edge sees nothing of the part: between the samples it is searched for by bisection.
+  template <class Sees>
+  double first_seen(const Around& around, double position, double widest, const Sees& sees) const {
+    const Point* seen = nullptr;
+    for (const Point& v : places_) {
+      if (around.angle(v) < (seen ? around.angle(*seen) : widest) && sees(position, v)) seen = &v;
+    }
+    if (!seen) return widest;
+    Point from = around.center(), to = *seen;
+    for (int k = 0; k < kBisections; ++k) {
+      const Point middle = along(from, to, 0.5);
+      (sees(position, middle) ? to : from) = middle;
+    }
+    return around.angle(from);
+  }
+
   void offer(const Around& around, double lo, double hi, double angle, double worth) {
     if (!(angle > 0x1p-20)) return;
     const double score = worth * gain(around, lo, hi, angle);

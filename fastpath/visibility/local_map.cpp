@@ -248,6 +248,27 @@ class LocalMap::Parts {
     piece_tree = BoxTree(boxes);
   }
 
+  // Where the ray from the centre through r crosses the near edge.
+  static Point near_end(const ValidPiece& p, const Point& r) {
+    const Point c = p.on->center->estimate(), a = p.near0->estimate(), b = p.near1->estimate();
+    Point n{}, across{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      n[i] = (a[j] - c[j]) * (b[k] - c[k]) - (a[k] - c[k]) * (b[j] - c[j]);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      across[i] = n[j] * (r[k] - c[k]) - n[k] * (r[j] - c[j]);
+    }
+    double at_a = 0, at_b = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      at_a += across[i] * (a[i] - c[i]);
+      at_b += across[i] * (b[i] - c[i]);
+    }
+    const double t = std::clamp(at_a / (at_a - at_b), 0.0, 1.0);
+    return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+  }
+
   // near 0, near 1, far 1, far 0
   void outline(const ValidPiece& p, WedgePiece& out) const {
     const Point c = p.on->center->estimate();
@@ -270,8 +291,8 @@ class LocalMap::Parts {
     if (!p.near0) {
       out.outline_estimate.push_back(c);
     } else {
-      out.outline_estimate.push_back(p.ray0->estimate());
-      out.outline_estimate.push_back(p.ray1->estimate());
+      out.outline_estimate.push_back(near_end(p, p.ray0->estimate()));
+      out.outline_estimate.push_back(near_end(p, p.ray1->estimate()));
     }
     out.outline_estimate.push_back(far(p.ray1));
     out.outline_estimate.push_back(far(p.ray0));
