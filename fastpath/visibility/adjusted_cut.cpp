@@ -162,7 +162,8 @@ class Chooser {
     for (int width = kOnSegment; width >= 2; width /= 2) {
       for (int i = 0; i < kOnSegment; i += width) {
         const double angle = *std::min_element(first.begin() + i, first.begin() + i + width);
-        if (angle < widest) offer(around, at(i), at(i + width), angle, 1);
+        // A little before it: what reaches beyond the plane must not see the segment, else its first-order wedge there is that of all of V-.
+        if (angle < widest) offer(around, at(i), at(i + width), angle * (1 - 0x1p-16), 1);
         // A plane through the middle of the part helps too, less surely; it is what is left where the segment sees nothing, or all there is.
         offer(around, at(i), at(i + width), around.angle(center_), 0.5);
       }
@@ -245,7 +246,7 @@ std::vector<exact::ConvexCell> parts_along(const exact::ConvexCell& cell, const 
     if (side != CGAL::ZERO) cut[side == CGAL::POSITIVE ? 1 : 0] = true;
   }
   if (!cut[0] || !cut[1]) return {cell};
-  constexpr double kSteps = 0x1p20;
+  constexpr double kSteps = 0x1p30;
   for (const auto& e : cell.edges()) {
     auto below = static_cast<std::size_t>(e[0]), above = static_cast<std::size_t>(e[1]);
     if (height[below] > height[above]) std::swap(below, above);

@@ -101,7 +101,7 @@ class Refiner {
   }
 
   RefinedVisibility run() {
-    find_witnesses({{whole_, listed_, {}, {}}}, kFirstTries);
+    find_witnesses({{whole_, listed_, {}, {}}}, refinement_.sight_lines);
     if (refinement_.by != RefineBy::cells) refine(true);
     if (refinement_.by != RefineBy::backprojection) refine(false);
     result_.visible.clear();
@@ -134,7 +134,7 @@ class Refiner {
         for (const Part& part : parts) regions.push_back(&part.regions);
         areas_->restrict_to(regions, open);
       }
-      find_witnesses(parts, kTries);
+      find_witnesses(parts, refinement_.sight_lines / 4);
       look_around(depth);
       note(backprojection, depth, parts.size());
     }
@@ -216,11 +216,9 @@ class Refiner {
   }
 
   std::uint64_t map_part(Part& part, bool backprojection) const {
-    const LocalMap map = refinement_.planted_bug == RefinementBug::cells_of_their_own
-                             ? make_local_map(mesh_, part.cell, options_)
-                             : make_local_map_in(complex_, whole_, part.cell, options_, part.seen);
-    const Flags wanted = std::exchange(part.seen, Flags(ids_.size(), false));
-    for (const std::uint32_t t : map.visible()) part.seen[t] = wanted[t];
+    const LocalMap map = make_local_map_in(complex_, whole_, part.cell, options_, part.seen);
+    part.seen.assign(ids_.size(), false);
+    for (const std::uint32_t t : map.visible()) part.seen[t] = true;
     if (areas_) {
       part.regions = map.regions();
       std::erase_if(part.regions, [](const LocalRegion& r) { return !r.visible; });
@@ -262,7 +260,8 @@ class Refiner {
   }
 
   // Sight lines to the open triangles, from the parts that may see them.
-  void find_witnesses(const std::vector<Part>& parts, std::size_t tries) {
+  void find_witnesses(const std::vector<Part>& parts, int tries) {
+    if (tries == 0) return;
     for (const Part& part : parts) {
       std::vector<std::uint32_t> wanted, ids;
       for (std::uint32_t t = 0; t < ids_.size(); ++t) {
@@ -308,18 +307,23 @@ class Refiner {
   void add_viewpoints(const std::vector<exact::Point3>& points) {
     const Flags open = open_triangles();
     if (std::none_of(open.begin(), open.end(), [](bool o) { return o; })) return;
-    std::vector<std::optional<std::vector<LocalRegion>>> seen(points.size());
+    struct View {
+      std::vector<LocalRegion> regions;
+      std::vector<std::uint32_t> visible;
+    };
+    std::vector<std::optional<View>> seen(points.size());
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
       if (touched(complex_, points[i])) return;
       const ConvexCell cell(std::vector<exact::Point3>{points[i]});
       const LocalMap map = make_local_map_in(complex_, whole_, cell, options_, open);
-      std::vector<LocalRegion> regions = map.regions();
-      if (map.counts().conservative_fallbacks + map.conservative_labels() == 0) seen[i] = std::move(regions);
+      View view{map.regions(), map.visible()};
+      if (map.counts().conservative_fallbacks + map.conservative_labels() == 0) seen[i] = std::move(view);
     });
-    for (const auto& regions : seen) {
-      if (!regions) continue;
+    for (const auto& view : seen) {
+      if (!view) continue;
       ++viewpoints_;
-      areas_->witness(*regions);
+      areas_->witness(view->regions);
+      for (const std::uint32_t t : view->visible) known_[t] = true;
     }
   }
 

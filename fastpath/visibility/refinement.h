@@ -1,18 +1,20 @@
 // First-order maps refined by cutting the cell (D21) or by backprojection (D20, T4), in the fast path. Conservative by construction.
 //
-// Theorem. Let V be the view cell, V1..Vk convex sets whose union holds V, S the triangles, and K a part of them. Take from every triangle of K what it has in int V, and let
-// Omega_K(Vi) be the first-order visible set of Vi among the rest. Then E(V) is a subset of the union of the Omega_K(Vi).
-// Proof. A free segment of E(V) begins at a v in int V, which lies in some Vi; what is beside v in int V and sees the same (free segments are an open set) lies in int Vi or may be chosen to, as
-// finitely many closed convex sets that cover int V do so with the closures of those interiors that are of V's dimension. The segment is free of S without what lies in int V (D3), so
-// it is free of the less that K has; T1 for Vi and that scene says that its end is in Omega_K(Vi).
+// Theorem. Let V be the view cell, V1..Vk convex parts of V that cover it, S the triangles, and K some of them. Take from every triangle of K what it has in int V, and let
+// Omega_K(Vi) be the first-order visible set of Vi among the rest. Then E(V) lies in the union of the Omega_K(Vi).
+// Proof. Take a free segment of E(V), from v in int V. What is near v sees its end too (free sight lines form an open set), and the Vi of V's own dimension cover
+// all of V, as finitely many closed sets of which the others are nowhere dense in it: so v may be moved into int Vi for one of them. The segment meets nothing of S outside int V (D3),
+// and so nothing that was kept of K: its end is in E_K(Vi), and by T1 in Omega_K(Vi).
 //
-// So a triangle that no Omega_K(Vi) has a point of is hidden, whatever planes cut V, whatever K is, and although the parts overlap. What must not happen is that a part is left out, that
-// is T4 (the adjusted wedge alone is the map of V+, without V-: hazard A-4), or that a part is mapped as a cell of its own, for which what stands in the
-// rest of V would hide something (D3). Neither the choice of planes nor the sight lines below can do harm: they are free to be approximate.
+// So a triangle is hidden if no Omega_K(Vi) has a point of it, whatever planes cut V, whatever K is, and although the parts overlap a little. What must not happen is that a part
+// is left out: the map of V+ alone is the raw adjusted wedge, and V- the proof that T4 asks for (hazard A-4). Neither the choice of planes nor the sight lines below
+// can do harm; so they may be approximate.
 //
 // K is the part of the scene with a point in Omega(V): Omega(Vi) lies in Omega(V), so by the theorem of closure.h the maps in K are those in S.
 // A triangle is open if it is visible to first order and no free sight line to it is known. Only parts that still may see an open triangle are cut, and only open triangles are asked
 // about. What stays undecided in a map (D17) counts as visible there.
+//
+// Backprojection cuts V, and then every part by the wedges of its own map: for V+ and V- alike the question is asked again, as T4 has it for V-, down to max_depth.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +27,15 @@ namespace clues::fastpath {
 enum class RefineBy : std::uint8_t { cells, backprojection, both };  // both: adjusted planes first, then cells
 
 // The planted bugs of the tests of the tests. A user never sets one.
-enum class RefinementBug : std::uint8_t { none, one_half_only, cells_of_their_own };
+enum class RefinementBug : std::uint8_t { none, one_half_only };
 
 struct RefinementOptions {
   RefineBy by = RefineBy::cells;
   int max_depth = 4;          // cuts on the way from V to a part
   double tolerance_area = 0;  // done when the estimated excess is no more than this; 0: when no triangle is open
   bool regions = false;       // refine the regions too
+  int sight_lines =
+      512;  // tried to each triangle before the first depth, a quarter as many after each; 0: all triangles are asked about in all maps
   RefinementBug planted_bug = RefinementBug::none;
 };
 

@@ -66,7 +66,7 @@ std::vector<Point> SightLines::viewpoints(const exact::ConvexCell& part) const {
 }
 
 std::vector<std::uint8_t> SightLines::reach(const std::vector<std::uint32_t>& triangles, const std::vector<Point>& from,
-                                            std::size_t tries) const {
+                                            int tries) const {
   std::vector<std::uint8_t> reached(triangles.size(), 0);
   if (from.empty()) return reached;
   tbb::enumerable_thread_specific<SegmentQueries> all_queries(std::cref(bvh_));
@@ -75,7 +75,7 @@ std::vector<std::uint8_t> SightLines::reach(const std::vector<std::uint32_t>& tr
     const std::uint32_t itself[] = {triangles[k]};
     const Corners t = bvh_.corners(triangles[k]);
     std::mt19937_64 random(seed_of(t));
-    for (std::size_t i = 0; i < tries && reached[k] == 0; ++i) {
+    for (int i = 0; i < tries && reached[k] == 0; ++i) {
       const Point& v = from[random() % from.size()];
       Point p = combination(t, weights(3, random));
       // A little beyond the triangle, so that the line crosses it: from off its plane it can meet it in one way only.

@@ -24,7 +24,7 @@ class SightLines {
   // Which of these triangles, which do not meet the cell, a free sight line from one of `from` reaches: `tries` lines to each; the answer does not depend on ids. By all threads of
   // the current arena.
   std::vector<std::uint8_t> reach(const std::vector<std::uint32_t>& triangles, const std::vector<Point>& from,
-                                  std::size_t tries) const;
+                                  int tries) const;
 
   const Cell& cell() const { return cell_; }
   const Bvh& bvh() const { return bvh_; }

@@ -1,0 +1,487 @@
+// Refined maps of the fast path against what shares no algorithm with them: the exact visible set, the point-occlusion oracle, and for the scenes with numbers in the
+// hazard list those numbers. tests/differential compares them with the reference's.
+#include "fastpath/visibility/refinement.h"
+
+#include <gtest/gtest.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <iterator>
+#include <numeric>
+
+#include "exact/cell_cut.h"
+#include "exact/complex.h"
+#include "exact/point_occlusion.h"
+#include "fastpath/visibility/adjusted_cut.h"
+#include "fastpath/visibility/area_bounds.h"
+#include "fuzz/campaign/generators.h"
+#include "fuzz/generators/random.h"
+#include "fuzz/generators/random_scenes.h"
+#include "validate/visible_set.h"
+
+namespace clues::fastpath {
+namespace {
+
+constexpr std::uint64_t kSeed = 20261121;
+
+using Ids = std::vector<std::uint32_t>;
+
+struct Scene {
+  scene::TriangleMesh mesh;
+  std::vector<Point> cell;
+
+  std::uint32_t quad(const Point& a, const Point& b, const Point& c, const Point& d) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const Point& p : {a, b, c, d}) mesh.points.push_back(p);
+    const auto t = static_cast<std::uint32_t>(mesh.triangles.size());
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+    mesh.face_of.assign(mesh.triangles.size(), 0);
+    std::iota(mesh.face_of.begin(), mesh.face_of.end(), 0U);
+    return t;
+  }
+  std::uint32_t plate(double x0, double y0, double x1, double y1, double z) {
+    return quad({x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z});
+  }
+  // Covers n . x >= g at height z, as far as 8; n has entries -1, 0, 1.
+  void half_plane(double nx, double ny, double g, double z) {
+    constexpr double r = 8;
+    const double s = nx * nx + ny * ny, x = nx * g / s, y = ny * g / s;
+    quad({x + r * ny, y - r * nx, z}, {x + r * (ny + nx), y + r * (ny - nx), z},
+         {x + r * (nx - ny), y + r * (ny + nx), z}, {x - r * ny, y + r * nx, z});
+  }
+};
+
+std::vector<Point> box(const Point& lo, const Point& hi) {
+  std::vector<Point> corners;
+  for (unsigned i = 0; i < 8; ++i)
+    corners.push_back({i & 1U ? hi[0] : lo[0], i & 2U ? hi[1] : lo[1], i & 4U ? hi[2] : lo[2]});
+  return corners;
+}
+
+RefinedVisibility refine(const scene::TriangleMesh& mesh, const std::vector<Point>& cell,
+                         const RefinementOptions& refinement) {
+  const Bvh bvh(mesh);
+  return refined_visibility(bvh, cell, {}, refinement);
+}
+
+bool lists(const Ids& ids, std::uint32_t t) { return std::binary_search(ids.begin(), ids.end(), t); }
+
+Ids missing_from(const Ids& all, const Ids& some) {
+  Ids out;
+  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(out));
+  return out;
+}
+
+Ids exactly_visible(const scene::TriangleMesh& mesh, const std::vector<Point>& cell) {
+  const auto set = validate::exact_visible_set(mesh, exact::ConvexCell::from_doubles(cell));
+  Ids ids;
+  for (std::uint32_t t = 0; t < set.triangles.size(); ++t) {
+    if (set.triangles[t].sight == validate::Sight::visible) ids.push_back(t);
+  }
+  return ids;
+}
+
+// Two slits that cross each other at an angle, in two walls, and behind them a floor of tiles.
+Scene slits_and_tiles() {
+  Scene s;
+  s.half_plane(0, 1, 1 / 8., 2);
+  s.half_plane(0, -1, 1 / 8., 2);
+  s.half_plane(1, 1, 1 / 8., 4);
+  s.half_plane(-1, -1, 1 / 8., 4);
+  for (int x = -4; x < 4; ++x) {
+    for (int y = -4; y < 4; ++y) s.plate(x, y, x + 1, y + 1, 6);
+  }
+  s.cell = box({-1, -1, 0}, {1, 1, 0.5});
+  return s;
+}
+
+// --- soundness --------------------------------------------------------------------------------------------------------------
+
+struct Judged {
+  std::uint64_t scenes = 0, gained = 0, missing = 0, hidden_points = 0, seen_points = 0;
+};
+
+// Points just off the middles of hidden polygons, far from their borders for what doubles are off.
+void judge_points(const scene::TriangleMesh& mesh, const std::vector<Point>& cell, const RefinedVisibility& found,
+                  std::size_t most, Judged& judged) {
+  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
+  std::vector<exact::TriangleCorners> corners;
+  const Bvh bvh(mesh);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (std::binary_search(bvh.degenerate().begin(), bvh.degenerate().end(), t)) continue;
+    const Corners c = bvh.corners(t);
+    corners.push_back({exact::to_exact(c[0]), exact::to_exact(c[1]), exact::to_exact(c[2])});
+  }
+  for (const LocalRegion& r : found.first_order.regions) {
+    if (r.visible || most == 0) continue;
+    const Corners c = bvh.corners(r.triangle);
+    Point n{}, middle{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      n[i] = (c[1][j] - c[0][j]) * (c[2][k] - c[0][k]) - (c[1][k] - c[0][k]) * (c[2][j] - c[0][j]);
+      for (const Point& p : r.outline_estimate) middle[i] += p[i] / static_cast<double>(r.outline_estimate.size());
+    }
+    const double size = std::hypot(n[0], n[1], n[2]);
+    const auto across = [&](const Point& a, const Point& b) {  // twice the area beside an edge
+      Point x{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+        x[i] = (a[j] - middle[j]) * (b[k] - middle[k]) - (a[k] - middle[k]) * (b[j] - middle[j]);
+      }
+      return std::hypot(x[0], x[1], x[2]);
+    };
+    bool small = false;
+    for (std::size_t i = 0; i < r.outline_estimate.size(); ++i)
+      small |= across(r.outline_estimate[i], r.outline_estimate[(i + 1) % r.outline_estimate.size()]) < 1e-4 * size;
+    if (small) continue;
+    for (std::size_t i = 0; i < 3; ++i) middle[i] += (r.front ? 1e-9 : -1e-9) * n[i] / std::sqrt(size);
+    --most;
+    ++judged.hidden_points;
+    judged.seen_points += !exact::point_occlusion(exact::to_exact(middle), std::nullopt, exact_cell, corners).occluded;
+  }
+}
+
+void judge(const scene::TriangleMesh& mesh, const std::vector<Point>& cell, RefinementOptions options,
+           std::size_t points, Judged& judged) {
+  const Ids visible = exactly_visible(mesh, cell);
+  options.regions = false;
+  // Without sight lines every visible triangle has to be found again in the maps of the parts.
+  options.sight_lines = 0;
+  judged.missing += missing_from(visible, refine(mesh, cell, options).visible).size();
+  options.sight_lines = RefinementOptions{}.sight_lines;
+  const RefinedVisibility found = refine(mesh, cell, options);
+  ++judged.scenes;
+  judged.missing += missing_from(visible, found.visible).size();
+  EXPECT_EQ(missing_from(found.visible, found.first_order.visible), Ids{});
+  judged.gained += found.visible.size() < found.first_order.visible.size();
+  std::uint64_t before = found.first_order.visible.size();
+  for (const RefinementFigures& f : found.depths) {
+    EXPECT_LE(f.visible, before);
+    EXPECT_LE(f.witnessed, visible.size()) << "a sight line that is none";
+    before = f.visible;
+  }
+  if (points == 0) return;
+  options.regions = true;
+  const RefinedVisibility with_areas = refine(mesh, cell, options);
+  judged.missing += missing_from(visible, with_areas.visible).size();
+  const RefinementFigures& last = with_areas.depths.back();
+  EXPECT_LE(last.witnessed_area, last.refined_area * (1 + 1e-9));
+  EXPECT_LE(last.refined_area, last.first_order_area * (1 + 1e-9));
+  judge_points(mesh, cell, with_areas, points, judged);
+}
+
+void judge_kinds(const RefinementOptions& options, std::uint64_t per_kind, std::size_t most_triangles,
+                 std::size_t points, Judged& judged) {
+  for (const fuzz::Kind kind : fuzz::all_kinds) {
+    std::uint64_t done = 0;
+    for (std::uint64_t i = 0; done < per_kind && i < 20 * per_kind; ++i) {
+      const fuzz::GeneratedScene scene = fuzz::generate(kind, kSeed, i);
+      if (scene.mesh.triangles.size() > most_triangles) continue;
+      SCOPED_TRACE(scene.name);
+      judge(scene.mesh, scene.cell, options, points, judged);
+      ++done;
+    }
+  }
+}
+
+void judge_generators(const RefinementOptions& options, std::uint64_t per_generator, std::size_t most_triangles,
+                      Judged& judged) {
+  const fuzz::GivenScenes none;
+  for (const fuzz::NamedGenerator& generator : fuzz::generators_named({}, none)) {
+    for (std::uint64_t i = 0; i < per_generator; ++i) {
+      const fuzz::Case c = generator.make(kSeed, i);
+      if (c.mesh.triangles.size() > most_triangles) continue;
+      SCOPED_TRACE(generator.name + "-" + std::to_string(kSeed) + "-" + std::to_string(i));
+      judge(c.mesh, c.cell, options, 0, judged);
+    }
+  }
+}
+
+void expect_sound(const Judged& j, const char* what) {
+  EXPECT_EQ(j.missing, 0U);
+  EXPECT_EQ(j.seen_points, 0U);
+  EXPECT_GT(j.scenes, 0U);
+  std::cout << what << ", seed " << kSeed << ": " << j.scenes << " scenes, " << j.gained
+            << " with fewer triangles than first-order, " << j.hidden_points << " hidden points\n";
+}
+
+void judge_all(RefineBy by, const char* what, int depth, std::uint64_t per_kind, std::uint64_t per_generator,
+               std::size_t most_triangles) {
+  RefinementOptions options;
+  options.by = by;
+  options.max_depth = depth;
+  Judged judged;
+  judge_kinds(options, per_kind, most_triangles, 4, judged);
+  judge_generators(options, per_generator, most_triangles, judged);
+  EXPECT_GT(judged.hidden_points, 0U);
+  expect_sound(judged, what);
+}
+
+TEST(FastRefinement, NothingVisibleIsLostByCells) { judge_all(RefineBy::cells, "cells", 3, 2, 1, 16); }
+TEST(FastRefinement, NothingVisibleIsLostByBackprojection) {
+  judge_all(RefineBy::backprojection, "backprojection", 3, 2, 1, 16);
+}
+
+TEST(FastRefinementLong, NothingVisibleIsLost) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  judge_all(RefineBy::cells, "cells", 4, 60, 10, 32);
+  judge_all(RefineBy::backprojection, "backprojection", 4, 60, 10, 32);
+  judge_all(RefineBy::both, "both", 2, 20, 5, 24);
+}
+
+// How many of the triangles that refinement took out are seen after all.
+std::uint64_t lost(const Scene& s, const RefinedVisibility& found) {
+  validate::VisibleSetOptions only;
+  only.only = missing_from(found.first_order.visible, found.visible);
+  const auto exact = validate::exact_visible_set(s.mesh, exact::ConvexCell::from_doubles(s.cell), only);
+  return static_cast<std::uint64_t>(std::count_if(only.only.begin(), only.only.end(), [&](std::uint32_t t) {
+    return exact.triangles[t].sight != validate::Sight::hidden;
+  }));
+}
+
+TEST(FastRefinement, TakesOutTilesBehindTwoSlits) {
+  const Scene s = slits_and_tiles();
+  RefinementOptions options;
+  for (const RefineBy by : {RefineBy::cells, RefineBy::backprojection, RefineBy::both}) {
+    options.by = by;
+    const RefinedVisibility found = refine(s.mesh, s.cell, options);
+    EXPECT_LT(found.visible.size(), found.first_order.visible.size());
+    EXPECT_GT(found.depths.back().witnessed, 0U);
+    EXPECT_EQ(found.conservative_fallbacks, 0U);
+    EXPECT_EQ(lost(s, found), 0U);
+    // Sight lines save work; the answer is that of the maps.
+    options.sight_lines = 0;
+    if (by == RefineBy::cells) {
+      EXPECT_EQ(refine(s.mesh, s.cell, options).visible, found.visible);
+    }
+    options.sight_lines = RefinementOptions{}.sight_lines;
+  }
+}
+
+// The planted bug: the raw adjusted wedge, which is the map of V+ without V-.
+TEST(FastRefinement, JudgesCatchAHalfThatIsNotAsked) {
+  const Scene s = slits_and_tiles();
+  RefinementOptions options;
+  options.max_depth = 2;
+  options.sight_lines = 0;
+  for (const RefineBy by : {RefineBy::cells, RefineBy::backprojection}) {
+    options.by = by;
+    options.planted_bug = RefinementBug::none;
+    EXPECT_EQ(lost(s, refine(s.mesh, s.cell, options)), 0U);
+    options.planted_bug = RefinementBug::one_half_only;
+    EXPECT_GT(lost(s, refine(s.mesh, s.cell, options)), 0U);
+    options.regions = true;
+    Judged judged;
+    judge_points(s.mesh, s.cell, refine(s.mesh, s.cell, options), 64, judged);
+    options.regions = false;
+    EXPECT_GT(judged.seen_points, 0U);
+  }
+}
+
+// A screen in the cell hides nothing (D3). It lies above the lower part of the cell, and would hide the target from it, were that a cell of its own.
+TEST(FastRefinement, GeometryInTheCellHidesNothingFromItsParts) {
+  Scene s;
+  s.plate(-7, -7, 7, 7, 0.75);
+  const std::uint32_t target = s.plate(-2, -2, 2, 2, 6);
+  s.cell = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-10, -10, 1}, {10, -10, 1}, {10, 10, 1}, {-10, 10, 1}};
+  const auto whole = exact::ConvexCell::from_doubles(s.cell);
+  const auto parts = parts_along(whole, {{0, 0, 0.25}, {0, 0, 1}});
+  ASSERT_EQ(parts.size(), 2U);
+  const exact::Complex complex = exact::build_complex(s.mesh, &whole);
+  const std::vector<bool> all(s.mesh.triangles.size(), true);
+  EXPECT_TRUE(lists(make_local_map_in(complex, whole, parts[0], {}, all).visible(), target));
+  EXPECT_FALSE(lists(make_local_map(s.mesh, parts[0], {}).visible(), target))
+      << "the literal reading hides the target: else this test shows nothing";
+}
+
+// A-4 with its numbers, drawn out along z: the cell is the strip x = 0, -4 <= y <= 0; a plate ends in the edge E at (10, 0); a small plate O at x = 8 hides
+// y > -1 from E. The adjusted wedge is y = (x - 10) / 10; the point (100, 8.9) is below it, and is seen from (0, 0).
+TEST(FastRefinement, HazardA4) {
+  Scene s;
+  s.quad({10, -50, -64}, {10, 0, -64}, {10, 0, 64}, {10, -50, 64});
+  s.quad({8, -0.2, -64}, {8, 0.2, -64}, {8, 0.2, 64}, {8, -0.2, 64});
+  const auto target = s.quad({100, 8.75, -1}, {100, 8.9375, -1}, {100, 8.9375, 1}, {100, 8.75, 1});
+  const auto near_target = s.quad({12, 0.0625, -1}, {12, 0.125, -1}, {12, 0.125, 1}, {12, 0.0625, 1});
+  s.cell = {{0, -4, -1}, {0, 0, -1}, {0, 0, 1}, {0, -4, 1}};
+
+  const auto whole = exact::ConvexCell::from_doubles(s.cell);
+  const LocalMap map = make_local_map(s.mesh, whole, {});
+  const Bvh bvh(s.mesh);
+  SegmentQueries queries(bvh);
+  const auto plane = choose_cut(map.pieces(), whole, Cell(s.cell), {{{12, 0.1, 0.01}, 1}}, queries);
+  ASSERT_TRUE(plane);
+  // Through E, and through the cell at y = -1, where lines from E past O end.
+  const auto value = [&](const Point& p) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += plane->normal[k] * (p[k] - plane->base[k]);
+    return sum;
+  };
+  EXPECT_NEAR(value({10, 0, 5}), 0, 1e-12);
+  EXPECT_NEAR(value({0, -1, 0}), 0, 1e-4);
+  EXPECT_LT(value({0, -4, 0}), 0) << "V+";
+
+  RefinementOptions options;
+  options.by = RefineBy::backprojection;
+  options.max_depth = 1;
+  for (const bool areas : {false, true}) {
+    options.regions = areas;
+    options.planted_bug = RefinementBug::none;
+    const RefinedVisibility found = refined_visibility(bvh, s.cell, {}, options);
+    EXPECT_TRUE(lists(found.visible, target) || lists(found.visible, target + 1));
+    if (!areas) {
+      options.sight_lines = 0;
+      options.planted_bug = RefinementBug::one_half_only;
+      const Ids raw = refined_visibility(bvh, s.cell, {}, options).visible;
+      EXPECT_FALSE(lists(raw, target) || lists(raw, target + 1)) << "the raw adjusted wedge hides what is seen";
+      options.sight_lines = RefinementOptions{}.sight_lines;
+    }
+    EXPECT_TRUE(lists(found.first_order.visible, near_target) && lists(found.first_order.visible, near_target + 1));
+    EXPECT_FALSE(lists(found.visible, near_target) || lists(found.visible, near_target + 1))
+        << "between the two wedges, and before the wedge of O: hidden from both parts of the cell";
+  }
+  const Ids visible = exactly_visible(s.mesh, s.cell);
+  EXPECT_TRUE(lists(visible, target) || lists(visible, target + 1));
+  EXPECT_FALSE(lists(visible, near_target) || lists(visible, near_target + 1));
+}
+
+// --- parts and areas --------------------------------------------------------------------------------------------------------
+
+// Random planes through cells of all dimensions: every vertex and random points of the cell are in one of the parts, and the parts in the cell.
+TEST(FastRefinement, PartsCoverTheCell) {
+  fuzz::Random random(kSeed);
+  const auto number = [&] { return random.between(-1000000, 1000000) * 0x1.123456789p-20; };
+  std::uint64_t cut = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Point> points;
+    const int corners = random.between(2, 8);
+    for (int k = 0; k < corners; ++k) points.push_back({number(), number(), number()});
+    const exact::ConvexCell cell(exact::ConvexCell::from_doubles(points));
+    std::vector<exact::ConvexCell> parts{cell};
+    for (int depth = 0; depth < 2; ++depth) {
+      std::vector<exact::ConvexCell> next;
+      for (const exact::ConvexCell& part : parts) {
+        for (exact::ConvexCell& p :
+             parts_along(part, {{number() / 4, number() / 4, number() / 4}, {number(), number(), number()}}))
+          next.push_back(std::move(p));
+      }
+      parts = std::move(next);
+    }
+    cut += parts.size() > 1;
+    for (const exact::ConvexCell& part : parts) {
+      EXPECT_EQ(part.dimension(), cell.dimension());
+      for (const exact::Point3& v : part.vertices()) EXPECT_TRUE(cell.contains(v));
+    }
+    for (int k = 0; k < 20; ++k) {
+      std::vector<int> weights;
+      for (std::size_t c = 0; c < cell.vertices().size(); ++c) weights.push_back(random.between(1, 100));
+      const exact::Point3 x = exact::collapsed(cell.interior_point(weights));
+      EXPECT_TRUE(std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return part.contains(x); }));
+    }
+  }
+  EXPECT_GT(cut, 0U);
+}
+
+LocalRegion region(const std::vector<Point>& outline, double area, bool visible = true) {
+  return {0, true, visible, outline, area};
+}
+
+TEST(FastRefinement, AreasAddUp) {
+  // A square of which the right part is hidden; a viewpoint sees the left quarter, parts see the lower half and the uppermost quarter.
+  AreaBounds areas({region({{0, 0, 0}, {4, 0, 0}, {4, 8, 0}, {0, 8, 0}}, 32),
+                    region({{4, 0, 0}, {8, 0, 0}, {8, 8, 0}, {4, 8, 0}}, 32, false)});
+  EXPECT_EQ(areas.first_order(), 32);
+  areas.witness({region({{0, 0, 0}, {2, 0, 0}, {2, 8, 0}, {0, 8, 0}}, 16)});
+  EXPECT_EQ(areas.witnessed(), 16);
+  EXPECT_EQ(areas.in_doubt(), 16);
+  const std::vector<LocalRegion> lower{region({{0, 0, 0}, {8, 0, 0}, {8, 4, 0}, {0, 4, 0}}, 32)},
+      upper{region({{0, 6, 0}, {8, 6, 0}, {8, 8, 0}, {0, 8, 0}}, 16)};
+  EXPECT_TRUE(areas.reach_doubt(upper));
+  areas.restrict_to({&lower, &upper}, {true});
+  EXPECT_NEAR(areas.refined(), 28, 1e-9);
+  EXPECT_TRUE(areas.in_doubt(0));
+  EXPECT_FALSE(areas.reach_doubt({region({{2, 4, 0}, {4, 4, 0}, {4, 6, 0}, {2, 6, 0}}, 4)}));
+  double all = 0;
+  for (const LocalRegion& r : areas.regions()) all += r.area_estimate;
+  EXPECT_NEAR(all, 64, 1e-9);
+}
+
+// --- the same answer --------------------------------------------------------------------------------------------------------
+
+TEST(FastRefinement, IsTheSameForAnyNumberOfThreads) {
+  const Scene s = slits_and_tiles();
+  RefinementOptions options;
+  options.by = RefineBy::both;
+  options.max_depth = 2;
+  options.regions = true;
+  std::vector<RefinedVisibility> found;
+  for (const int threads : {1, 2, 5}) {
+    tbb::task_arena arena(threads);
+    arena.execute([&] { found.push_back(refine(s.mesh, s.cell, options)); });
+  }
+  for (const RefinedVisibility& f : found) {
+    EXPECT_EQ(f.visible, found[0].visible);
+    ASSERT_EQ(f.depths.size(), found[0].depths.size());
+    EXPECT_EQ(f.depths.back().refined_area, found[0].depths.back().refined_area);
+    EXPECT_EQ(f.depths.back().witnessed, found[0].depths.back().witnessed);
+    ASSERT_EQ(f.first_order.regions.size(), found[0].first_order.regions.size());
+    for (std::size_t i = 0; i < f.first_order.regions.size(); ++i)
+      EXPECT_EQ(f.first_order.regions[i].outline_estimate, found[0].first_order.regions[i].outline_estimate);
+  }
+}
+
+TEST(FastRefinement, DoesNotDependOnTheOrderOfTriangles) {
+  const Scene s = slits_and_tiles();
+  scene::TriangleMesh reversed = s.mesh;
+  std::reverse(reversed.triangles.begin(), reversed.triangles.end());
+  RefinementOptions options;
+  options.max_depth = 2;
+  for (const RefineBy by : {RefineBy::cells, RefineBy::backprojection}) {
+    options.by = by;
+    Ids visible = refine(reversed, s.cell, options).visible;
+    for (std::uint32_t& t : visible) t = static_cast<std::uint32_t>(reversed.triangles.size()) - 1 - t;
+    std::sort(visible.begin(), visible.end());
+    EXPECT_EQ(visible, refine(s.mesh, s.cell, options).visible);
+  }
+}
+
+TEST(FastRefinement, CellsOfAllDimensionsAndTolerance) {
+  Scene s = slits_and_tiles();
+  RefinementOptions options;
+  options.max_depth = 2;
+  options.regions = true;
+  for (const auto& [lo, hi] :
+       {std::pair<Point, Point>{{-1, -1, 0}, {1, 1, 0.5}}, {{-1, -1, 0}, {1, 1, 0}}, {{-1, 0.25, 0}, {1, 0.25, 0}}}) {
+    const auto depths = refine(s.mesh, box(lo, hi), options).depths;
+    EXPECT_GE(depths.back().parts, 2U);
+    EXPECT_LT(depths.back().refined_area - depths.back().witnessed_area,
+              depths.front().refined_area - depths.front().witnessed_area);
+    RefinementOptions loose = options;
+    loose.tolerance_area = 1.001 * (depths.front().refined_area - depths.front().witnessed_area);
+    EXPECT_EQ(refine(s.mesh, box(lo, hi), loose).depths.back().depth, 0) << "that is good enough at once";
+  }
+  const auto point = refine(s.mesh, {{0, 0, 0}}, options);
+  EXPECT_EQ(point.depths.back().parts, 1U);
+  EXPECT_NEAR(point.depths.back().refined_area, point.depths.back().witnessed_area, 1e-9)
+      << "from a point first order is exact";
+}
+
+TEST(FastRefinement, EmptySceneAndSolidMode) {
+  const scene::TriangleMesh nothing;
+  EXPECT_EQ(refine(nothing, {{0, 0, 0}}, {}).visible, Ids{});
+  for (std::uint64_t i = 0; i < 3; ++i) {
+    const auto scene = fuzz::generate(fuzz::Kind::tetrahedra, kSeed, i);
+    const Bvh bvh(scene.mesh);
+    LocalMapOptions solid;
+    solid.mode = SideMode::solid;
+    const auto found = refined_visibility(bvh, scene.cell, solid, {});
+    EXPECT_EQ(missing_from(found.visible, found.first_order.visible), Ids{});
+    for (const RefinementFigures& f : found.depths) EXPECT_LE(f.witnessed, f.visible);
+  }
+}
+
+}  // namespace
+}  // namespace clues::fastpath
