@@ -228,7 +228,7 @@ class Refiner {
     return map.counts().conservative_fallbacks + map.conservative_labels();
   }
 
-  // What a plane may gain: with areas the middles of the polygons in doubt, else ten places of each triangle without a sight line.
+  // What a plane may gain: with areas the middles of the polygons in doubt, else a grid on each open triangle.
   std::vector<OpenPlace> open_places(const Part& part, const Flags& open) const {
     std::vector<OpenPlace> places;
     if (areas_) {
@@ -240,13 +240,13 @@ class Refiner {
         places.push_back({middle, r.area_estimate});
       }
     } else {
-      constexpr int kRows = 4;
+      constexpr int kRows = 8;
       for (std::size_t t = 0; t < open.size(); ++t) {
         if (!open[t] || !part.seen[t]) continue;
         const Corners c = bvh_.corners(ids_[t]);
-        for (int i = 0; i < kRows; ++i) {
-          for (int j = 0; i + j < kRows; ++j) {
-            const double u = (i + 1.0 / 3) / kRows, w = (j + 1.0 / 3) / kRows;
+        for (int i = 0; i <= kRows; ++i) {
+          for (int j = 0; i + j <= kRows; ++j) {
+            const double u = static_cast<double>(i) / kRows, w = static_cast<double>(j) / kRows;
             OpenPlace place;
             for (std::size_t k = 0; k < 3; ++k) place.at[k] = (1 - u - w) * c[0][k] + u * c[1][k] + w * c[2][k];
             places.push_back(place);
@@ -277,10 +277,11 @@ class Refiner {
     }
   }
 
-  // The lower bound of the areas: maps of single points of V, for which first order is exact. The corners and centres of V's parts after one and a half times as many
-  // halvings; of a solid V those on its border are enough, as every sight line leaves it there. V's own centre comes first.
+  // Maps of single points of V, for which first order is exact: for the lower bound of the areas, and for triangles that no sight line has met. The corners and
+  // centres of V's parts after one and a half times as many halvings; of a solid V those on its border are enough, as every sight line leaves it there. V's own
+  // centre comes first.
   void look_around(int depth) {
-    if (!areas_) return;
+    if (!areas_ && refinement_.sight_lines == 0) return;
     if (viewed_.empty()) viewed_ = {whole_};
     for (;; ++viewed_depth_) {
       std::vector<exact::Point3> fresh;
@@ -316,13 +317,14 @@ class Refiner {
       if (touched(complex_, points[i])) return;
       const ConvexCell cell(std::vector<exact::Point3>{points[i]});
       const LocalMap map = make_local_map_in(complex_, whole_, cell, options_, open);
-      View view{map.regions(), map.visible()};
+      View view{areas_ ? map.regions() : std::vector<LocalRegion>{}, map.visible()};
       if (map.counts().conservative_fallbacks + map.conservative_labels() == 0) seen[i] = std::move(view);
     });
     for (const auto& view : seen) {
       if (!view) continue;
       ++viewpoints_;
-      areas_->witness(view->regions);
+      if (areas_) areas_->witness(view->regions);
+      if (refinement_.sight_lines == 0) continue;
       for (const std::uint32_t t : view->visible) known_[t] = true;
     }
   }

@@ -11,7 +11,7 @@
 // can do harm; so they may be approximate.
 //
 // K is the part of the scene with a point in Omega(V): Omega(Vi) lies in Omega(V), so by the theorem of closure.h the maps in K are those in S.
-// A triangle is open if it is visible to first order and no free sight line to it is known. Only parts that still may see an open triangle are cut, and only open triangles are asked
+// A triangle is open if it is visible to first order, no free sight line to it is known, and the map of no point of V that was tried shows it (such maps are exact). Only parts that still may see an open triangle are cut, and only open triangles are asked
 // about. What stays undecided in a map (D17) counts as visible there.
 //
 // Backprojection cuts V, and then every part by the wedges of its own map: for V+ and V- alike the question is asked again, as T4 has it for V-, down to max_depth.
@@ -34,8 +34,8 @@ struct RefinementOptions {
   int max_depth = 4;          // cuts on the way from V to a part
   double tolerance_area = 0;  // done when the estimated excess is no more than this; 0: when no triangle is open
   bool regions = false;       // refine the regions too
-  int sight_lines =
-      512;  // tried to each triangle before the first depth, a quarter as many after each; 0: all triangles are asked about in all maps
+  // Tried to each triangle before the first depth, and a quarter as many after each. 0: all triangles are asked about in the maps of all parts.
+  int sight_lines = 512;
   RefinementBug planted_bug = RefinementBug::none;
 };
 
@@ -44,7 +44,7 @@ struct RefinementFigures {
   bool backprojection = false;  // else cells
   int depth = 0;
   std::uint64_t parts = 1, maps = 0, viewpoints = 0;  // parts that V is cut into; maps and viewpoints so far
-  std::uint64_t visible = 0, witnessed = 0;           // triangles: listed; with a free sight line, or meeting V
+  std::uint64_t visible = 0, witnessed = 0;           // triangles: listed; certainly visible
   double first_order_area = 0, witnessed_area = 0, refined_area = 0;  // estimates; 0 unless areas were asked for
 };
 
@@ -55,7 +55,7 @@ struct RefinedVisibility {
   std::uint64_t conservative_fallbacks = 0;  // of all maps of parts
 };
 
-// Areas are kept when regions are asked for, or a tolerance is: then viewpoints are mapped for the lower bound, and parts are cut for what is in doubt of triangles that are seen, too.
+// Areas are kept when regions are asked for, or a tolerance is: then parts are cut also for what is in doubt of triangles that are seen.
 // The same answer for any number of threads of the current arena. Throws as first_order_visibility does.
 RefinedVisibility refined_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
                                      const RefinementOptions& refinement);

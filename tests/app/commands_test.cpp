@@ -69,18 +69,60 @@ TEST(Map, RefinedMapsHoldTheVisibleTrianglesAndSayHowTheyWereMade) {
   folder.write("scene.off", screen_scene);
   for (const auto& [arguments, method] :
        {std::pair<std::vector<std::string>, std::string>{{"--refine", "cell"}, "subdivided"},
+        {{"--method", "subdivided"}, "subdivided"},
         {{"--method", "backprojected"}, "backprojected"},
         {{"--method", "backprojected", "--retract"}, "backprojected"},
+        {{"--method", "subdivided", "--refine", "backprojection"}, "backprojected"},
         {{"--method", "backprojected", "--refine", "cell", "--tolerance-area", "0.5"}, "backprojected"}}) {
-    std::vector<std::string> all{"map", "scene.off", "--cell", screen_cell, "--json", "--map", "--max-depth", "1"};
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    const auto ran = run_clues(all, folder.path());
-    ASSERT_EQ(ran.exit_code, 0) << ran.err;
-    const auto result = json::parse(ran.out);
-    EXPECT_EQ(result["method"], method);
-    EXPECT_EQ(result["visible"], json({0, 1, 2, 4}));
-    EXPECT_TRUE(result.contains("regions"));
+    for (const std::string kernel : {"exact", "fast"}) {
+      if (kernel == "fast" && arguments.back() == "--retract") continue;
+      std::vector<std::string> all{"map",   "scene.off", "--cell", screen_cell,   "--json",
+                                   "--map", "--kernel",  kernel,   "--max-depth", "1"};
+      all.insert(all.end(), arguments.begin(), arguments.end());
+      const auto ran = run_clues(all, folder.path());
+      ASSERT_EQ(ran.exit_code, 0) << ran.err;
+      const auto result = json::parse(ran.out);
+      EXPECT_EQ(result["method"], method);
+      EXPECT_EQ(result["kernel"], kernel);
+      EXPECT_EQ(result["visible"], json({0, 1, 2, 4}));
+      EXPECT_TRUE(result.contains("regions"));
+    }
   }
+}
+
+TEST(Map, TheFastKernelSaysWhatEachDepthGained) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const std::vector<std::string> command{"map",        "scene.off", "--kernel",    "fast", "--method",
+                                         "subdivided", "--map",     "--max-depth", "2",    "--cell"};
+  auto table = command;
+  table.emplace_back(screen_cell);
+  const auto ran = run_clues(table, folder.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, AllOf(HasSubstr("witnessed"), HasSubstr("refined area"), HasSubstr("cells")));
+  std::string first;
+  for (const std::string threads : {"1", "3"}) {
+    auto as_json = table;
+    as_json.insert(as_json.end(), {"--json", "--threads", threads});
+    const auto again = run_clues(as_json, folder.path());
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    if (first.empty()) first = again.out;
+    EXPECT_EQ(again.out, first) << threads;
+  }
+  const auto stats = json::parse(first)["stats"];
+  EXPECT_EQ(stats["first_order_visible"], 4);
+  EXPECT_EQ(stats["witnessed_visible"], 4);
+  EXPECT_EQ(stats["refinement_step_00_visible"], 4);
+
+  // Many cells: the same files as one by one.
+  auto many = command;
+  many.back() = "--cells";
+  many.insert(many.end(), {"grid:2x1x1:" + std::string(screen_cell), "-o", "cells"});
+  const auto cells = run_clues(many, folder.path());
+  ASSERT_EQ(cells.exit_code, 0) << cells.err;
+  const auto result = json::parse(read_all(folder.file("cells/cell-1-0-0.clues.json")));
+  EXPECT_EQ(result["method"], "subdivided");
+  EXPECT_EQ(result["kernel"], "fast");
 }
 
 TEST(Precision, ReportsTableJsonAndPicture) {
