@@ -145,9 +145,9 @@ std::unique_ptr<CellMapper> fast_mapper(const scene::TriangleMesh& mesh, const s
   for (const auto& [asked, option] : {std::pair{!request.umbra.file.empty(), "--umbra"},
                                       {!request.overlap_graph.empty(), "--overlap-graph"},
                                       {request.with_states, "--render-states"},
-                                       {request.method.formulation != "plain", "--formulation"},
-                                       {request.refine.retract, "--retract"},
-                                       {request.simplify.asked(), "simplification"}}) {
+                                      {request.method.formulation != "plain", "--formulation"},
+                                      {request.refine.retract, "--retract"},
+                                      {request.simplify.asked(), "simplification"}}) {
     if (asked) {
       throw scene::Error(scene::ErrorCode::unsupported,
                          std::string(option) + " needs exact numbers; use --kernel exact with it");

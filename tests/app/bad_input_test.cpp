@@ -111,9 +111,8 @@ INSTANTIATE_TEST_SUITE_P(
                    {"--cell", cell, "--kernel", "fast", "--refine", "backprojection", "--retract"},
                    "--retract"},
         BadCommand{"IntersectPlanesNan", {"--cell", cell, "--intersect-planes", "nan"}, "--intersect-planes"},
-        BadCommand{"IntersectPlanesRefined",
-                   {"--cell", cell, "--intersect-planes", "10", "--refine", "cell"},
-                   "--refine"},
+        BadCommand{
+            "IntersectPlanesRefined", {"--cell", cell, "--intersect-planes", "10", "--refine", "cell"}, "--refine"},
         BadCommand{"ToleranceWithoutNumber", {"--cell", cell, "--tolerance-area", "nan"}, "--tolerance-area"},
         BadCommand{"NegativeMinOcclusion", {"--cell", cell, "--min-occlusion", "-1"}, "--min-occlusion"},
         BadCommand{"MinOcclusionNan", {"--cell", cell, "--min-occlusion", "nan"}, "--min-occlusion"},
