@@ -21,6 +21,7 @@ using exact::Point3;
 namespace {
 
 constexpr int kUnset = -2, kNone = -1;
+constexpr int kOutline = -1, kSeveral = -2;  // sources of segments
 
 using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<int, Kernel>;
 using FaceBase =
@@ -112,11 +113,12 @@ void PlaneCut::add_polygon(const std::vector<Point3>& corners) {
   std::vector<Point2> flat;
   for (const Point3& p : corners) flat.push_back(frame_(p));
   if (CGAL::orientation(flat[0], flat[1], flat[2]) == CGAL::RIGHT_TURN) std::reverse(flat.begin(), flat.end());
-  for (std::size_t i = 0; i < flat.size(); ++i) segments_.push_back({flat[i], flat[(i + 1) % flat.size()], 0, 0});
+  for (std::size_t i = 0; i < flat.size(); ++i)
+    segments_.push_back({flat[i], flat[(i + 1) % flat.size()], {kOutline, 0, 0}});
   polygons_.push_back(std::move(flat));
 }
 
-void PlaneCut::add_segment(const Point3& a3, const Point3& b3, unsigned left, unsigned right) {
+void PlaneCut::add_segment(const Point3& a3, const Point3& b3, const Trace& trace) {
   Point2 a = frame_(a3), b = frame_(b3);
   const std::vector<Point2>& polygon = polygons_.back();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -128,22 +130,33 @@ void PlaneCut::add_segment(const Point3& a3, const Point3& b3, unsigned left, un
       (at_a == CGAL::RIGHT_TURN ? a : b) = a + (u / (u - w)) * (b - a);
     }
   }
-  segments_.push_back({collapsed(a), collapsed(b), left, right});
+  segments_.push_back({collapsed(a), collapsed(b), trace});
 }
+
+namespace {
+
+// What two segments that run along each other say.
+PlaneCut::Trace both(const PlaneCut::Trace& x, const PlaneCut::Trace& y) {
+  if (x.source == kOutline) return y;
+  if (y.source == kOutline) return x;
+  if (x.source != y.source || x.source == kSeveral) return {kSeveral, 0, 0};
+  return {x.source, x.left | y.left, x.right | y.right};
+}
+
+}  // namespace
 
 void PlaneCut::insert_segments() {
   for (Segment& s : segments_) {
     if (s.a < s.b) continue;
     std::swap(s.a, s.b);
-    std::swap(s.left, s.right);
+    std::swap(s.trace.left, s.trace.right);
   }
   std::sort(segments_.begin(), segments_.end(),
             [](const Segment& x, const Segment& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
   std::size_t kept = 0;
   for (Segment& s : segments_) {
     if (kept > 0 && segments_[kept - 1].a == s.a && segments_[kept - 1].b == s.b) {
-      segments_[kept - 1].left |= s.left;
-      segments_[kept - 1].right |= s.right;
+      segments_[kept - 1].trace = both(segments_[kept - 1].trace, s.trace);
     } else {
       segments_[kept++] = s;
     }
@@ -162,10 +175,10 @@ void PlaneCut::collect_marks() {
       if (!cdt.is_constrained({f, i})) continue;
       const auto from = f->vertex(Cut::ccw(i)), to = f->vertex(Cut::cw(i));  // f lies left
       const bool along = from->point() < to->point();
-      for (auto c = cdt.contexts_begin(from, to); c != cdt.contexts_end(from, to); ++c) {
-        const Segment& s = segments_[cut_->segment_of.at(c->id().vl_ptr())];
-        components_[static_cast<std::size_t>(f->info())].marks |= along ? s.left : s.right;
-      }
+      Trace trace{kOutline, 0, 0};
+      for (auto c = cdt.contexts_begin(from, to); c != cdt.contexts_end(from, to); ++c)
+        trace = both(trace, segments_[cut_->segment_of.at(c->id().vl_ptr())].trace);
+      components_[static_cast<std::size_t>(f->info())].marks |= along ? trace.left : trace.right;
     }
   }
 }

@@ -19,11 +19,16 @@ class PlaneCut {
 
   // A convex polygon of the plane: its outline cuts, and components() tell whether it covers them. Polygons count from 0.
   void add_polygon(const std::vector<exact::Point3>& corners);
-  // The part of segment ab (of the plane) inside the polygon that was added last. The parts that border on it get the marks (bits) of the side on which they
-  // lie, left when the plane's normal points up.
-  void add_segment(const exact::Point3& a, const exact::Point3& b, unsigned left = 0, unsigned right = 0);
+  // What a segment says of the parts beside it (marks: bits), left and right when the plane's normal points up. `source` is the plane that made it, a number from 0. Where
+  // segments of several sources run along each other nothing is said: the plane of one may come between another and the part.
+  struct Trace {
+    int source = 0;
+    unsigned left = 0, right = 0;
+  };
+  // The part of segment ab (of the plane) inside the polygon that was added last.
+  void add_segment(const exact::Point3& a, const exact::Point3& b, const Trace& trace);
 
-  // Parts of the plane between the segments, with a point inside, and the marks of all segments around.
+  // Parts of the plane between the segments, with a point inside, and the marks from all around.
   struct Component {
     exact::Point3 inner;
     exact::Point2 flat;
@@ -46,7 +51,7 @@ class PlaneCut {
 
   struct Segment {
     exact::Point2 a, b;
-    unsigned left = 0, right = 0;
+    Trace trace;
   };
 
   exact::Point3 lift(const exact::Point2& q) const;

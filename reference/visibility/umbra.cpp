@@ -104,6 +104,7 @@ class Builder {
       const auto [at, fresh] = known.emplace(key_of(sheets_[i].plane), groups_.size());
       if (fresh) groups_.emplace_back();
       groups_[at->second].push_back(i);
+      group_of_.push_back(at->second);
     }
     tree_ = exact::BoxTree(std::move(boxes));
   }
@@ -237,8 +238,7 @@ class Builder {
         if (std::binary_search(own.begin(), own.end(), other)) continue;
         const auto trace = trace_of(sheets_[other].corners, plane);
         if (!trace) continue;
-        const auto [left, right] = lit_beside(sheets_[other], *trace, plane);
-        cut.add_segment(trace->first, trace->second, left, right);
+        cut.add_segment(trace->first, trace->second, lit_beside(other, *trace, plane));
       }
     }
     Part out;
@@ -287,16 +287,18 @@ class Builder {
 
   // The H- side of a valid wedge piece is visible (D13). So is a part of the plane on its H- side that ends at the piece: on the side of
   // the plane, or both, to which the piece reaches. Left and right of the trace, seen with the plane's normal up.
-  static std::pair<unsigned, unsigned> lit_beside(const Sheet& sheet, const std::pair<Point3, Point3>& trace,
-                                                  const Plane3& plane) {
-    if (sheet.kind != UmbraFacetKind::wedge) return {0, 0};
+  PlaneCut::Trace lit_beside(std::uint32_t other, const std::pair<Point3, Point3>& trace, const Plane3& plane) const {
+    const Sheet& sheet = sheets_[other];
+    const int source = static_cast<int>(group_of_[other]);
+    if (sheet.kind != UmbraFacetKind::wedge) return {source, 0, 0};
     unsigned lit = 0;
     for (const Point3& p : sheet.corners) {
       const CGAL::Oriented_side side = plane.oriented_side(p);
       if (side != CGAL::ON_ORIENTED_BOUNDARY) lit |= side == CGAL::ON_POSITIVE_SIDE ? kLitBefore : kLitBehind;
     }
     const Vector3 left = CGAL::cross_product(plane.orthogonal_vector(), trace.second - trace.first);
-    return CGAL::is_positive(sheet.plane.orthogonal_vector() * left) ? std::pair(lit, 0U) : std::pair(0U, lit);
+    if (CGAL::is_positive(sheet.plane.orthogonal_vector() * left)) return {source, lit, 0};
+    return {source, 0, lit};
   }
 
   static std::optional<std::pair<Point3, Point3>> trace_of(const std::vector<Point3>& corners, const Plane3& plane) {
@@ -321,6 +323,7 @@ class Builder {
   SpaceLabels labels_;
   std::vector<Sheet> sheets_;
   std::vector<std::vector<std::uint32_t>> groups_;  // sheets of one plane, ascending
+  std::vector<std::size_t> group_of_;               // per sheet
   exact::BoxTree tree_;
 };
 

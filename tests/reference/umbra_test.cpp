@@ -314,6 +314,15 @@ void judge_suite(std::size_t step, std::size_t most_triangles) {
 TEST(UmbraCertificates, RandomScenes) { judge_random(1); }
 TEST(UmbraCertificates, SuiteVectors) { judge_suite(9, 40); }
 
+// Where planes of several surfaces and wedges meet in one line, what is visible beside a wedge is not always so beside a part of a plane that ends at it.
+TEST(UmbraCertificates, FlushBordersInOneLine) {
+  Judged judged;
+  for (const auto& c : validate::read_suite(std::filesystem::path(CLUES_SOURCE_DIR) / "vectors")) {
+    if (c.id == "slats-in-two-layers-with-flush-borders") judge(c.mesh, c.cell, false, judged);
+  }
+  EXPECT_EQ(judged.scenes, 1U);
+}
+
 TEST(UmbraCertificatesLong, RandomScenes) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "set CLUES_LONG=1";
   judge_random(12);
