@@ -24,15 +24,9 @@ bool inside(const std::array<Point2, 3>& t, const Point2& p) {
 
 }  // namespace
 
-Point2 drop_axis(const Point3& p, int axis) {
-  switch (axis) {
-    case 0:
-      return {p.y(), p.z()};
-    case 1:
-      return {p.z(), p.x()};
-    default:
-      return {p.x(), p.y()};
-  }
+Point2 drop_axis(const Point3& p, int axis, double unit) {
+  const Point2 q(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+  return unit == 1 ? q : Point2(q.x() / unit, q.y() / unit);
 }
 
 int dominant_axis(const Vector3& normal) {
@@ -76,10 +70,7 @@ std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& tria
   std::vector<Point3> corners;
   for (const auto& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
   const double unit = unit_of(corners);
-  const auto lay_flat = [&](const Point3& p) {
-    const Point2 q = drop_axis(p, axis);
-    return unit == 1 ? q : Point2(q.x() / unit, q.y() / unit);
-  };
+  const auto lay_flat = [&](const Point3& p) { return drop_axis(p, axis, unit); };
   const auto lift = [&](const Point2& q) {  // the plane's point above q
     const FT n[3] = {plane.a(), plane.b(), plane.c()};
     FT c[3];

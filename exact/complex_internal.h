@@ -29,8 +29,9 @@ struct CutFace {
 std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& triangles,
                                   const std::vector<Contact>& contacts);
 
-// Drops the coordinate `axis` (0, 1, 2) of points of a plane that is not parallel to that axis; a bijection on the plane.
-Point2 drop_axis(const Point3& p, int axis);
+// Drops the coordinate `axis` (0, 1, 2) of points of a plane that is not parallel to that axis; a bijection on the plane. In units
+// of `unit`, a power of two.
+Point2 drop_axis(const Point3& p, int axis, double unit = 1);
 // An axis along which the plane's normal does not vanish (the largest component, as far as intervals can tell).
 int dominant_axis(const Vector3& normal);
 

@@ -17,8 +17,7 @@ class PlaneFrame {
         unit_(unit) {}
 
   exact::Point2 operator()(const exact::Point3& p) const {
-    exact::Point2 q = exact::drop_axis(p, axis_);
-    if (unit_ != 1) q = exact::Point2(q.x() / unit_, q.y() / unit_);
+    const exact::Point2 q = exact::drop_axis(p, axis_, unit_);
     return flip_ ? exact::Point2(q.y(), q.x()) : q;
   }
 
