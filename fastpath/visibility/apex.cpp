@@ -36,6 +36,13 @@ bool in_arc(const Vec3<NT>& a, const Vec3<NT>& b, const Vec3<NT>& normal, const 
   return det_sign(normal, a, x) >= 0 && det_sign(normal, x, b) >= 0;
 }
 
+// Intervals that find no way leave the question to whole numbers.
+template <class NT>
+[[noreturn]] void give_up(const char* what) {
+  if constexpr (std::is_same_v<NT, Interval>) throw Unsure{};
+  throw scene::Error(scene::ErrorCode::internal, what);
+}
+
 }  // namespace
 
 // The arcs around x, in one number type.
@@ -76,7 +83,7 @@ class Apex::Star {
   }
   V moved(const Beside<NT>& d) const {
     if (const std::optional<V> m = moved_if_possible(d)) return *m;
-    throw scene::Error(scene::ErrorCode::internal, "apex: a direction has no neighbour on its side");
+    give_up<NT>("apex: a direction has no neighbour on its side");
   }
 
   // Names the face of the sphere that holds d, which is on no arc.
@@ -95,7 +102,7 @@ class Apex::Star {
           if (const std::optional<V> start = moved_if_possible({d, by, by})) side = side_met(*start, first, aim);
         }
       }
-      if (side < 0) throw scene::Error(scene::ErrorCode::internal, "apex: no clean way to an incident piece");
+      if (side < 0) give_up<NT>("apex: no clean way to an incident piece");
       name.push_back(root(side));
     }
     return name;
@@ -118,7 +125,9 @@ class Apex::Star {
 
   // Around an edge point; d and inner in one face, inner inside the cone spanned by `rays`: whether one can get from d to inner by ways that each
   // turn by less than a half turn towards a direction of the cone. Seen along the edge every piece is a ray.
-  bool spreads(const Beside<NT>& d, const V& inner, const std::vector<V>& rays) const {
+  // `along(i)`: whether ray i is in one plane with d.limit and the edge.
+  template <class Along>
+  bool spreads(const Beside<NT>& d, const V& inner, const std::vector<V>& rays, const Along& along) const {
     const V& axis = nodes_[0];
     const auto turn = [&](const V& w) { return d.side_of(cross(w, axis)); };  // of d to w
     const auto half = [&](const V& w) {  // 0: like d, 1: first half turn, 2: opposite, 3: second half turn
@@ -140,10 +149,12 @@ class Apex::Star {
     };
     const NT sign(way);
     std::vector<Forms> forms;
-    for (const V& r : rays) {
-      const V n = cross(r, axis);
-      forms.push_back({{NT(sign * dot(n, d.limit)), NT(sign * dot(n, d.aside)), NT(sign * dot(n, d.off))},
-                       NT(sign * NT(dot(axis, cross(r, inner))))});
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const V n = cross(rays[i], axis);
+      const NT at_limit = dot(n, d.limit);
+      forms.push_back({{filtered_sign(at_limit) == kUnsure && along(i) ? NT(0) : NT(sign * at_limit),
+                        NT(sign * dot(n, d.aside)), NT(sign * dot(n, d.off))},
+                       NT(sign * NT(dot(axis, cross(rays[i], inner))))});
     }
     for (const Forms& a : forms) {
       if (leading(a.from_d[0], a.from_d[1], a.from_d[2]) <= 0) continue;
@@ -208,7 +219,8 @@ class Apex::Star {
     }
   }
 
-  // The side of the first arc of this component on the way from d to a point of one of its arcs; -1: not a clean way.
+  // The side of the first arc of this component on the way from d to a point of one of its arcs; -1: not a clean way, or not surely one. Every
+  // clean way leads to the same face, so there is no need to decide what is unsure.
   int side_met(const V& d, std::size_t aim_arc, int aim) const {
     const V target =
         NT(1 + aim) * nodes_[idx(arcs_[aim_arc].a)] + NT(1 + (aim * 7) % 11) * nodes_[idx(arcs_[aim_arc].b)];
@@ -218,16 +230,19 @@ class Apex::Star {
       if (component_[i] != component_[aim_arc]) continue;
       const Arc& arc = arcs_[i];
       const NT at_d = dot(arc.normal, d), at_target = i == aim_arc ? NT(0) : NT(dot(arc.normal, target));
-      const int sd = sign_of(at_d), st = sign_of(at_target);
-      if (sd == 0 && st == 0) return -1;
+      const int sd = filtered_sign(at_d), st = filtered_sign(at_target);
+      if (sd == kUnsure || st == kUnsure || (sd == 0 && st == 0)) return -1;
       if (sd == 0 || sd == st) continue;
       const NT above = sd > 0 ? at_d : NT(-at_d), beyond = sd > 0 ? NT(-at_target) : at_target, below = above + beyond;
-      if (side >= 0 && sign_of(NT(NT(above * nearest_below) - NT(nearest_above * below))) >= 0) continue;
+      const int later = side < 0 ? -1 : filtered_sign(NT(NT(above * nearest_below) - NT(nearest_above * below)));
+      if (later == 0 || later == 1) continue;
       const V y = i == aim_arc ? target : V(beyond * d + above * target);
       const V &a = nodes_[idx(arc.a)], &b = nodes_[idx(arc.b)];
-      const int after_a = det_sign(arc.normal, a, y), before_b = det_sign(arc.normal, y, b);
-      if (after_a < 0 || before_b < 0) continue;
-      if (after_a == 0 || before_b == 0) return -1;
+      const int after_a = filtered_sign(dot(arc.normal, cross(a, y)));
+      if (after_a < 0) continue;
+      const int before_b = filtered_sign(dot(arc.normal, cross(y, b)));
+      if (before_b < 0) continue;
+      if (after_a != 1 || before_b != 1 || later == kUnsure) return -1;
       nearest_above = above;
       nearest_below = below;
       side = static_cast<int>(2 * i) + (sd > 0 ? 0 : 1);
@@ -365,13 +380,12 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
   struct Lit {
     Beside<NT> beside;
     std::vector<int> face;
-    V lit_edge;
-    bool has_lit_edge;
+    const ExactPoint *to, *lit_end;
   };
   const V nothing{NT(0), NT(0), NT(0)};
   std::vector<Lit> lit;
   for (const Probe& p : probes) {
-    Lit l{{star.to(*p.to), nothing, nothing}, {}, nothing, p.lit_end != nullptr};
+    Lit l{{star.to(*p.to), nothing, nothing}, {}, p.to, p.lit_end};
     if (p.plane) {
       const V n = normal_direction<NT>(*p.plane);
       l.beside.aside = n;
@@ -381,7 +395,6 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
         l.beside.aside = p.aside > 0 ? ccw : -ccw;
       }
     }
-    if (p.lit_end) l.lit_edge = star.to(*p.lit_end);
     l.face = star.face_of(p.plane ? star.moved(l.beside) : l.beside.limit);
     lit.push_back(std::move(l));
   }
@@ -397,7 +410,7 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
     bool bounds_nothing = false;
     for (const Lit& l : lit) {
       // Visible space strictly in H+ that surely reaches the points just off `middle` in H+.
-      if (sign_of(NT(dot(n, l.beside.limit))) < 0 && star.free_between(l.beside, middle)) {
+      if (s.plane->side(*l.to) < 0 && star.free_between(l.beside, middle)) {
         bounds_nothing = true;
         break;
       }
@@ -407,10 +420,15 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
     const std::vector<int> face = star.face_of(inner);
     bool exists = false;
     for (const Lit& l : lit) {
-      if (l.face != face || (on_edge_ && !star.spreads(l.beside, inner, anticone))) continue;
+      if (l.face != face) continue;
+      const auto along = [&](std::size_t k) {
+        const LocalEdge& e = scene_->edges[id_];
+        return orientation(scene_->points[e.a], scene_->points[e.b], *l.to, cell.vertices[k]) == 0;
+      };
+      if (on_edge_ && !star.spreads(l.beside, inner, anticone, along)) continue;
       exists = true;
       // A point of the visible part of a crossed edge reaches whatever its face allows.
-      if (l.has_lit_edge && sign_of(NT(dot(n, l.lit_edge))) < 0) bounds_nothing = true;
+      if (l.lit_end && s.plane->side(*l.lit_end) < 0) bounds_nothing = true;
     }
     if (exists && !bounds_nothing) found.push_back(i);
   }

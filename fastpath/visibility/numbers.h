@@ -27,7 +27,7 @@ struct Unsure {};
 
 inline constexpr int kUnsure = 2;
 
-// -1, 0, 1, or kUnsure.
+// -1, 0, 1, or kUnsure; exact numbers are never unsure.
 inline int filtered_sign(const Interval& x) {
   if (x.inf() > 0) return 1;
   if (x.sup() < 0) return -1;
@@ -41,6 +41,8 @@ inline int sign_of(const Interval& x) {
 }
 inline int sign_of(const Rational& x) { return sgn(x); }
 inline int sign_of(const Integer& x) { return x.sign(); }
+inline int filtered_sign(const Rational& x) { return sgn(x); }
+inline int filtered_sign(const Integer& x) { return x.sign(); }
 
 template <class NT>
 struct Vec3 {

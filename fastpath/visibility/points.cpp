@@ -251,11 +251,9 @@ bool collinear(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
     // One component that is surely not zero is enough.
     bool unsure = false;
     for (const NT* x : {&n.x, &n.y, &n.z}) {
-      try {
-        if (sign_of(*x) != 0) return false;
-      } catch (const Unsure&) {
-        unsure = true;
-      }
+      const int s = filtered_sign(*x);
+      if (s == 1 || s == -1) return false;
+      unsure |= s == kUnsure;
     }
     if (unsure) throw Unsure{};
     return true;
