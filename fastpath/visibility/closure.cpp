@@ -1,24 +1,21 @@
 #include "fastpath/visibility/closure.h"
 
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <random>
 #include <span>
 
 #include "exact/box_tree.h"
-#include "fastpath/segment_queries.h"
 #include "fastpath/visibility/contact.h"
+#include "fastpath/visibility/sight_rays.h"
 
 namespace clues::fastpath {
 namespace {
 
 // How many rays look for a first guess, at most, and how many triangles whose proof failed are looked at before the map is made anew.
-constexpr std::size_t kRays = 16384, kAimedRays = 4096, kFailures = 256;
+constexpr std::size_t kRays = 4096, kFailures = 256;
 
 Box box_of(std::span<const Point> points) {
   Box box{points[0], points[0]};
@@ -117,14 +114,18 @@ class LitTriangles {
 
 class Closer {
  public:
-  Closer(const Bvh& bvh, const Cell& cell) : bvh_(bvh), cell_(cell), in_part_(bvh.mesh().triangles.size(), 0) {}
+  Closer(const Bvh& bvh, const Cell& cell)
+      : bvh_(bvh), cell_(cell), rays_(bvh, cell), in_part_(bvh.mesh().triangles.size(), 0) {}
 
-  void add(std::uint32_t triangle) {
-    if (in_part_[triangle] != 0) return;
+  // False if it was there.
+  bool add(std::uint32_t triangle) {
+    if (in_part_[triangle] != 0) return false;
     in_part_[triangle] = 1;
     part_.push_back(triangle);
+    return true;
   }
   const std::vector<std::uint32_t>& part() const { return part_; }
+  std::uint64_t rays() const { return rays_.count(); }
   void add_all();
   void add_triangles_by_the_cell();
   void add_seen_by_rays();
@@ -139,29 +140,16 @@ class Closer {
  private:
   bool dark(const Box& box, const PartialMap& map, const LitTriangles& lit) const;
   bool dark(const Corners& t, const PartialMap& map, const LitTriangles& lit) const;
-  // Adds what sight lines to the triangle meet first; else the triangle itself.
-  void add_front_of(std::uint32_t triangle);
-  Point point_of_cell(std::mt19937_64& random) const;
+  void add_with_neighbours(std::vector<std::uint32_t> seen);
+  // Adds what sight lines to the triangles meet first; else the triangles themselves.
+  void add_front_of(const std::vector<std::uint32_t>& triangles);
 
   const Bvh& bvh_;
   const Cell& cell_;
+  SightRays rays_;
   std::vector<std::uint8_t> in_part_;
   std::vector<std::uint32_t> part_;
 };
-
-// A random convex combination of the cell's vertices: inside the cell but for roundings, and it is a guess only.
-Point Closer::point_of_cell(std::mt19937_64& random) const {
-  std::uniform_real_distribution<double> unit(0, 1);
-  Point p{};
-  double sum = 0;
-  for (const Point& v : cell_.vertices()) {
-    const double weight = unit(random);
-    sum += weight;
-    for (std::size_t i = 0; i < 3; ++i) p[i] += weight * v[i];
-  }
-  for (double& x : p) x /= sum;
-  return p;
-}
 
 void Closer::add_all() {
   for (std::uint32_t t = 0; t < in_part_.size(); ++t) add(t);
@@ -189,41 +177,19 @@ void Closer::add_triangles_by_the_cell() {
 }
 
 void Closer::add_seen_by_rays() {
-  const std::size_t triangles = bvh_.mesh().triangles.size();
-  std::mt19937_64 random(triangles);
-  std::vector<Segment> rays;
-  // Directions spread evenly over the sphere, each from another point of the cell, to beyond the scene.
-  const double reach = 4 / bvh_.frame().scale;
-  const std::size_t around = std::min(4 * triangles, kRays);
-  for (std::size_t i = 0; i < around; ++i) {
-    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(around);
-    const double turn = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
-    const Point from = point_of_cell(random);
-    rays.push_back(
-        {from, {from[0] + reach * r * std::cos(turn), from[1] + reach * r * std::sin(turn), from[2] + reach * z}});
-  }
-  const std::size_t aimed = std::min(triangles, kAimedRays);
-  for (std::size_t i = 0; i < aimed; ++i) {
-    const Corners t = bvh_.corners(static_cast<std::uint32_t>(i * triangles / aimed));
-    Point inside{};
-    about_inside(t, {0.3125, 0.375, 0.3125}, inside);
-    const Point from = point_of_cell(random);
-    // A little beyond the triangle, so that it counts itself.
-    for (std::size_t k = 0; k < 3; ++k) inside[k] += (inside[k] - from[k]) * 0x1p-20;
-    rays.push_back({from, inside});
-  }
-  std::erase_if(rays, [](const Segment& s) {
-    return !std::all_of(s.b.begin(), s.b.end(), [](double x) { return std::isfinite(x); });
-  });
-  counts.rays += rays.size();
-  constexpr std::uint32_t kNothing = BoxLanes::kEmpty;
-  std::vector<std::uint32_t> met(rays.size(), kNothing);
-  tbb::enumerable_thread_specific<SegmentQueries> queries(std::cref(bvh_));
-  tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
-    met[i] = queries.local().first_hit(rays[i], {{}, &cell_}).value_or(kNothing);
-  });
-  for (const std::uint32_t t : met) {
-    if (t != kNothing) add(t);
+  const std::vector<std::uint32_t> at_the_cell = part_;
+  add_with_neighbours(at_the_cell);
+  add_with_neighbours(rays_.around(std::min(bvh_.mesh().triangles.size(), kRays)));
+}
+
+// And what is seen next to them, and next to that. Ids that are kNothing are left out.
+void Closer::add_with_neighbours(std::vector<std::uint32_t> seen) {
+  while (!seen.empty()) {
+    std::vector<std::uint32_t> fresh;
+    for (const std::uint32_t t : seen) {
+      if (t != SightRays::kNothing && add(t)) fresh.push_back(t);
+    }
+    seen = rays_.beside(fresh);
   }
 }
 
@@ -269,18 +235,17 @@ bool Closer::dark(const Corners& t, const PartialMap& map, const LitTriangles& l
   return false;
 }
 
-void Closer::add_front_of(std::uint32_t triangle) {
-  std::mt19937_64 random(triangle);
-  SegmentQueries queries(bvh_);
-  Point inside{};
-  about_inside(bvh_.corners(triangle), {0.3125, 0.375, 0.3125}, inside);
-  const std::size_t before = part_.size();
-  for (int i = 0; i < 4; ++i) {
-    ++counts.rays;
-    const auto front = queries.first_hit({point_of_cell(random), inside}, {{}, &cell_});
-    if (front) add(*front);
+void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
+  const std::vector<std::uint32_t> met = rays_.towards(triangles);
+  std::vector<std::uint32_t> seen;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto first = met.begin() + static_cast<std::ptrdiff_t>(i * SightRays::kTowards);
+    const std::size_t before = seen.size();
+    std::copy_if(first, first + SightRays::kTowards, std::back_inserter(seen),
+                 [&](std::uint32_t t) { return t != SightRays::kNothing && in_part_[t] == 0; });
+    if (seen.size() == before) add(triangles[i]);
   }
-  if (part_.size() == before) add(triangle);
+  add_with_neighbours(std::move(seen));
 }
 
 bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible) {
@@ -328,7 +293,7 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
       counts.triangles_dark += a.triangles_dark;
     }
   }
-  for (const std::uint32_t t : failed) add_front_of(t);
+  add_front_of(failed);
   return !failed.empty();
 }
 
@@ -353,6 +318,7 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
   } while (result.part.size() < bvh.mesh().triangles.size() && !bvh.nodes().empty() &&
            closer.add_what_may_be_lit(*result.map, result.visible));
   result.counts = closer.counts;
+  result.counts.rays = closer.rays();
   return result;
 }
 

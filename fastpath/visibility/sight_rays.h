@@ -1,0 +1,40 @@
+// Rays from the cell that look for triangles which may be visible, for a first guess: nothing is proved by them, and every answer is only a list of
+// first hits. A ray that just passes the edge of a triangle known to be seen finds what is next to it in the picture; so what is seen spreads from
+// neighbour to neighbour, and small or distant triangles are met for a few rays each.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fastpath/bvh.h"
+#include "fastpath/cell.h"
+
+namespace clues::fastpath {
+
+class SightRays {
+ public:
+  // Keeps references. The same answers in every run and for any number of threads.
+  SightRays(const Bvh& bvh, const Cell& cell) : bvh_(bvh), cell_(cell) {}
+
+  // First hits of `count` rays spread evenly over all directions.
+  std::vector<std::uint32_t> around(std::size_t count);
+  // First hits of rays that pass each of the triangles closely, edge by edge.
+  std::vector<std::uint32_t> beside(std::span<const std::uint32_t> triangles);
+  // First hits on the way to each of the triangles: kTowards for each, the triangle itself where nothing is in front, kNothing for a miss.
+  static constexpr std::size_t kTowards = 8;
+  static constexpr std::uint32_t kNothing = ~0U;
+  std::vector<std::uint32_t> towards(std::span<const std::uint32_t> triangles);
+
+  std::uint64_t count() const { return count_; }
+
+ private:
+  template <class RayOf>
+  std::vector<std::uint32_t> first_hits(std::size_t count, const RayOf& ray_of);
+
+  const Bvh& bvh_;
+  const Cell& cell_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace clues::fastpath
