@@ -60,11 +60,11 @@ int common_corners(const Corners& a, const Corners& b) {
   return static_cast<int>(std::count_if(a.begin(), a.end(), [&](auto c) { return has_corner(b, c); }));
 }
 
-// For b in a's plane: whether all corners of b that an edge of a lacks lie strictly on the other side of that edge's line.
-bool beyond_an_edge(const PointPool& pool, const Corners& a, const Corners& b) {
+// For points in a's plane: whether all that are not among the ends of one edge of a lie strictly on the other side of that edge's line.
+bool beyond_an_edge(const PointPool& pool, const Corners& a, const std::vector<std::uint32_t>& points) {
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t p = a[i], q = a[(i + 1) % 3], r = a[(i + 2) % 3];
-    if (std::all_of(b.begin(), b.end(), [&](std::uint32_t c) {
+    if (std::all_of(points.begin(), points.end(), [&](std::uint32_t c) {
           return c == p || c == q || CGAL::coplanar_orientation(pool[p], pool[q], pool[r], pool[c]) == CGAL::NEGATIVE;
         }))
       return true;
@@ -72,17 +72,22 @@ bool beyond_an_edge(const PointPool& pool, const Corners& a, const Corners& b) {
   return false;
 }
 
-// Whether a plane or a line shows that a and b meet in common corners, or a common edge, only: the corners of b that a lacks lie strictly on one side of a's
-// plane, or in it and beyond an edge of a. Half of the answer: ask with a and b exchanged too.
+// Whether a plane or a line shows that a and b meet in common corners, or a common edge, only: b is on one side of a's plane, so that they meet where b has
+// corners in that plane; and of those all that a lacks, if any, lie beyond an edge of a. Half of the answer: ask with a and b exchanged too.
 bool strictly_beside(const PointPool& pool, const Corners& a, const Corners& b) {
   bool above = false, below = false, upon = false;
+  std::vector<std::uint32_t> in_plane;
   for (const std::uint32_t c : b) {
-    if (has_corner(a, c)) continue;
+    if (has_corner(a, c)) {
+      in_plane.push_back(c);
+      continue;
+    }
     const CGAL::Orientation o = CGAL::orientation(pool[a[0]], pool[a[1]], pool[a[2]], pool[c]);
     (o == CGAL::POSITIVE ? above : o == CGAL::NEGATIVE ? below : upon) = true;
+    if (o == CGAL::COPLANAR) in_plane.push_back(c);
   }
   if (above && below) return false;
-  return upon ? !above && !below && beyond_an_edge(pool, a, b) : true;
+  return !upon || beyond_an_edge(pool, a, in_plane);
 }
 
 void find_edges(Complex& complex) {

@@ -177,8 +177,7 @@ void Closer::add_triangles_by_the_cell() {
 }
 
 void Closer::add_seen_by_rays() {
-  const std::vector<std::uint32_t> at_the_cell = part_;
-  add_with_neighbours(at_the_cell);
+  add_with_neighbours(rays_.beside(part_));
   add_with_neighbours(rays_.around(std::min(bvh_.mesh().triangles.size(), kRays)));
 }
 
