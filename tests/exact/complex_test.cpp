@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 
+#include "exact/complex_internal.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
 
@@ -110,6 +111,40 @@ TEST(Complex, EveryTriangleMeetsEveryOther) {
   EXPECT_EQ(c.refined_triangles, triangles.size());
   EXPECT_EQ(wrong_contacts(c), 0U);
   expect_covered(mesh, c);
+}
+
+// A pair is cut if and only if it meets in more than common corners or a common edge; on so small a grid corners lie in planes and on lines of the other
+// triangle all the time.
+TEST(Complex, CutsAPairOnlyWhereItMeetsInMoreThanCommonCorners) {
+  constexpr std::uint64_t kSeed = 20261121;
+  fuzz::Random random(kSeed);
+  int cut = 0, whole = 0;
+  for (int n = 0; n < 4000; ++n) {
+    SCOPED_TRACE(n);
+    std::vector<std::array<scene::Point, 3>> triangles(2);
+    for (auto& t : triangles) {
+      for (scene::Point& p : t) {
+        for (double& x : p) x = random.between(0, 2);
+      }
+    }
+    if (random.one_in(2)) triangles[1][0] = triangles[0][0];
+    if (random.one_in(4)) triangles[1][1] = triangles[0][1];
+    const auto of = [&](std::size_t k) {
+      return Kernel::Triangle_3(to_exact(triangles[k][0]), to_exact(triangles[k][1]), to_exact(triangles[k][2]));
+    };
+    if (of(0).is_degenerate() || of(1).is_degenerate()) continue;
+    std::size_t common = 0;
+    for (const scene::Point& p : triangles[1])
+      common += static_cast<std::size_t>(std::count(triangles[0].begin(), triangles[0].end(), p));
+    const Contact contact = meet(of(0), of(1));
+    const bool must = common < 3 && (contact.overlap || contact.points.size() > common);
+    const Complex c = build_complex(mesh_of(triangles));
+    ASSERT_EQ(c.refined_triangles, must ? 2U : 0U) << "seed " << kSeed;
+    ASSERT_EQ(wrong_contacts(c), 0U);
+    (must ? cut : whole) += 1;
+  }
+  EXPECT_GT(cut, 500);
+  EXPECT_GT(whole, 500);
 }
 
 TEST(Complex, NothingMeetsAnything) {
