@@ -62,6 +62,8 @@ Bounds::Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, c
     if (complex.in_cell[i / 2]) lower_[i] = upper_[i];  // D3
   }
   first_order_area_ = area_estimate(upper_);
+  open_.assign(upper_.size(), 1);
+  find_open();
 }
 
 SideSets Bounds::nothing() const {
@@ -95,15 +97,15 @@ SideSets Bounds::sets_of(const VisibilityMap& map) const {
   return sets;
 }
 
-std::vector<bool> Bounds::open_sides() const {
-  std::vector<char> open(upper_.size());
-  for_each_side([&](std::size_t i) { open[i] = subtract(upper_[i], lower_[i]).empty() ? 0 : 1; });
-  return {open.begin(), open.end()};
+// Closed sides stay closed: lower only grows, and upper only shrinks.
+void Bounds::find_open() {
+  for_each_side([&](std::size_t i) {
+    if (open_[i]) open_[i] = subtract(upper_[i], lower_[i]).empty() ? 0 : 1;
+  });
 }
 
 bool Bounds::closed() const {
-  const std::vector<bool> open = open_sides();
-  return std::none_of(open.begin(), open.end(), [](bool o) { return o; });
+  return std::none_of(open_.begin(), open_.end(), [](char o) { return o != 0; });
 }
 
 VisibilityMap Bounds::map_of(const exact::ConvexCell& part, const std::vector<bool>& wanted) {
@@ -114,7 +116,7 @@ VisibilityMap Bounds::map_of(const exact::ConvexCell& part, const std::vector<bo
 }
 
 void Bounds::add_viewpoint(const Point3& v) {
-  if (std::find(asked_.begin(), asked_.end(), v) != asked_.end()) return;
+  if (closed() || std::find(asked_.begin(), asked_.end(), v) != asked_.end()) return;
   asked_.push_back(v);
   const exact::Complex& complex = map_.complex;
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
@@ -125,6 +127,7 @@ void Bounds::add_viewpoint(const Point3& v) {
   if (seen.statistics.conservative_fallbacks > 0) return;
   ++viewpoints_;
   lower_ = united(lower_, sets_of(seen));
+  find_open();
 }
 
 void Bounds::look_around(int depth) {
@@ -161,6 +164,7 @@ bool Bounds::restrict_to(const SideSets& seen, const std::vector<bool>& wanted) 
     upper_[i] = intersect(upper_[i], seen[i]);
     less[i] = upper_[i].fraction() < before;
   });
+  find_open();
   return std::any_of(less.begin(), less.end(), [](char l) { return l != 0; });
 }
 

@@ -45,14 +45,14 @@ class Bounds {
   const SideSets& upper() const { return upper_; }
 
   // The sides on which upper is more than lower.
-  std::vector<bool> open_sides() const;
+  std::vector<bool> open_sides() const { return {open_.begin(), open_.end()}; }
   bool closed() const;
 
   // The first-order map of a part of the cell on the wanted sides, and its visible regions. Counted in maps() and fallbacks().
   VisibilityMap map_of(const exact::ConvexCell& part, const std::vector<bool>& wanted);
   SideSets sets_of(const VisibilityMap& map) const;
 
-  // Adds to lower what v sees on the open sides. Nothing if v was asked before, is touched by an occluder, or its map has a fallback.
+  // Adds to lower what v sees on the open sides. Nothing if there are none, v was asked before, is touched by an occluder, or its map has a fallback.
   void add_viewpoint(const exact::Point3& v);
 
   // Viewpoints for this depth: the corners and centres of V's parts after one and a half times as many halvings. Of a solid V those on its border are enough: every
@@ -80,12 +80,14 @@ class Bounds {
 
  private:
   SideSets nothing() const;
+  void find_open();  // of the sides that were open so far
   template <class Work>
   void for_each_side(const Work& work) const;  // in parallel, on the threads of the options
 
   VisibilityMap map_;
   Options options_;  // without progress
   SideSets lower_, upper_;
+  std::vector<char> open_;          // by side
   std::vector<double> piece_area_;  // estimates
   double facing_ = 0, first_order_area_ = 0;
   std::vector<exact::Point3> asked_;
