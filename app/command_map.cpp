@@ -265,6 +265,7 @@ void add_map_command(CLI::App& program, int& status) {
       "  clues map town.obj --cell box:0,0,1,2,2,2 --formulation traversal --overlap-graph town.dot\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --method backprojected --max-depth 2\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --simplify-boundaries 0.05 --min-occlusion 0.01\n"
+      "  clues map town.obj --cell box:0,0,1,2,2,2 --kernel fast --method subdivided --max-depth 3\n"
       "  clues map town.obj --cells grid:4x4x1:box:0,0,1,8,8,2 -o cells/\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   3 the umbra is not closed where a limit was reached   4 an oracle "

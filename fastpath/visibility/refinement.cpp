@@ -118,8 +118,8 @@ class Refiner {
   }
 
   void refine(bool backprojection) {
-    std::vector<Part> parts{first_part(backprojection)};
     look_around(0);
+    std::vector<Part> parts{first_part(backprojection)};
     note(backprojection, 0, 1);
     for (int depth = 1; depth <= refinement_.max_depth && !done(); ++depth) {
       const Flags open = open_triangles();

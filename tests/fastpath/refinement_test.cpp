@@ -228,8 +228,8 @@ TEST(FastRefinement, NothingVisibleIsLostByBackprojection) {
 
 TEST(FastRefinementLong, NothingVisibleIsLost) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
-  judge_all(RefineBy::cells, "cells", 4, 60, 10, 32);
-  judge_all(RefineBy::backprojection, "backprojection", 4, 60, 10, 32);
+  judge_all(RefineBy::cells, "cells", 4, 40, 10, 24);
+  judge_all(RefineBy::backprojection, "backprojection", 4, 40, 10, 24);
   judge_all(RefineBy::both, "both", 2, 20, 5, 24);
 }
 
