@@ -262,6 +262,59 @@ TEST(FastRefinement, TakesOutTilesBehindTwoSlits) {
   }
 }
 
+// Two or three walls with a slit each, at random angles, before a floor of tiles: much is visible to first order only.
+Scene random_slits(std::uint64_t index) {
+  fuzz::Random random(kSeed + index);
+  constexpr double kWays[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+  Scene s;
+  const int walls = random.between(2, 3);
+  for (int i = 0; i < walls; ++i) {
+    const auto& [nx, ny] = kWays[random.between(0, 3)];
+    const double at = random.between(-8, 8) / 16., width = random.between(1, 6) / 16.;
+    s.half_plane(nx, ny, at + width, 2 * i + 2);
+    s.half_plane(-nx, -ny, width - at, 2 * i + 2);
+  }
+  const double size = random.between(8, 12) / 8.;
+  for (int x = -3; x < 3; ++x) {
+    for (int y = -3; y < 3; ++y) s.plate(x * size, y * size, (x + 1) * size, (y + 1) * size, 2 * walls + 2);
+  }
+  s.cell = box({-1, -1, 0}, {1, random.between(-15, 16) / 16., random.between(0, 8) / 16.});
+  return s;
+}
+
+void judge_slits(std::uint64_t scenes, int depth) {
+  Judged judged;
+  for (std::uint64_t i = 0; i < scenes; ++i) {
+    SCOPED_TRACE(i);
+    const Scene s = random_slits(i);
+    RefinementOptions options;
+    options.max_depth = depth;
+    for (const RefineBy by : {RefineBy::cells, RefineBy::backprojection}) {
+      options.by = by;
+      options.sight_lines = 0;
+      options.regions = false;
+      const RefinedVisibility found = refine(s.mesh, s.cell, options);
+      ++judged.scenes;
+      judged.gained += found.visible.size() < found.first_order.visible.size();
+      judged.missing += lost(s, found);
+      options.sight_lines = RefinementOptions{}.sight_lines;
+      options.regions = true;
+      const RefinedVisibility with_areas = refine(s.mesh, s.cell, options);
+      judged.missing += lost(s, with_areas);
+      judge_points(s.mesh, s.cell, with_areas, 16, judged);
+    }
+  }
+  EXPECT_GT(judged.gained, 0U);
+  expect_sound(judged, "slits");
+}
+
+TEST(FastRefinement, NothingVisibleIsLostBehindRandomSlits) { judge_slits(4, 2); }
+
+TEST(FastRefinementLong, NothingVisibleIsLostBehindRandomSlits) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  judge_slits(60, 4);
+}
+
 // The planted bug: the raw adjusted wedge, which is the map of V+ without V-.
 TEST(FastRefinement, JudgesCatchAHalfThatIsNotAsked) {
   const Scene s = slits_and_tiles();
