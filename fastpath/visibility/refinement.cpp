@@ -123,8 +123,7 @@ class Refiner {
     note(backprojection, 0, 1);
     for (int depth = 1; depth <= refinement_.max_depth && !done(); ++depth) {
       const Flags open = open_triangles();
-      std::vector<Part> next = cut_parts(std::move(parts), open, backprojection);
-      parts = std::move(next);
+      parts = cut_parts(std::move(parts), open, backprojection);
       for (std::size_t t = 0; t < open.size(); ++t) {
         if (!open[t] || known_[t]) continue;
         listed_[t] = std::any_of(parts.begin(), parts.end(), [t](const Part& part) { return part.seen[t]; });
