@@ -20,8 +20,9 @@ using exact::Point3;
 
 namespace {
 
-// A cut is made if it may take away more than this share of the excess. Smaller shares cost many more maps and gain little: docs/precision.md.
-constexpr double least_share = 1.0 / 64;
+// A cut of V is made if it may take away more than this share of the excess, a cut of a half if more than four times as much, and so on: another depth of cuts of V gains more for
+// the same work, until what is left is in doubt in one of the halves alone. Figures are in docs/precision.md.
+constexpr double share_of_v = 1.0 / 64, more_for_halves = 4;
 
 struct Part {
   ConvexCell cell;
@@ -29,6 +30,7 @@ struct Part {
   std::vector<bool> open;                // sides of which it may see more than is known to be seen
   std::vector<ContourSegment> segments;  // to be adjusted at the next depth
   std::vector<std::array<std::size_t, 2>> cuts;
+  double least_share = share_of_v;
   std::size_t whole = 0, other = 0;  // what was cut, and the other half; 0, 0: V
 };
 
@@ -51,7 +53,7 @@ class AdjustedCuts {
       if (std::none_of(open_.begin(), open_.end(), [](bool o) { return o; })) break;
       const double excess = depths.back().area.excess();
       if (excess <= options_.tolerance_area) break;
-      least_gain_ = excess * least_share;
+      excess_ = excess;
       const std::size_t parts = parts_.size();  // the halves made now wait for the next depth
       for (std::size_t i = 0; i < parts; ++i) {
         if (adjust(i)) bounds_.restrict_to(upper_of(0), open_);
@@ -71,15 +73,16 @@ class AdjustedCuts {
     const ConvexCell cell = parts_[i].cell;
     for (std::size_t k = 0; k < open_.size(); ++k) parts_[i].open[k] = parts_[i].open[k] && open_[k];
     const DoubtfulArea doubtful(bounds_, seen_alone(i), parts_[i].open);
+    const double least_gain = parts_[i].least_share * excess_;
     const std::size_t cuts = parts_[i].cuts.size();
     for (const ContourSegment& s : segments) {
-      if (!(doubtful.between(s.plane, separating_plane(s, cell)) > least_gain_)) continue;
+      if (!(doubtful.between(s.plane, separating_plane(s, cell)) > least_gain)) continue;
       const auto plane = plane_of(s, cell);
       if (!plane) continue;
-      if (doubtful.between(s.plane, *plane) > least_gain_) cut(i, *plane);
+      if (doubtful.between(s.plane, *plane) > least_gain) cut(i, *plane);
       if (options_.retract) {
         const auto nearer = retracted(s, *plane, cell);
-        if (nearer && doubtful.between(nearer->first_order, nearer->adjusted) > least_gain_) cut(i, nearer->adjusted);
+        if (nearer && doubtful.between(nearer->first_order, nearer->adjusted) > least_gain) cut(i, nearer->adjusted);
       }
       const Point3 middle = exact::collapsed(CGAL::midpoint(s.lo, s.hi));
       parts_[i].segments.push_back({s.edge, s.lo, middle, s.plane, s.center});
@@ -122,7 +125,10 @@ class AdjustedCuts {
     for (const ConvexCell* half : {&*plus, &*minus}) {
       const std::vector<bool> wanted = parts_[i].open;
       const VisibilityMap map = bounds_.map_of(*half, wanted);
-      Part part{*half, bounds_.sets_of(map), wanted, {}, {}, i, half == &*plus ? cuts[1] : cuts[0]};
+      Part part{*half,  bounds_.sets_of(map),
+                wanted, {},
+                {},     more_for_halves * parts_[i].least_share,
+                i,      half == &*plus ? cuts[1] : cuts[0]};
       for (std::size_t k = 0; k < wanted.size(); ++k)
         part.open[k] = wanted[k] && !subtract(part.first_order[k], bounds_.lower()[k]).empty();
       part.segments = inexact_segments(map, part.open);
@@ -157,7 +163,7 @@ class AdjustedCuts {
   RefineOptions options_;
   std::vector<bool> open_;
   std::vector<Part> parts_;
-  double least_gain_ = 0;
+  double excess_ = 0;  // before this depth
   std::uint64_t cells_ = 1, backprojections_ = 0;
 };
 
