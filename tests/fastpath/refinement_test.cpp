@@ -3,78 +3,25 @@
 #include "fastpath/visibility/refinement.h"
 
 #include <gtest/gtest.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <iterator>
-#include <numeric>
 
-#include "exact/cell_cut.h"
 #include "exact/complex.h"
 #include "exact/point_occlusion.h"
 #include "fastpath/visibility/adjusted_cut.h"
-#include "fastpath/visibility/area_bounds.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
+#include "slit_scenes.h"
 #include "validate/visible_set.h"
 
 namespace clues::fastpath {
 namespace {
 
 constexpr std::uint64_t kSeed = 20261121;
-
-using Ids = std::vector<std::uint32_t>;
-
-struct Scene {
-  scene::TriangleMesh mesh;
-  std::vector<Point> cell;
-
-  std::uint32_t quad(const Point& a, const Point& b, const Point& c, const Point& d) {
-    const auto first = static_cast<std::uint32_t>(mesh.points.size());
-    for (const Point& p : {a, b, c, d}) mesh.points.push_back(p);
-    const auto t = static_cast<std::uint32_t>(mesh.triangles.size());
-    mesh.triangles.push_back({first, first + 1, first + 2});
-    mesh.triangles.push_back({first, first + 2, first + 3});
-    mesh.face_of.assign(mesh.triangles.size(), 0);
-    std::iota(mesh.face_of.begin(), mesh.face_of.end(), 0U);
-    return t;
-  }
-  std::uint32_t plate(double x0, double y0, double x1, double y1, double z) {
-    return quad({x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z});
-  }
-  // Covers n . x >= g at height z, as far as 8; n has entries -1, 0, 1.
-  void half_plane(double nx, double ny, double g, double z) {
-    constexpr double r = 8;
-    const double s = nx * nx + ny * ny, x = nx * g / s, y = ny * g / s;
-    quad({x + r * ny, y - r * nx, z}, {x + r * (ny + nx), y + r * (ny - nx), z},
-         {x + r * (nx - ny), y + r * (ny + nx), z}, {x - r * ny, y + r * nx, z});
-  }
-};
-
-std::vector<Point> box(const Point& lo, const Point& hi) {
-  std::vector<Point> corners;
-  for (unsigned i = 0; i < 8; ++i)
-    corners.push_back({i & 1U ? hi[0] : lo[0], i & 2U ? hi[1] : lo[1], i & 4U ? hi[2] : lo[2]});
-  return corners;
-}
-
-RefinedVisibility refine(const scene::TriangleMesh& mesh, const std::vector<Point>& cell,
-                         const RefinementOptions& refinement) {
-  const Bvh bvh(mesh);
-  return refined_visibility(bvh, cell, {}, refinement);
-}
-
-bool lists(const Ids& ids, std::uint32_t t) { return std::binary_search(ids.begin(), ids.end(), t); }
-
-Ids missing_from(const Ids& all, const Ids& some) {
-  Ids out;
-  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(out));
-  return out;
-}
 
 Ids exactly_visible(const scene::TriangleMesh& mesh, const std::vector<Point>& cell) {
   const auto set = validate::exact_visible_set(mesh, exact::ConvexCell::from_doubles(cell));
@@ -83,20 +30,6 @@ Ids exactly_visible(const scene::TriangleMesh& mesh, const std::vector<Point>& c
     if (set.triangles[t].sight == validate::Sight::visible) ids.push_back(t);
   }
   return ids;
-}
-
-// Two slits that cross each other at an angle, in two walls, and behind them a floor of tiles.
-Scene slits_and_tiles() {
-  Scene s;
-  s.half_plane(0, 1, 1 / 8., 2);
-  s.half_plane(0, -1, 1 / 8., 2);
-  s.half_plane(1, 1, 1 / 8., 4);
-  s.half_plane(-1, -1, 1 / 8., 4);
-  for (int x = -4; x < 4; ++x) {
-    for (int y = -4; y < 4; ++y) s.plate(x, y, x + 1, y + 1, 6);
-  }
-  s.cell = box({-1, -1, 0}, {1, 1, 0.5});
-  return s;
 }
 
 // --- soundness --------------------------------------------------------------------------------------------------------------
@@ -399,142 +332,6 @@ TEST(FastRefinement, HazardA4) {
   const Ids visible = exactly_visible(s.mesh, s.cell);
   EXPECT_TRUE(lists(visible, target) || lists(visible, target + 1));
   EXPECT_FALSE(lists(visible, near_target) || lists(visible, near_target + 1));
-}
-
-// --- parts and areas --------------------------------------------------------------------------------------------------------
-
-// Random planes through cells of all dimensions, and through the parts again: each half lies in the part for its side, and the parts in the cell.
-TEST(FastRefinement, PartsCoverTheCell) {
-  fuzz::Random random(kSeed);
-  const auto number = [&] { return random.between(-1000000, 1000000) * 0x1.123456789p-20; };
-  std::uint64_t cut = 0;
-  for (int i = 0; i < 100; ++i) {
-    std::vector<Point> points;
-    const int corners = random.between(2, 8);
-    for (int k = 0; k < corners; ++k) points.push_back({number(), number(), number()});
-    std::vector<exact::ConvexCell> cells{exact::ConvexCell::from_doubles(points)};
-    for (int depth = 0; depth < 2; ++depth) {
-      std::vector<exact::ConvexCell> next;
-      for (const exact::ConvexCell& cell : cells) {
-        const CutPlane plane{{number() / 4, number() / 4, number() / 4}, {number(), number(), number()}};
-        const exact::Plane3 exact_plane(exact::to_exact(plane.base),
-                                        exact::Vector3(plane.normal[0], plane.normal[1], plane.normal[2]));
-        const auto below = part_beside(cell, exact_plane, exact::Side::negative);
-        const auto above = part_beside(cell, exact_plane, exact::Side::positive);
-        const auto parts = parts_along(cell, plane);
-        ASSERT_EQ(parts.size(), below && above ? 2U : 1U);
-        for (const exact::ConvexCell& part : parts) {
-          EXPECT_EQ(part.dimension(), cell.dimension());
-          for (const exact::Point3& v : part.vertices()) EXPECT_TRUE(cell.contains(v));
-          next.push_back(part);
-        }
-        if (parts.size() < 2) continue;
-        ++cut;
-        for (const exact::Point3& v : below->vertices()) EXPECT_TRUE(parts[0].contains(v));
-        for (const exact::Point3& v : above->vertices()) EXPECT_TRUE(parts[1].contains(v));
-      }
-      cells = std::move(next);
-    }
-  }
-  EXPECT_GT(cut, 50U);
-}
-
-LocalRegion region(const std::vector<Point>& outline, double area, bool visible = true) {
-  return {0, true, visible, outline, area};
-}
-
-TEST(FastRefinement, AreasAddUp) {
-  // A square of which the right part is hidden; a viewpoint sees the left quarter, parts see the lower half and the uppermost quarter.
-  AreaBounds areas({region({{0, 0, 0}, {4, 0, 0}, {4, 8, 0}, {0, 8, 0}}, 32),
-                    region({{4, 0, 0}, {8, 0, 0}, {8, 8, 0}, {4, 8, 0}}, 32, false)});
-  EXPECT_EQ(areas.first_order(), 32);
-  areas.witness({region({{0, 0, 0}, {2, 0, 0}, {2, 8, 0}, {0, 8, 0}}, 16)});
-  EXPECT_EQ(areas.witnessed(), 16);
-  EXPECT_EQ(areas.in_doubt(), 16);
-  const std::vector<LocalRegion> lower{region({{0, 0, 0}, {8, 0, 0}, {8, 4, 0}, {0, 4, 0}}, 32)},
-      upper{region({{0, 6, 0}, {8, 6, 0}, {8, 8, 0}, {0, 8, 0}}, 16)};
-  EXPECT_TRUE(areas.reach_doubt(upper));
-  areas.restrict_to({&lower, &upper}, {true});
-  EXPECT_NEAR(areas.refined(), 28, 1e-9);
-  EXPECT_TRUE(areas.in_doubt(0));
-  EXPECT_FALSE(areas.reach_doubt({region({{2, 4, 0}, {4, 4, 0}, {4, 6, 0}, {2, 6, 0}}, 4)}));
-  double all = 0;
-  for (const LocalRegion& r : areas.regions()) all += r.area_estimate;
-  EXPECT_NEAR(all, 64, 1e-9);
-}
-
-// --- the same answer --------------------------------------------------------------------------------------------------------
-
-TEST(FastRefinement, IsTheSameForAnyNumberOfThreads) {
-  const Scene s = slits_and_tiles();
-  RefinementOptions options;
-  options.by = RefineBy::both;
-  options.max_depth = 2;
-  options.regions = true;
-  std::vector<RefinedVisibility> found;
-  for (const int threads : {1, 2, 5}) {
-    tbb::task_arena arena(threads);
-    arena.execute([&] { found.push_back(refine(s.mesh, s.cell, options)); });
-  }
-  for (const RefinedVisibility& f : found) {
-    EXPECT_EQ(f.visible, found[0].visible);
-    ASSERT_EQ(f.depths.size(), found[0].depths.size());
-    EXPECT_EQ(f.depths.back().refined_area, found[0].depths.back().refined_area);
-    EXPECT_EQ(f.depths.back().witnessed, found[0].depths.back().witnessed);
-    ASSERT_EQ(f.first_order.regions.size(), found[0].first_order.regions.size());
-    for (std::size_t i = 0; i < f.first_order.regions.size(); ++i)
-      EXPECT_EQ(f.first_order.regions[i].outline_estimate, found[0].first_order.regions[i].outline_estimate);
-  }
-}
-
-TEST(FastRefinement, DoesNotDependOnTheOrderOfTriangles) {
-  const Scene s = slits_and_tiles();
-  scene::TriangleMesh reversed = s.mesh;
-  std::reverse(reversed.triangles.begin(), reversed.triangles.end());
-  RefinementOptions options;
-  options.max_depth = 2;
-  for (const RefineBy by : {RefineBy::cells, RefineBy::backprojection}) {
-    options.by = by;
-    Ids visible = refine(reversed, s.cell, options).visible;
-    for (std::uint32_t& t : visible) t = static_cast<std::uint32_t>(reversed.triangles.size()) - 1 - t;
-    std::sort(visible.begin(), visible.end());
-    EXPECT_EQ(visible, refine(s.mesh, s.cell, options).visible);
-  }
-}
-
-TEST(FastRefinement, CellsOfAllDimensionsAndTolerance) {
-  Scene s = slits_and_tiles();
-  RefinementOptions options;
-  options.max_depth = 2;
-  options.regions = true;
-  for (const auto& [lo, hi] :
-       {std::pair<Point, Point>{{-1, -1, 0}, {1, 1, 0.5}}, {{-1, -1, 0}, {1, 1, 0}}, {{-1, 0.25, 0}, {1, 0.25, 0}}}) {
-    const auto depths = refine(s.mesh, box(lo, hi), options).depths;
-    EXPECT_GE(depths.back().parts, 2U);
-    EXPECT_LT(depths.back().refined_area - depths.back().witnessed_area,
-              depths.front().refined_area - depths.front().witnessed_area);
-    RefinementOptions loose = options;
-    loose.tolerance_area = 1.001 * (depths.front().refined_area - depths.front().witnessed_area);
-    EXPECT_EQ(refine(s.mesh, box(lo, hi), loose).depths.back().depth, 0) << "that is good enough at once";
-  }
-  const auto point = refine(s.mesh, {{0, 0, 0}}, options);
-  EXPECT_EQ(point.depths.back().parts, 1U);
-  EXPECT_NEAR(point.depths.back().refined_area, point.depths.back().witnessed_area, 1e-9)
-      << "from a point first order is exact";
-}
-
-TEST(FastRefinement, EmptySceneAndSolidMode) {
-  const scene::TriangleMesh nothing;
-  EXPECT_EQ(refine(nothing, {{0, 0, 0}}, {}).visible, Ids{});
-  for (std::uint64_t i = 0; i < 3; ++i) {
-    const auto scene = fuzz::generate(fuzz::Kind::tetrahedra, kSeed, i);
-    const Bvh bvh(scene.mesh);
-    LocalMapOptions solid;
-    solid.mode = SideMode::solid;
-    const auto found = refined_visibility(bvh, scene.cell, solid, {});
-    EXPECT_EQ(missing_from(found.visible, found.first_order.visible), Ids{});
-    for (const RefinementFigures& f : found.depths) EXPECT_LE(f.witnessed, f.visible);
-  }
 }
 
 }  // namespace
