@@ -60,8 +60,10 @@ std::vector<std::uint32_t> SightRays::first_hits(std::size_t count, const RayOf&
     SegmentQueries& mine = queries.local();
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const Segment ray = ray_of(i);
-      if (std::all_of(ray.b.begin(), ray.b.end(), [](double x) { return std::isfinite(x); }))
-        met[i] = mine.first_hit(ray, {{}, &cell_}).value_or(kNothing);
+      const auto finite = [](const Point& p) {
+        return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
+      };
+      if (finite(ray.a) && finite(ray.b)) met[i] = mine.first_hit(ray, {{}, &cell_}).value_or(kNothing);
     }
   });
   return met;
@@ -114,11 +116,8 @@ std::vector<std::uint32_t> SightRays::towards(std::span<const std::uint32_t> tri
     const std::size_t corner = i % 3;
     const double size = std::exp2(-5 * random.unit()), u = size * random.unit(), v = (size - u) * random.unit();
     Segment ray{from, {}};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double inside = (1 - u - v) * t[corner][k] + u * t[(corner + 1) % 3][k] + v * t[(corner + 2) % 3][k];
-      // A little beyond the triangle, so that it counts itself.
-      ray.b[k] = inside + (inside - from[k]) * 0x1p-20;
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+      ray.b[k] = (1 - u - v) * t[corner][k] + u * t[(corner + 1) % 3][k] + v * t[(corner + 2) % 3][k];
     return ray;
   });
 }

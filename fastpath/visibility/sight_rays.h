@@ -21,8 +21,8 @@ class SightRays {
   std::vector<std::uint32_t> around(std::size_t count);
   // First hits of rays that pass each of the triangles closely, edge by edge.
   std::vector<std::uint32_t> beside(std::span<const std::uint32_t> triangles);
-  // First hits on the way to each of the triangles: kTowards for each, the triangle itself where nothing is in front, kNothing for a miss.
-  static constexpr std::size_t kTowards = 8;
+  // First hits on the way to each of the triangles, up to it: kTowards for each, kNothing where nothing is in front.
+  static constexpr std::size_t kTowards = 4;
   static constexpr std::uint32_t kNothing = ~0U;
   std::vector<std::uint32_t> towards(std::span<const std::uint32_t> triangles);
 
