@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   const int depth = argc > 1 ? std::atoi(argv[1]) : 4;
   for (const auto& scene : {clues::fuzz::two_slits(), clues::fuzz::three_skew_edges(), clues::fuzz::keyhole()})
     compare(scene, depth);
-  constexpr std::uint32_t kTriangles = 100;
+  constexpr std::uint32_t kTriangles = 300;
   constexpr std::uint64_t kSeed = 1;
   compare({"city", clues::fuzz::make_city(kTriangles, kSeed), clues::fuzz::street_cell(kTriangles, kSeed), false},
           std::min(depth, 2));
