@@ -110,6 +110,19 @@ TEST(Backprojection, HazardA9CutsOfOneEdgeAreNested) {
   EXPECT_GT(not_parallel, 0U);
 }
 
+// The scene of A-4 before a wall that stays partly in doubt, so that what is called hidden there rests on the maps of both halves alone.
+TEST(Backprojection, HazardA4BothHalvesAreAsked) {
+  SceneBuilder scene = plate_below();
+  scene.quad({8, -0.25, -64}, {8, 0.25, -64}, {8, 0.25, 64}, {8, -0.25, 64});
+  scene.quad({40, 0.5, -64}, {40, 8, -64}, {40, 8, 64}, {40, 0.5, 64});
+  Bounds bounds(scene.mesh(), kStrip, {});
+  const auto depths = refine_by_backprojection(bounds, {2, 0});
+  EXPECT_GT(depths.back().cells, 1U) << "nothing was cut: this test shows nothing";
+  const auto contradicted = contradictions(bounds.refined_map("backprojected"), 16, kSeed);
+  EXPECT_GT(contradicted.points, 0U);
+  EXPECT_EQ(contradicted.total(), 0U);
+}
+
 // The segment sees nothing of V: there is no VSVV. To drop its wedge opens the umbra; it stays, and what hides the segment is refined on its own.
 TEST(Backprojection, HazardA11ASegmentThatSeesNothingKeepsItsWedge) {
   SceneBuilder scene = plate_below();
