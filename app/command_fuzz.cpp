@@ -126,6 +126,10 @@ std::string fuzz_footer() {
       "\nSUBJECT\n"
       "  reference      the exact first-order reference of clues (default)\n"
       "  fast           the fast path, compared with the reference too\n"
+      "  subdivided, backprojected\n"
+      "                 the reference refined to depth 2, its hidden regions included\n"
+      "  fast:subdivided, fast:backprojected\n"
+      "                 the fast path refined to depth 3\n"
       "  COMMAND LINE   a program, run once for each scene; {scene}, {cell} and {pvs} stand for an OFF file, an OBJ "
       "file of\n"
       "                 the cell's points, and the list of visible triangle ids that it has to write, one a line;\n"
@@ -160,7 +164,8 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   auto* fuzz = program.add_subcommand("fuzz", "Search for scenes in which something visible is called hidden");
   auto request = std::make_shared<FuzzRequest>();
   auto& options = request->options;
-  add_subject(*fuzz, request->subject, "What is tested: reference (default), fast, or a command line, see below");
+  add_subject(*fuzz, request->subject,
+              "What is tested: reference (default), another name, or a command line, see below");
   fuzz->add_option("--seed", options.seed, "Which scenes (default 1)")->type_name("N");
   fuzz->add_option("--first", options.first, "Number of the first scene of each generator (default 0)")->type_name("N");
   fuzz->add_option("--cases", request->cases, "Cases in all, those of earlier runs in DIR included")

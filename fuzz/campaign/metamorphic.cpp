@@ -290,7 +290,9 @@ class Metamorphic : public Oracle {
           return;
       }
     }
-    if (!answer->map || answer->map->statistics.conservative_fallbacks > 0) return;
+    // Refined maps depend on where the cell was cut.
+    if (!answer->map || answer->map->method != "first-order" || answer->map->statistics.conservative_fallbacks > 0)
+      return;
     for (std::uint32_t t = 0; t < changed.heirs.size(); ++t) {
       if (changed.heirs[t].empty()) continue;
       const bool before = exam.lists(t),

@@ -7,7 +7,9 @@
 #include <map>
 
 #include "fastpath/visibility/first_order.h"
+#include "fastpath/visibility/refinement.h"
 #include "fuzz/campaign/files.h"
+#include "reference/visibility/bounds.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/mesh_io.h"
@@ -15,6 +17,7 @@
 #include "scene/temporary_folder.h"
 #include "validate/conform/child_process.h"
 #include "validate/conform/program_subject.h"
+#include "validate/precision.h"
 
 namespace clues::fuzz {
 namespace {
@@ -59,17 +62,73 @@ class ReferenceSubject : public Subject {
   reference::Options options_;
 };
 
+// The reference, refined (D20, D21): hidden regions of its map are judged like those of the first-order map.
+class RefinedSubject : public Subject {
+ public:
+  RefinedSubject(std::string name, validate::Refinement by) : name_(std::move(name)), by_(by) {}
+
+  Answer answer(const Case& scene) const override {
+    reference::Options options;
+    options.threads = 1;
+    if (scene.solid) options.mode = reference::Mode::solid;
+    try {
+      reference::Bounds bounds(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
+      validate::refine(bounds, by_, {kDepth, 0});
+      Answer out;
+      out.map = bounds.refined_map(name_);
+      out.pvs = out.map->visible;
+      return out;
+    } catch (const Error& error) {
+      throw_no_answer(error);
+    }
+  }
+  std::string name() const override { return name_; }
+
+ private:
+  static constexpr int kDepth = 2;
+  std::string name_;
+  validate::Refinement by_;
+};
+
+fastpath::LocalMapOptions fast_options(const Case& scene) {
+  fastpath::LocalMapOptions options;
+  if (scene.solid) {
+    fastpath::require_solid(scene.mesh);
+    options.mode = fastpath::SideMode::solid;
+  }
+  return options;
+}
+
+class RefinedFastSubject : public Subject {
+ public:
+  RefinedFastSubject(std::string name, fastpath::RefineBy by) : name_(std::move(name)), by_(by) {}
+
+  Answer answer(const Case& scene) const override {
+    fastpath::RefinementOptions refinement;
+    refinement.by = by_;
+    refinement.max_depth = kDepth;
+    try {
+      const auto found =
+          fastpath::refined_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene), refinement);
+      return {found.visible, std::nullopt, std::nullopt};
+    } catch (const Error& error) {
+      throw_no_answer(error);
+    }
+  }
+  std::string name() const override { return name_; }
+
+ private:
+  static constexpr int kDepth = 3;
+  std::string name_;
+  fastpath::RefineBy by_;
+};
+
 class FastSubject : public Subject {
  public:
   Answer answer(const Case& scene) const override {
-    fastpath::LocalMapOptions options;
     try {
-      if (scene.solid) {
-        fastpath::require_solid(scene.mesh);
-        options.mode = fastpath::SideMode::solid;
-      }
       const fastpath::FirstOrder found =
-          fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, options);
+          fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene));
       return {found.visible, std::nullopt, found.conservative_fallbacks};
     } catch (const Error& error) {
       throw_no_answer(error);
@@ -152,12 +211,17 @@ std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<
 std::unique_ptr<Subject> make_subject(const std::string& text) {
   if (text == "reference") return std::make_unique<ReferenceSubject>(text, PlantedBug::none);
   if (text == "fast") return std::make_unique<FastSubject>();
+  if (text == "subdivided") return std::make_unique<RefinedSubject>(text, validate::Refinement::cells);
+  if (text == "backprojected") return std::make_unique<RefinedSubject>(text, validate::Refinement::backprojection);
+  if (text == "fast:subdivided") return std::make_unique<RefinedFastSubject>(text, fastpath::RefineBy::cells);
+  if (text == "fast:backprojected")
+    return std::make_unique<RefinedFastSubject>(text, fastpath::RefineBy::backprojection);
   const std::string prefix = "reference:";
   if (text.starts_with(prefix)) {
     const auto bug = planted_bugs.find(text.substr(prefix.size()));
     if (bug == planted_bugs.end())
       throw Error(ErrorCode::bad_argument,
-                  "--subject " + text + ": no such subject; use reference, fast or a command line");
+                  "--subject " + text + ": no such planted bug; `clues fuzz --help` lists the subjects");
     return std::make_unique<ReferenceSubject>(text, bug->second);
   }
   return std::make_unique<CommandSubject>(text);

@@ -40,7 +40,8 @@ class Subject {
   virtual std::string name() const = 0;                // make_subject(name()) is the same subject
 };
 
-// "reference": the exact reference. "reference:BUG": with a planted bug, for the tests. "fast": the fast path. Anything else is a command line (words and quotes as in
+// "reference": the exact reference. "reference:BUG": with a planted bug, for the tests. "fast": the fast path. "subdivided",
+// "backprojected": the reference refined to depth 2; after "fast:" the fast path to depth 3. Anything else is a command line (words and quotes as in
 // a shell), in which {scene}, {cell} and {pvs} stand for an OFF file, an OBJ file of the cell's points and the file that it has to write, {mode} for
 // sheet or solid; without any of these words, the first three are appended. Throws scene::Error bad_argument.
 std::unique_ptr<Subject> make_subject(const std::string& text);

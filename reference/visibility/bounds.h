@@ -1,5 +1,5 @@
 // Bounds of the exact visible set E on every side of a scene: a lower one, of what single points of the cell see, and an upper one, that starts as the first-order
-// map and shrinks (D20, D21). Both are exact planar sets; lower is in E, and E is in upper, at any time.
+// map and shrinks (D20, D21). Both are exact planar sets; lower is in E but for lines between what two viewpoints see, and E is in upper, at any time.
 //
 // Lower: a point v of V that no occluder touches sees what its own map shows: for a cell that is one point the continuations (D8) run along sight lines, so
 // Omega({v}) is what v sees. With v on the border of V, a free sight line stays free when v is moved a little into int V.

@@ -262,7 +262,7 @@ TEST(FastRefinement, JudgesCatchAHalfThatIsNotAsked) {
     EXPECT_GT(lost(s, refine(s.mesh, s.cell, options)), 0U);
     options.regions = true;
     Judged judged;
-    judge_points(s.mesh, s.cell, refine(s.mesh, s.cell, options), 64, judged);
+    judge_points(s.mesh, s.cell, refine(s.mesh, s.cell, options), 2000, judged);
     options.regions = false;
     EXPECT_GT(judged.seen_points, 0U);
   }

@@ -106,6 +106,10 @@ void campaign_finds_nothing(const char* name) {
 
 TEST(ReferenceCampaignLong, FindsNothing) { campaign_finds_nothing("reference"); }
 TEST(FastCampaignLong, FindsNothing) { campaign_finds_nothing("fast"); }
+TEST(RefinedCampaignLong, FindsNothing) {
+  for (const char* subject : {"subdivided", "backprojected", "fast:subdivided", "fast:backprojected"})
+    campaign_finds_nothing(subject);
+}
 
 }  // namespace
 }  // namespace clues::fuzz
