@@ -2,8 +2,8 @@
 //
 // Its boundary consists of umbra boundary polygons (UBPs: parts of wedges with hidden space on the H+ side and visible space on the other), of parts of surfaces with
 // hidden space on one side, and of parts of a box that ends what is unbounded. Every plane that holds a wedge piece or a surface is cut by all that
-// crosses it there; a part so made has one label on each side (D14), taken at a point beside it, so near that nothing lies between. So no arrangement in space
-// is needed. Neighbours share edges, but not always vertices: a facet's corner may lie inside an edge of the next one.
+// crosses it there; a part so made has one label on each side (D14), taken at a point beside it, so near that nothing lies between; on the H- side of a
+// valid wedge piece it is known to be visible. So no arrangement in space is needed. Neighbours share edges, but not always vertices: a facet's corner may lie inside an edge of the next one.
 //
 // T2 says why the region holds nothing visible; validate/umbra_certificate.h checks that without the code here.
 #pragma once

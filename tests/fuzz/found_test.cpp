@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/generators.h"
 #include "fuzz/campaign/oracle.h"
 #include "scene/temporary_folder.h"
 
