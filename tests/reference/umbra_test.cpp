@@ -325,7 +325,7 @@ TEST(UmbraCertificates, FlushBordersInOneLine) {
 
 TEST(UmbraCertificatesLong, RandomScenes) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "set CLUES_LONG=1";
-  judge_random(12);
+  judge_random(50);
 }
 TEST(UmbraCertificatesLong, SuiteVectors) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "set CLUES_LONG=1";
