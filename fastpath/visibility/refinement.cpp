@@ -20,9 +20,6 @@ namespace {
 using exact::ConvexCell;
 using Flags = std::vector<bool>;  // by triangle of K
 
-constexpr std::size_t kFirstTries = 512,
-                      kTries = 128;  // sight lines to each open triangle: at first, and from the parts of a depth
-
 // What the map of a part of V says of the triangles that were asked about.
 struct Part {
   ConvexCell cell;
