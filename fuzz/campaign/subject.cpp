@@ -36,48 +36,15 @@ const std::map<std::string, PlantedBug> planted_bugs{{"wrong_wedge_side", Plante
   throw NoAnswer(error.what());
 }
 
-class ReferenceSubject : public Subject {
+// A subject of this process.
+class FunctionSubject : public Subject {
  public:
-  ReferenceSubject(std::string name, PlantedBug bug) : name_(std::move(name)) {
-    options_.threads = 1;
-    options_.planted_bug = bug;
-  }
+  FunctionSubject(std::string name, std::function<Answer(const Case&)> answer)
+      : name_(std::move(name)), answer_(std::move(answer)) {}
 
   Answer answer(const Case& scene) const override {
-    reference::Options options = options_;
-    if (scene.solid) options.mode = reference::Mode::solid;
-    Answer out;
     try {
-      out.map = reference::first_order_visibility(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
-    } catch (const Error& error) {
-      throw_no_answer(error);
-    }
-    out.pvs = out.map->visible;
-    return out;
-  }
-  std::string name() const override { return name_; }
-
- private:
-  std::string name_;
-  reference::Options options_;
-};
-
-// The reference, refined (D20, D21): hidden regions of its map are judged like those of the first-order map.
-class RefinedSubject : public Subject {
- public:
-  RefinedSubject(std::string name, validate::Refinement by) : name_(std::move(name)), by_(by) {}
-
-  Answer answer(const Case& scene) const override {
-    reference::Options options;
-    options.threads = 1;
-    if (scene.solid) options.mode = reference::Mode::solid;
-    try {
-      reference::Bounds bounds(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
-      validate::refine(bounds, by_, {kDepth, 0});
-      Answer out;
-      out.map = bounds.refined_map(name_);
-      out.pvs = out.map->visible;
-      return out;
+      return answer_(scene);
     } catch (const Error& error) {
       throw_no_answer(error);
     }
@@ -85,10 +52,27 @@ class RefinedSubject : public Subject {
   std::string name() const override { return name_; }
 
  private:
-  static constexpr int kDepth = 2;
   std::string name_;
-  validate::Refinement by_;
+  std::function<Answer(const Case&)> answer_;
 };
+
+std::unique_ptr<Subject> answering(const std::string& name, std::function<Answer(const Case&)> answer) {
+  return std::make_unique<FunctionSubject>(name, std::move(answer));
+}
+
+Answer answer_of(reference::VisibilityMap map) {
+  Answer out;
+  out.pvs = map.visible;
+  out.map = std::move(map);
+  return out;
+}
+
+reference::Options reference_options(const Case& scene) {
+  reference::Options options;
+  options.threads = 1;
+  if (scene.solid) options.mode = reference::Mode::solid;
+  return options;
+}
 
 fastpath::LocalMapOptions fast_options(const Case& scene) {
   fastpath::LocalMapOptions options;
@@ -99,62 +83,42 @@ fastpath::LocalMapOptions fast_options(const Case& scene) {
   return options;
 }
 
-class RefinedFastSubject : public Subject {
- public:
-  RefinedFastSubject(std::string name, fastpath::RefineBy by) : name_(std::move(name)), by_(by) {}
+std::unique_ptr<Subject> reference_subject(const std::string& name, PlantedBug bug) {
+  return answering(name, [bug](const Case& scene) {
+    reference::Options options = reference_options(scene);
+    options.planted_bug = bug;
+    return answer_of(
+        reference::first_order_visibility(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options));
+  });
+}
 
-  Answer answer(const Case& scene) const override {
+// The reference, refined (D20, D21): hidden regions of its map are judged like those of the first-order map.
+std::unique_ptr<Subject> refined_subject(const std::string& name, validate::Refinement by) {
+  constexpr int kDepth = 2;
+  return answering(name, [name, by](const Case& scene) {
+    reference::Bounds bounds(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), reference_options(scene));
+    validate::refine(bounds, by, {kDepth, 0});
+    return answer_of(bounds.refined_map(name));
+  });
+}
+
+std::unique_ptr<Subject> fast_subject(const std::string& name) {
+  return answering(name, [](const Case& scene) {
+    const fastpath::FirstOrder found =
+        fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene));
+    return Answer{found.visible, std::nullopt, found.conservative_fallbacks};
+  });
+}
+
+std::unique_ptr<Subject> refined_fast_subject(const std::string& name, fastpath::RefineBy by) {
+  constexpr int kDepth = 3;
+  return subject_of(name, [by](const Case& scene) {
     fastpath::RefinementOptions refinement;
-    refinement.by = by_;
+    refinement.by = by;
     refinement.max_depth = kDepth;
-    try {
-      const auto found =
-          fastpath::refined_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene), refinement);
-      return {found.visible, std::nullopt, std::nullopt};
-    } catch (const Error& error) {
-      throw_no_answer(error);
-    }
-  }
-  std::string name() const override { return name_; }
-
- private:
-  static constexpr int kDepth = 3;
-  std::string name_;
-  fastpath::RefineBy by_;
-};
-
-class FastSubject : public Subject {
- public:
-  Answer answer(const Case& scene) const override {
-    try {
-      const fastpath::FirstOrder found =
-          fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene));
-      return {found.visible, std::nullopt, found.conservative_fallbacks};
-    } catch (const Error& error) {
-      throw_no_answer(error);
-    }
-  }
-  std::string name() const override { return "fast"; }
-};
-
-class FunctionSubject : public Subject {
- public:
-  FunctionSubject(std::string name, std::function<std::vector<std::uint32_t>(const Case&)> pvs)
-      : name_(std::move(name)), pvs_(std::move(pvs)) {}
-
-  Answer answer(const Case& scene) const override {
-    try {
-      return {pvs_(scene), std::nullopt, std::nullopt};
-    } catch (const Error& error) {
-      throw_no_answer(error);
-    }
-  }
-  std::string name() const override { return name_; }
-
- private:
-  std::string name_;
-  std::function<std::vector<std::uint32_t>(const Case&)> pvs_;
-};
+    return fastpath::refined_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene), refinement).visible;
+  });
+}
 
 class CommandSubject : public Subject {
  public:
@@ -205,24 +169,25 @@ class CommandSubject : public Subject {
 }  // namespace
 
 std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<std::uint32_t>(const Case&)> pvs) {
-  return std::make_unique<FunctionSubject>(std::move(name), std::move(pvs));
+  return answering(name, [pvs = std::move(pvs)](const Case& scene) {
+    return Answer{pvs(scene), std::nullopt, std::nullopt};
+  });
 }
 
 std::unique_ptr<Subject> make_subject(const std::string& text) {
-  if (text == "reference") return std::make_unique<ReferenceSubject>(text, PlantedBug::none);
-  if (text == "fast") return std::make_unique<FastSubject>();
-  if (text == "subdivided") return std::make_unique<RefinedSubject>(text, validate::Refinement::cells);
-  if (text == "backprojected") return std::make_unique<RefinedSubject>(text, validate::Refinement::backprojection);
-  if (text == "fast:subdivided") return std::make_unique<RefinedFastSubject>(text, fastpath::RefineBy::cells);
-  if (text == "fast:backprojected")
-    return std::make_unique<RefinedFastSubject>(text, fastpath::RefineBy::backprojection);
+  if (text == "reference") return reference_subject(text, PlantedBug::none);
+  if (text == "fast") return fast_subject(text);
+  if (text == "subdivided") return refined_subject(text, validate::Refinement::cells);
+  if (text == "backprojected") return refined_subject(text, validate::Refinement::backprojection);
+  if (text == "fast:subdivided") return refined_fast_subject(text, fastpath::RefineBy::cells);
+  if (text == "fast:backprojected") return refined_fast_subject(text, fastpath::RefineBy::backprojection);
   const std::string prefix = "reference:";
   if (text.starts_with(prefix)) {
     const auto bug = planted_bugs.find(text.substr(prefix.size()));
     if (bug == planted_bugs.end())
       throw Error(ErrorCode::bad_argument,
                   "--subject " + text + ": no such planted bug; `clues fuzz --help` lists the subjects");
-    return std::make_unique<ReferenceSubject>(text, bug->second);
+    return reference_subject(text, bug->second);
   }
   return std::make_unique<CommandSubject>(text);
 }
