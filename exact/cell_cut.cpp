@@ -48,4 +48,29 @@ std::vector<ConvexCell> halves(const ConvexCell& cell) {
   return parts;
 }
 
+std::vector<std::vector<Point3>> Viewpoints::up_to(int depth) {
+  std::vector<std::vector<Point3>> by_halvings;
+  for (; halvings_ <= depth + depth / 2; ++halvings_) {
+    if (halvings_ > 0) {
+      std::vector<ConvexCell> finer;
+      for (const ConvexCell& part : parts_) {
+        for (ConvexCell& half : halves(part)) finer.push_back(std::move(half));
+      }
+      parts_ = std::move(finer);
+    }
+    by_halvings.emplace_back();
+    for (const ConvexCell& part : parts_) {
+      std::vector<Point3> points = part.vertices();
+      points.push_back(part.center());
+      for (const Point3& v : points) {
+        if (halvings_ > 0 && cell_.dimension() == 3 && cell_.interior_contains(v)) continue;
+        if (std::find(given_.begin(), given_.end(), v) != given_.end()) continue;
+        given_.push_back(v);
+        by_halvings.back().push_back(v);
+      }
+    }
+  }
+  return by_halvings;
+}
+
 }  // namespace clues::exact

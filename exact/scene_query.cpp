@@ -30,6 +30,15 @@ bool meets_cell(const TriangleCorners& t, const ConvexCell& cell) {
   return false;
 }
 
+bool is_touched(const Complex& complex, const Point3& v) {
+  for (std::size_t t = 0; t < complex.pieces.size(); ++t) {
+    if (complex.in_cell[t] || !complex.planes[t].has_on(v)) continue;
+    const auto& c = complex.pieces[t].corners;
+    if (Kernel::Triangle_3(complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]).has_on(v)) return true;
+  }
+  return false;
+}
+
 SceneQuery::SceneQuery(const Complex& complex, const ConvexCell& cell, const std::vector<bool>& occluders)
     : complex_(&complex), cell_(&cell) {
   CGAL::Bbox_3 cell_box;

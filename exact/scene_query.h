@@ -27,6 +27,9 @@ struct SegmentAnswer {
 // Whether the closed triangle meets the closed cell (D3), exactly. A flat cell is bounded by its plane (both sides) and by its edges.
 bool meets_cell(const TriangleCorners& triangle, const ConvexCell& cell);
 
+// Whether an occluder holds v: then what v sees says nothing of what is seen from beside it.
+bool is_touched(const Complex& complex, const Point3& v);
+
 class SceneQuery {
  public:
   // Keeps references: complex and cell must outlive it. `occluders`, one for each piece, leaves the others out of all queries; empty: all pieces

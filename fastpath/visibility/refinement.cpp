@@ -48,17 +48,6 @@ scene::TriangleMesh part_of(const scene::TriangleMesh& mesh, const std::vector<s
   return part;
 }
 
-// Whether an occluder holds v: then a map of v alone shows nothing of what is seen from beside it.
-bool touched(const exact::Complex& complex, const exact::Point3& v) {
-  for (std::size_t t = 0; t < complex.pieces.size(); ++t) {
-    if (complex.in_cell[t] || !complex.planes[t].has_on(v)) continue;
-    const auto& c = complex.pieces[t].corners;
-    if (exact::Kernel::Triangle_3(complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]).has_on(v))
-      return true;
-  }
-  return false;
-}
-
 class Refiner {
  public:
   Refiner(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
@@ -68,6 +57,7 @@ class Refiner {
         refinement_(refinement),
         with_areas_(refinement.regions || refinement.tolerance_area > 0),
         whole_(ConvexCell::from_doubles(cell)),
+        viewpoints_to_ask_(whole_),
         sight_lines_(bvh, cell, whole_, options.mode) {
     result_.first_order = first_order_visibility(bvh, cell, options, with_areas_);
     result_.visible = result_.first_order.visible;
@@ -273,32 +263,10 @@ class Refiner {
     }
   }
 
-  // Maps of single points of V, for which first order is exact: for the lower bound of the areas, and for triangles that no sight line has met. The corners and
-  // centres of V's parts after one and a half times as many halvings; of a solid V those on its border are enough, as every sight line leaves it there. V's own
-  // centre comes first.
+  // Maps of single points of V (exact::Viewpoints), for which first order is exact: for the lower bound of the areas, and for triangles that no sight line has met.
   void look_around(int depth) {
     if (!areas_ && refinement_.sight_lines == 0) return;
-    if (viewed_.empty()) viewed_ = {whole_};
-    for (;; ++viewed_depth_) {
-      std::vector<exact::Point3> fresh;
-      for (const ConvexCell& part : viewed_) {
-        std::vector<exact::Point3> points = part.vertices();
-        points.push_back(part.center());
-        for (const exact::Point3& v : points) {
-          if (viewed_depth_ > 0 && whole_.dimension() == 3 && whole_.interior_contains(v)) continue;
-          if (std::find(asked_.begin(), asked_.end(), v) != asked_.end()) continue;
-          asked_.push_back(v);
-          fresh.push_back(v);
-        }
-      }
-      add_viewpoints(fresh);
-      if (viewed_depth_ >= depth + depth / 2) return;
-      std::vector<ConvexCell> finer;
-      for (const ConvexCell& part : viewed_) {
-        for (ConvexCell& half : exact::halves(part)) finer.push_back(std::move(half));
-      }
-      viewed_ = std::move(finer);
-    }
+    for (const auto& points : viewpoints_to_ask_.up_to(depth)) add_viewpoints(points);
   }
 
   void add_viewpoints(const std::vector<exact::Point3>& points) {
@@ -310,7 +278,7 @@ class Refiner {
     };
     std::vector<std::optional<View>> seen(points.size());
     tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
-      if (touched(complex_, points[i])) return;
+      if (exact::is_touched(complex_, points[i])) return;
       const ConvexCell cell(std::vector<exact::Point3>{points[i]});
       const LocalMap map = make_local_map_in(complex_, whole_, cell, options_, open);
       View view{areas_ ? map.regions() : std::vector<LocalRegion>{}, map.visible()};
@@ -359,6 +327,7 @@ class Refiner {
   RefinementOptions refinement_;
   bool with_areas_;
   ConvexCell whole_;
+  exact::Viewpoints viewpoints_to_ask_;
   SightLines sight_lines_;
   RefinedVisibility result_;
   std::vector<std::uint32_t> ids_;  // K, ascending
@@ -367,9 +336,6 @@ class Refiner {
   Flags listed_, known_;  // still in the PVS; certainly visible
   std::optional<AreaBounds> areas_;
   std::vector<LocalRegion> settled_;  // of triangles outside K
-  std::vector<exact::Point3> asked_;
-  std::vector<ConvexCell> viewed_;
-  int viewed_depth_ = 0;  // halvings
   std::uint64_t maps_ = 0, viewpoints_ = 0;
 };
 

@@ -16,12 +16,6 @@ using exact::Point3;
 
 namespace {
 
-bool touches(const exact::Complex& complex, std::uint32_t t, const Point3& v) {
-  if (complex.planes[t].oriented_side(v) != CGAL::ON_ORIENTED_BOUNDARY) return false;
-  const auto& c = complex.pieces[t].corners;
-  return exact::Kernel::Triangle_3(complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]).has_on(v);
-}
-
 FT twice_flat_area(const exact::Complex& complex, std::uint32_t piece) {
   const TriangleFrame frame(complex, piece);
   return exact::collapsed(twice_area({frame.flat()[0], frame.flat()[1], frame.flat()[2]}));
@@ -48,7 +42,7 @@ void Bounds::for_each_side(const Work& work) const {
 }
 
 Bounds::Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options)
-    : map_(first_order_visibility(mesh, cell, options)), options_(options) {
+    : map_(first_order_visibility(mesh, cell, options)), options_(options), viewpoints_to_ask_(cell) {
   options_.progress = nullptr;
   const exact::Complex& complex = map_.complex;
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
@@ -119,9 +113,7 @@ void Bounds::add_viewpoint(const Point3& v) {
   if (closed() || std::find(asked_.begin(), asked_.end(), v) != asked_.end()) return;
   asked_.push_back(v);
   const exact::Complex& complex = map_.complex;
-  for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
-    if (!complex.in_cell[t] && touches(complex, t, v)) return;
-  }
+  if (exact::is_touched(complex, v)) return;
   const VisibilityMap seen =
       first_order_visibility_in(complex, exact::ConvexCell(std::vector<Point3>{v}), options_, open_sides());
   if (seen.statistics.conservative_fallbacks > 0) return;
@@ -131,22 +123,8 @@ void Bounds::add_viewpoint(const Point3& v) {
 }
 
 void Bounds::look_around(int depth) {
-  const exact::ConvexCell& whole = map_.cell;
-  const auto ask = [&](const Point3& v) {
-    if (viewed_depth_ == 0 || whole.dimension() < 3 || !whole.interior_contains(v)) add_viewpoint(v);
-  };
-  if (viewed_.empty()) viewed_ = {whole};
-  for (;; ++viewed_depth_) {
-    for (const exact::ConvexCell& part : viewed_) {
-      for (const Point3& v : part.vertices()) ask(v);
-      ask(part.center());
-    }
-    if (viewed_depth_ >= depth + depth / 2) break;
-    std::vector<exact::ConvexCell> finer;
-    for (const exact::ConvexCell& part : viewed_) {
-      for (exact::ConvexCell& half : exact::halves(part)) finer.push_back(std::move(half));
-    }
-    viewed_ = std::move(finer);
+  for (const auto& points : viewpoints_to_ask_.up_to(depth)) {
+    for (const Point3& v : points) add_viewpoint(v);
   }
 }
 

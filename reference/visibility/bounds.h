@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "exact/cell_cut.h"
 #include "exact/complex.h"
 #include "exact/convex_cell.h"
 #include "reference/visibility/first_order.h"
@@ -55,8 +56,7 @@ class Bounds {
   // Adds to lower what v sees on the open sides. Nothing if there are none, v was asked before, is touched by an occluder, or its map has a fallback.
   void add_viewpoint(const exact::Point3& v);
 
-  // Viewpoints for this depth: the corners and centres of V's parts after one and a half times as many halvings. Of a solid V those on its border are enough: every
-  // sight line from inside V leaves it there. V's own centre comes first, for cells whose corners are all touched.
+  // Adds the viewpoints for this depth (exact::Viewpoints).
   void look_around(int depth);
 
   // Side by side.
@@ -91,8 +91,7 @@ class Bounds {
   std::vector<double> piece_area_;  // estimates
   double facing_ = 0, first_order_area_ = 0;
   std::vector<exact::Point3> asked_;
-  std::vector<exact::ConvexCell> viewed_;
-  int viewed_depth_ = 0;  // halvings
+  exact::Viewpoints viewpoints_to_ask_;
   std::uint64_t maps_ = 0, viewpoints_ = 0, fallbacks_ = 0;
 };
 
