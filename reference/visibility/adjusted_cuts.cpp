@@ -4,7 +4,6 @@
 // Cuts cost two maps each, and a part may have many segments. What an adjusted wedge can take away lies between two planes (deviation.h); where little of
 // what is in doubt lies there, nothing is cut.
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "exact/cell_cut.h"
@@ -26,10 +25,9 @@ constexpr double share_of_v = 1.0 / 64, more_for_halves = 4;
 
 struct Part {
   ConvexCell cell;
-  SideSets first_order;
+  SideSets seen;                         // upper bound: its first-order map, less what its cuts took away
   std::vector<bool> open;                // sides of which it may see more than is known to be seen
   std::vector<ContourSegment> segments;  // to be adjusted at the next depth
-  std::vector<std::array<std::size_t, 2>> cuts;
   double least_share = share_of_v;
   std::size_t whole = 0, other = 0;  // what was cut, and the other half; 0, 0: V
 };
@@ -48,7 +46,7 @@ class AdjustedCuts {
     note(0);
     open_ = bounds_.open_sides();
     parts_.push_back(
-        {bounds_.first_order().cell, bounds_.upper(), open_, inexact_segments(bounds_.first_order(), open_), {}});
+        {bounds_.first_order().cell, bounds_.upper(), open_, inexact_segments(bounds_.first_order(), open_)});
     for (int depth = 1; depth <= options_.max_depth; ++depth) {
       if (std::none_of(open_.begin(), open_.end(), [](bool o) { return o; })) break;
       const double excess = depths.back().area.excess();
@@ -56,7 +54,7 @@ class AdjustedCuts {
       excess_ = excess;
       const std::size_t parts = parts_.size();  // the halves made now wait for the next depth
       for (std::size_t i = 0; i < parts; ++i) {
-        if (adjust(i)) bounds_.restrict_to(upper_of(0), open_);
+        if (adjust(i)) bounds_.restrict_to(parts_[0].seen, open_);
       }
       bounds_.look_around(depth);
       note(depth);
@@ -74,7 +72,7 @@ class AdjustedCuts {
     for (std::size_t k = 0; k < open_.size(); ++k) parts_[i].open[k] = parts_[i].open[k] && open_[k];
     const DoubtfulArea doubtful(bounds_, seen_alone(i), parts_[i].open);
     const double least_gain = parts_[i].least_share * excess_;
-    const std::size_t cuts = parts_[i].cuts.size();
+    const std::size_t parts = parts_.size();
     for (const ContourSegment& s : segments) {
       if (!(doubtful.between(s.plane, separating_plane(s, cell)) > least_gain)) continue;
       const auto plane = plane_of(s, cell);
@@ -88,7 +86,9 @@ class AdjustedCuts {
       parts_[i].segments.push_back({s.edge, s.lo, middle, s.plane, s.center});
       parts_[i].segments.push_back({s.edge, middle, s.hi, s.plane, s.center});
     }
-    return parts_[i].cuts.size() > cuts;
+    if (parts_.size() == parts) return false;
+    narrow_what_was_cut(i);
+    return true;
   }
 
   std::optional<Plane3> plane_of(const ContourSegment& s, const ConvexCell& cell) {
@@ -120,40 +120,45 @@ class AdjustedCuts {
     const auto minus = exact::part_beside(parts_[i].cell, plane, exact::Side::positive);
     if (!plus || !minus) return;
     cells_ += 2;
-    const std::array<std::size_t, 2> cuts{parts_.size(), parts_.size() + 1};
-    parts_[i].cuts.push_back(cuts);
+    const std::size_t first = parts_.size();
     for (const ConvexCell* half : {&*plus, &*minus}) {
       const std::vector<bool> wanted = parts_[i].open;
       const VisibilityMap map = bounds_.map_of(*half, wanted);
-      Part part{*half,  bounds_.sets_of(map),
-                wanted, {},
-                {},     more_for_halves * parts_[i].least_share,
-                i,      half == &*plus ? cuts[1] : cuts[0]};
+      Part part{*half,
+                bounds_.sets_of(map),
+                wanted,
+                {},
+                more_for_halves * parts_[i].least_share,
+                i,
+                half == &*plus ? first + 1 : first};
       for (std::size_t k = 0; k < wanted.size(); ++k)
-        part.open[k] = wanted[k] && !subtract(part.first_order[k], bounds_.lower()[k]).empty();
+        part.open[k] = wanted[k] && !subtract(part.seen[k], bounds_.lower()[k]).empty();
       part.segments = inexact_segments(map, part.open);
       parts_.push_back(std::move(part));
     }
+    narrow(i, first);
+  }
+
+  // What a part sees, its halves see together.
+  void narrow(std::size_t whole, std::size_t half) {
+    const SideSets &by_one = parts_[half].seen, &by_other = parts_[parts_[half].other].seen;
+    Part& part = parts_[whole];
+    for (std::size_t k = 0; k < part.seen.size(); ++k) {
+      if (part.open[k]) part.seen[k] = intersect(part.seen[k], unite(by_one[k], by_other[k]));
+    }
+  }
+
+  void narrow_what_was_cut(std::size_t i) {
+    for (; i != 0; i = parts_[i].whole) narrow(parts_[i].whole, i);
   }
 
   // T4 asks of V- what is hidden from V+: a place that both halves may see is not decided by looking closer at one of them.
   SideSets seen_alone(std::size_t i) const {
-    SideSets seen = parts_[i].first_order;
+    SideSets seen = parts_[i].seen;
     for (std::size_t half = i; half != 0; half = parts_[half].whole) {
-      const SideSets by_other = upper_of(parts_[half].other);
+      const SideSets& by_other = parts_[parts_[half].other].seen;
       for (std::size_t k = 0; k < seen.size(); ++k) {
         if (parts_[i].open[k]) seen[k] = subtract(seen[k], by_other[k]);
-      }
-    }
-    return seen;
-  }
-
-  SideSets upper_of(std::size_t i) const {
-    SideSets seen = parts_[i].first_order;
-    for (const auto& [plus, minus] : parts_[i].cuts) {
-      const SideSets by_both = bounds_.united(upper_of(plus), upper_of(minus));
-      for (std::size_t k = 0; k < seen.size(); ++k) {
-        if (parts_[i].open[k]) seen[k] = intersect(seen[k], by_both[k]);
       }
     }
     return seen;

@@ -80,11 +80,16 @@ std::vector<Point3> seen_by_segment(const exact::Complex& complex, const Contour
                                     const ConvexCell& cell, const Options& options) {
   if (cell.dimension() < 2) return cell.vertices();
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Point3> ends = cell.vertices();
+  ends.insert(ends.end(), {segment.lo, segment.hi});
+  const ConvexCell between(ends);
   // What lies in a plane through the segment is edge-on: it neither hides anything nor is seen.
   const auto edge_on = [&](const Plane3& plane) { return plane.has_on(segment.lo) && plane.has_on(segment.hi); };
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
     if (complex.in_cell[t] || edge_on(complex.planes[t])) continue;
-    triangles.push_back(complex.pieces[t].corners);
+    const auto& c = complex.pieces[t].corners;
+    if (exact::meets_cell({complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]}, between))
+      triangles.push_back(c);
   }
   const std::size_t receivers = triangles.size();
   std::vector<Point3> points = complex.points;
