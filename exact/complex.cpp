@@ -9,6 +9,8 @@
 
 #include <CGAL/Box_intersection_d/Box_with_handle_d.h>
 #include <CGAL/box_intersection_d.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <map>
@@ -212,16 +214,24 @@ Complex build_complex(const std::vector<Point3>& points, const std::vector<Corne
     pairs.push_back(std::minmax(a.sheet, b.sheet));
   });
   std::sort(pairs.begin(), pairs.end());
-  for (const auto& [i, j] : pairs) {
-    const Sheet &a = sheets[i], &b = sheets[j];
-    if (strictly_beside(pool, a.corners, b.corners) || strictly_beside(pool, b.corners, a.corners)) continue;
-    const Contact contact = meet(triangle3(a), triangle3(b));
-    const int common = common_corners(a.corners, b.corners);
+  std::vector<Contact> met(pairs.size());
+  // Isolated: who calls this from a task of his own must not be given another one while he waits here.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
+      const Sheet &a = sheets[pairs[k].first], &b = sheets[pairs[k].second];
+      if (strictly_beside(pool, a.corners, b.corners) || strictly_beside(pool, b.corners, a.corners)) return;
+      met[k] = meet(triangle3(a), triangle3(b));
+    });
+  });
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto [i, j] = pairs[k];
+    const Contact& contact = met[k];
     if (contact.points.empty()) continue;
     if (contact.overlap) {
       cluster[root(i)] = root(j);
       continue;
     }
+    const int common = common_corners(sheets[i].corners, sheets[j].corners);
     if (static_cast<int>(contact.points.size()) <= common) continue;  // one common corner, or one whole common edge
     contacts[i].push_back(contact);
     contacts[j].push_back(contact);

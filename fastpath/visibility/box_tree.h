@@ -31,12 +31,7 @@ class SegmentTest {
       : start_(a.approximate()),
         along_(b.approximate() - a.approximate()),
         box_(hull(a.approximate(), b.approximate())) {}
-  bool operator()(const IntervalBox& box) const {
-    if (!overlap(box, box_)) return false;
-    const IntervalBox r = box - start_;
-    return may_be_zero(along_.y * r.z - along_.z * r.y) && may_be_zero(along_.z * r.x - along_.x * r.z) &&
-           may_be_zero(along_.x * r.y - along_.y * r.x);
-  }
+  bool operator()(const IntervalBox& box) const;
 
  private:
   IntervalBox start_, along_, box_;
@@ -46,11 +41,7 @@ class BoxTree {
  public:
   BoxTree() = default;
   // Items are numbered as the boxes are. O(n log n).
-  explicit BoxTree(const std::vector<IntervalBox>& boxes) : boxes_(boxes) {
-    items_.resize(boxes.size());
-    for (std::uint32_t i = 0; i < items_.size(); ++i) items_[i] = i;
-    if (!items_.empty()) build(0, static_cast<std::uint32_t>(items_.size()));
-  }
+  explicit BoxTree(std::vector<IntervalBox> boxes);
 
   std::size_t size() const { return items_.size(); }
 
@@ -83,36 +74,11 @@ class BoxTree {
     std::uint32_t count = 0;
   };
 
-  // By the median, so the depth is below 32.
-  std::uint32_t build(std::uint32_t begin, std::uint32_t end) {
-    const auto id = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.emplace_back();
-    IntervalBox box = boxes_[items_[begin]];
-    for (std::uint32_t i = begin + 1; i < end; ++i) box = hull(box, boxes_[items_[i]]);
-    nodes_[id].box = box;
-    if (end - begin <= 2) {
-      nodes_[id].first = begin;
-      nodes_[id].count = end - begin;
-      return id;
-    }
-    const double size[3] = {box.x.sup() - box.x.inf(), box.y.sup() - box.y.inf(), box.z.sup() - box.z.inf()};
-    const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
-    const auto middle = [&](std::uint32_t i) {
-      const IntervalBox& b = boxes_[i];
-      const Interval& x = axis == 0 ? b.x : axis == 1 ? b.y : b.z;
-      return x.inf() + x.sup();
-    };
-    const std::uint32_t half = begin + (end - begin) / 2;
-    std::nth_element(items_.begin() + begin, items_.begin() + half, items_.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                       const double x = middle(a), y = middle(b);
-                       return x != y ? x < y : a < b;
-                     });
-    const std::uint32_t left = build(begin, half), right = build(half, end);
-    nodes_[id].first = left;
-    nodes_[id].second = right;
-    return id;
-  }
+  struct Keyed {
+    double key;  // middle of the box on the axis that is halved
+    std::uint32_t item;
+  };
+  std::uint32_t build(std::vector<Keyed>& items, std::uint32_t begin, std::uint32_t end);
 
   std::vector<IntervalBox> boxes_;
   std::vector<std::uint32_t> items_;

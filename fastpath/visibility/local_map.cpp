@@ -7,6 +7,7 @@
 
 #include "fastpath/visibility/regions.h"
 #include "fastpath/visibility/search.h"
+#include "fastpath/visibility/workers.h"
 #include "scene/error.h"
 
 namespace clues::fastpath {
@@ -59,7 +60,8 @@ class LocalMap::Parts {
         scene(mesh, cell),
         wanted(mesh.triangles.size(), true),
         bounds(fastpath::bounds_of(scene, outside)),
-        search(scene, bounds, options, counts) {
+        workers(scene),
+        search(scene, bounds, options, counts, workers) {
     make();
   }
   Parts(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part,
@@ -68,7 +70,8 @@ class LocalMap::Parts {
         scene(complex, whole, part),
         wanted(w),
         bounds(scene.bounds),
-        search(scene, bounds, options, counts) {
+        workers(scene),
+        search(scene, bounds, options, counts, workers) {
     make();
   }
 
@@ -79,7 +82,9 @@ class LocalMap::Parts {
     counts.refined_triangles = scene.refined_triangles;
     search.run();
     find_visible();
-    take_pieces();
+    for (const ValidPiece& p : search.pieces().pieces()) piece_bounds.push_back(fastpath::bounds_of(p));
+    counts.walks += side_walks;
+    counts.conservative_fallbacks += side_fallbacks;
     counts.exact_decisions = exact_decisions() - before;
   }
 
@@ -102,43 +107,77 @@ class LocalMap::Parts {
     return l == Walker::Label::hidden && beyond_limit(*p) ? Walker::Label::unresolved : l;
   }
 
+  static WedgePiece estimated(const ValidPiece& p) {
+    WedgePiece out;
+    out.kind = p.kind;
+    out.generation = p.generation;
+    const IntervalBox& n = p.on->plane->normal_approximate();
+    out.normal_estimate = {(n.x.inf() + n.x.sup()) / 2, (n.y.inf() + n.y.sup()) / 2, (n.z.inf() + n.z.sup()) / 2};
+    out.center_estimate = p.on->center->estimate();
+    out.unbounded = p.blocker < 0;
+    outline(p, out);
+    out.box = {{p.box.x.inf(), p.box.y.inf(), p.box.z.inf()}, {p.box.x.sup(), p.box.y.sup(), p.box.z.sup()}};
+    return out;
+  }
+
   const LocalMapOptions options;
   LocalMapCounts counts;
   LocalScene scene;
   const std::vector<bool> wanted;  // by triangle
   IntervalBox bounds;
+  Workers workers;
   Search search;
   std::vector<std::uint32_t> visible, lit;
-  std::vector<WedgePiece> pieces;
   std::vector<PieceBounds> piece_bounds;
-  BoxTree piece_tree;
+  std::atomic<std::uint64_t> side_walks{0}, side_fallbacks{0};
   mutable std::atomic<std::uint64_t> conservative_labels{0};
 
  private:
+  // A triangle that light meets; whether the side that it meets counts.
+  struct Lit {
+    std::uint32_t triangle = 0;
+    bool counts = false;
+  };
+
   // D15. A side with a DM segment has a visible region: beside the segment, in H-. Any other has one label.
   void find_visible() {
     std::vector<std::array<bool, 2>> cut(scene.pieces.size(), {false, false});  // front, back
     for (const ValidPiece& piece : search.pieces().pieces()) mark_traces(piece, cut);
+    std::vector<std::vector<std::uint32_t>> pieces_of(scene.triangles);
+    for (std::uint32_t t = 0; t < scene.pieces.size(); ++t)
+      pieces_of[scene.pieces[t].origins.front().triangle].push_back(t);
+    std::vector<std::vector<Lit>> found(scene.triangles);
+    workers.for_each(scene.triangles, [&](std::size_t i, Workers::Worker&) { found[i] = lit_of(pieces_of[i], cut); });
     std::vector<bool> seen(scene.triangles, false), met(scene.triangles, false);
-    for (std::uint32_t t = 0; t < scene.pieces.size(); ++t) {
-      const LocalPiece& piece = scene.pieces[t];
-      const auto all = [&](const std::vector<bool>& known) {
-        return std::all_of(piece.origins.begin(), piece.origins.end(),
-                           [&](const LocalOrigin& o) { return known[o.triangle] || !wanted[o.triangle]; });
-      };
-      for (const bool front : {true, false}) {
-        if (all(seen) && all(met)) break;
-        if (!(piece.in_cell || piece.meets_cell || side_visible(t, front, cut[t][front ? 0 : 1]))) continue;
-        for (const LocalOrigin& o : piece.origins) {
-          met[o.triangle] = true;
-          if (piece.meets_cell || counts_for(options.mode, o, front)) seen[o.triangle] = true;
-        }
+    for (const auto& list : found) {
+      for (const Lit& l : list) {
+        met[l.triangle] = true;
+        if (l.counts) seen[l.triangle] = true;
       }
     }
     for (std::uint32_t t = 0; t < seen.size(); ++t) {
       if (seen[t] && wanted[t]) visible.push_back(t);
       if (met[t] && wanted[t]) lit.push_back(t);
     }
+  }
+
+  // By these pieces, one after the other, until nothing more can be learnt from them.
+  std::vector<Lit> lit_of(const std::vector<std::uint32_t>& ids, const std::vector<std::array<bool, 2>>& cut) {
+    std::vector<Lit> found;
+    const auto is_known = [&](const LocalOrigin& o) {
+      return !wanted[o.triangle] || std::any_of(found.begin(), found.end(),
+                                                [&](const Lit& l) { return l.triangle == o.triangle && l.counts; });
+    };
+    for (const std::uint32_t t : ids) {
+      const LocalPiece& piece = scene.pieces[t];
+      for (const bool front : {true, false}) {
+        if (std::all_of(piece.origins.begin(), piece.origins.end(), is_known)) break;
+        if (!(piece.in_cell || piece.meets_cell || side_visible(t, front, cut[t][front ? 0 : 1]))) continue;
+        for (const LocalOrigin& o : piece.origins)
+          found.push_back({o.triangle, piece.meets_cell || counts_for(options.mode, o, front)});
+      }
+    }
+    return found;
   }
 
   // A trace along an edge of the piece cuts nothing, and several pieces may have it: which of them is lit there a walk says.
@@ -214,38 +253,19 @@ class LocalMap::Parts {
         });
         if (blocked || search.pieces().may_meet(p, q, 0, behind_the_piece)) continue;
         Pool pool;
-        ++counts.walks;
+        ++side_walks;
         const Walker::Label l = label(&p, pool, kSideSeed);
         if (l == Walker::Label::unresolved) break;
         return l == Walker::Label::visible;
       }
     }
-    ++counts.conservative_fallbacks;
+    ++side_fallbacks;
     return true;
   }
 
   Exact3 inner_point(std::uint32_t t, const double* weights) const {
     return Rational(weights[0]) * scene.corner(t, 0).exact() + Rational(weights[1]) * scene.corner(t, 1).exact() +
            Rational(weights[2]) * scene.corner(t, 2).exact();
-  }
-
-  void take_pieces() {
-    std::vector<IntervalBox> boxes;
-    for (const ValidPiece& p : search.pieces().pieces()) {
-      WedgePiece out;
-      out.kind = p.kind;
-      out.generation = p.generation;
-      const IntervalBox& n = p.on->plane->normal_approximate();
-      out.normal_estimate = {(n.x.inf() + n.x.sup()) / 2, (n.y.inf() + n.y.sup()) / 2, (n.z.inf() + n.z.sup()) / 2};
-      out.center_estimate = p.on->center->estimate();
-      out.unbounded = p.blocker < 0;
-      outline(p, out);
-      out.box = {{p.box.x.inf(), p.box.y.inf(), p.box.z.inf()}, {p.box.x.sup(), p.box.y.sup(), p.box.z.sup()}};
-      pieces.push_back(std::move(out));
-      piece_bounds.push_back(fastpath::bounds_of(p));
-      boxes.push_back(p.box);
-    }
-    piece_tree = BoxTree(boxes);
   }
 
   // Where the ray from the centre through r crosses the near edge.
@@ -270,7 +290,7 @@ class LocalMap::Parts {
   }
 
   // near 0, near 1, far 1, far 0
-  void outline(const ValidPiece& p, WedgePiece& out) const {
+  static void outline(const ValidPiece& p, WedgePiece& out) {
     const Point c = p.on->center->estimate();
     const auto middle = [](const IntervalBox& b) {
       return Point{(b.x.inf() + b.x.sup()) / 2, (b.y.inf() + b.y.sup()) / 2, (b.z.inf() + b.z.sup()) / 2};
@@ -300,7 +320,12 @@ class LocalMap::Parts {
 };
 
 const std::vector<std::uint32_t>& LocalMap::visible() const { return parts_->visible; }
-const std::vector<WedgePiece>& LocalMap::pieces() const { return parts_->pieces; }
+std::vector<WedgePiece> LocalMap::pieces() const {
+  const RoundedUp rounded_up;
+  std::vector<WedgePiece> out;
+  for (const ValidPiece& p : parts_->search.pieces().pieces()) out.push_back(Parts::estimated(p));
+  return out;
+}
 const std::vector<std::uint32_t>& LocalMap::lit() const { return parts_->lit; }
 const LocalMapCounts& LocalMap::counts() const { return parts_->counts; }
 std::uint64_t LocalMap::conservative_labels() const { return parts_->conservative_labels; }
@@ -323,14 +348,14 @@ LocalMap::Label LocalMap::label(const Point& p) const {
 bool LocalMap::piece_may_touch(const Box& given) const {
   const RoundedUp rounded_up;
   const IntervalBox box = to_box(given);
-  return parts_->piece_tree.any([&](const IntervalBox& b) { return overlap(b, box); },
-                                [&](std::uint32_t i) {
-                                  const PieceBounds& piece = parts_->piece_bounds[i];
-                                  if (!may_be_zero(dot(piece.plane.normal, box - piece.plane.base))) return false;
-                                  return std::all_of(piece.inward.begin(), piece.inward.end(), [&](const Bound& b) {
-                                    return dot(b.normal, box - b.base).sup() >= 0;
-                                  });
-                                });
+  return parts_->search.pieces().any([&](const IntervalBox& b) { return overlap(b, box); },
+                                     [&](std::size_t i) {
+                                       const PieceBounds& piece = parts_->piece_bounds[i];
+                                       if (!may_be_zero(dot(piece.plane.normal, box - piece.plane.base))) return false;
+                                       return std::all_of(
+                                           piece.inward.begin(), piece.inward.end(),
+                                           [&](const Bound& b) { return dot(b.normal, box - b.base).sup() >= 0; });
+                                     });
 }
 
 bool LocalMap::piece_may_touch(const Corners& triangle) const {
@@ -340,9 +365,9 @@ bool LocalMap::piece_may_touch(const Corners& triangle) const {
     corner[i] = {Interval(triangle[i][0]), Interval(triangle[i][1]), Interval(triangle[i][2])};
   const IntervalBox box = hull(hull(corner[0], corner[1]), corner[2]);
   const IntervalBox normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
-  return parts_->piece_tree.any(
+  return parts_->search.pieces().any(
       [&](const IntervalBox& b) { return overlap(b, box) && may_be_zero(dot(normal, b - corner[0])); },
-      [&](std::uint32_t i) {
+      [&](std::size_t i) {
         const PieceBounds& piece = parts_->piece_bounds[i];
         // Apart if all corners are strictly on one side of the piece's plane, or strictly outside one of its bounds.
         bool above = true, below = true;

@@ -1,6 +1,7 @@
 // The valid wedge pieces found so far, and what walks ask of them (D14): is one crossed from H+ to H-, or met at all.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,14 @@ class PieceSet {
   // Adds and indexes a batch.
   void add(std::vector<ValidPiece> batch);
   const std::vector<ValidPiece>& pieces() const { return pieces_; }
+
+  // Calls found(i) for every piece i whose box passes the test, until found returns true; then true.
+  template <class Test, class Found>
+  bool any(const Test& test, const Found& found) const {
+    return std::any_of(batches_.begin(), batches_.end(), [&](const Batch& b) {
+      return b.tree.any(test, [&](std::uint32_t i) { return found(b.begin + i); });
+    });
+  }
 
   // Whether the way from m to p crosses a piece from number `first` (the begin of a batch) on from H+ to H-. Where it starts in
   // the plane of a piece: crossed if `starts_on(plane)` says that this plane holds the surface at m; not crossed if `leaves_out(plane)`; else

@@ -179,7 +179,7 @@ const Exact3& Plane::normal_exact() const {
   return keep(exact_, cross(b_->exact() - a_->exact(), c_->exact() - a_->exact()));
 }
 
-int Plane::side(const ExactPoint& x) const {
+[[gnu::flatten]] int Plane::side(const ExactPoint& x) const {
   if (&x == a_ || &x == b_ || &x == c_) return 0;
   const int s = filtered_sign(value_approximate(x));
   if (s != kUnsure) return s;
@@ -216,7 +216,7 @@ ExactPoint point_near(const ExactPoint& x, const ExactPoint& to, int level) {
   return ExactPoint(p);
 }
 
-int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {
+[[gnu::flatten]] int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {
   const auto det = [&]<class NT>() {
     return NT(dot(cross(direction<NT>(a, b), direction<NT>(a, c)), direction<NT>(a, d)));
   };

@@ -10,15 +10,17 @@
 #include "fastpath/visibility/local_map.h"
 #include "fastpath/visibility/piece_set.h"
 #include "fastpath/visibility/walker.h"
+#include "fastpath/visibility/workers.h"
 
 namespace clues::fastpath {
 
 class Search {
  public:
-  // `bounds`: of all that will be asked about.
-  Search(const LocalScene& scene, const IntervalBox& bounds, const LocalMapOptions& options, LocalMapCounts& counts);
+  // `bounds`: of all that will be asked about. Keeps references.
+  Search(const LocalScene& scene, const IntervalBox& bounds, const LocalMapOptions& options, LocalMapCounts& counts,
+         Workers& workers);
   ~Search();
-  // Afterwards pieces() is complete. Points x outside A(x) of all of beyond_limit() have right labels.
+  // On all threads of the arena; the result is the same for any number. Afterwards pieces() is complete. Points x outside A(x) of all of beyond_limit() have right labels.
   void run();
 
   const PieceSet& pieces() const;
@@ -28,6 +30,11 @@ class Search {
 
  private:
   class Work;
+  const LocalScene& scene_;
+  const IntervalBox& bounds_;
+  const LocalMapOptions& options_;
+  LocalMapCounts& counts_;
+  Workers& workers_;
   std::unique_ptr<Work> work_;
 };
 

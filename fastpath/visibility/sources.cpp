@@ -1,0 +1,145 @@
+#include "fastpath/visibility/sources.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <tuple>
+
+namespace clues::fastpath {
+
+Sources::Sources(const LocalScene& scene, const std::vector<ContourEdge>& contours, const PieceSet& pieces,
+                 const Walker& walker, Contacts& contacts, Workers& workers)
+    : scene_(scene), contours_(contours), pieces_(pieces), walker_(walker), contacts_(contacts), workers_(workers) {
+  std::vector<std::vector<OfVertex>> found(scene.points.size());
+  workers.for_each(found.size(), [&](std::size_t v, Workers::Worker& worker) {
+    if (!scene.point_pieces[v].empty()) found[v] = beside_vertex(static_cast<std::uint32_t>(v), worker.pool);
+  });
+  for (auto& list : found) std::move(list.begin(), list.end(), std::back_inserter(of_vertices_));
+}
+
+std::vector<Sources::OfVertex> Sources::beside_vertex(std::uint32_t v, Pool& pool) {
+  std::vector<OfVertex> found;
+  const Apex& apex = contacts_.apex_of(v, pool);
+  if (apex.sectors().empty()) return found;
+  const auto from = apex.sees_cell_in_one_part() ? std::vector<ExactPoint>{*walker_.viewpoint(v)}
+                                                 : viewpoints_of_parts(scene_, apex, *walker_.viewpoint(0));
+  const ExactPoint& x = scene_.points[v];
+  for (const ExactPoint& p : from) {
+    for (int level = 0; level < 7; ++level) {
+      const ExactPoint beside = point_near(x, p, level);
+      if (equal(beside, x) || scene_.may_meet(beside, x)) continue;
+      OfVertex& s = found.emplace_back();
+      s.point = v;
+      s.beside = pool.keep(beside);
+      s.walk = walk(s.beside, s.seed, pool);
+      break;
+    }
+  }
+  return found;
+}
+
+Walk Sources::walk(const ExactPoint* p, std::uint64_t seed, Pool& pool) {
+  ++walks_;
+  return walker_.walk(p, pool, seed);
+}
+
+void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cuts) {
+  std::map<std::tuple<std::size_t, const ExactPoint*, const ExactPoint*>, OfEdge> known;
+  for (OfEdge& s : of_edges_) known.emplace(std::tuple(s.contour, s.part.lo, s.part.hi), std::move(s));
+  of_edges_.clear();
+  for (std::size_t c = 0; c < contours_.size(); ++c) {
+    const LocalEdge& e = scene_.edges[contours_[c].edge];
+    std::vector<const ExactPoint*> stops{&scene_.points[e.a]};
+    stops.insert(stops.end(), cuts[contours_[c].edge].begin(), cuts[contours_[c].edge].end());
+    stops.push_back(&scene_.points[e.b]);
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+      const auto it = known.find({c, stops[i], stops[i + 1]});
+      OfEdge& s = of_edges_.emplace_back(it != known.end() ? std::move(it->second) : OfEdge{});
+      s.lit = false;
+      s.contour = c;
+      s.part.lo = stops[i];
+      s.part.hi = stops[i + 1];
+    }
+  }
+  workers_.for_each(of_edges_.size(), [&](std::size_t i, Workers::Worker& worker) {
+    OfEdge& s = of_edges_[i];
+    if (!s.part.y) {
+      s.part.y = worker.pool.keep(ExactPoint::between(*s.part.lo, *s.part.hi, 0.4716796875));
+      place(s, worker.pool);
+    } else if (s.walk.end == Walk::End::crossed) {
+      s.walk = walk(s.beside, s.seed, worker.pool);
+    }
+  });
+  workers_.for_each(of_vertices_.size(), [&](std::size_t i, Workers::Worker& worker) {
+    OfVertex& s = of_vertices_[i];
+    s.lit = false;
+    if (s.walk.end == Walk::End::crossed) s.walk = walk(s.beside, s.seed, worker.pool);
+  });
+}
+
+// Without a place the source counts as visible.
+void Sources::place(OfEdge& s, Pool& pool) {
+  const std::optional<ExactPoint> beside = beside_edge(scene_, pieces_, contours_[s.contour], s.part, s.level);
+  s.beside = beside ? pool.keep(*beside) : nullptr;
+  if (beside) {
+    s.walk = walk(s.beside, s.seed, pool);
+  } else {
+    s.walk = Walk{};
+    s.walk.end = Walk::End::unresolved;
+  }
+}
+
+bool Sources::newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first, Pool& pool) {
+  constexpr int kRetries = 12;
+  Crossing c = walker_.visible(w, first);
+  for (int i = 0; c == Crossing::touch && i < kRetries; ++i) {
+    w = walk(p, ++seed, pool);
+    c = walker_.visible(w, 0);
+  }
+  return c != Crossing::no;
+}
+
+std::vector<std::size_t> Sources::newly_lit_edges(std::size_t first) {
+  std::vector<char> visible(of_edges_.size(), 0);
+  workers_.for_each(of_edges_.size(), [&](std::size_t i, Workers::Worker& worker) {
+    OfEdge& s = of_edges_[i];
+    if (s.lit) return;
+    std::size_t from = first;
+    if (s.beside && pieces_.may_meet(*s.beside, *s.part.y, first, holds_edge(scene_, contours_[s.contour].edge))) {
+      ++s.level;
+      place(s, worker.pool);
+      from = 0;
+    }
+    visible[i] = newly_visible(s.beside, s.walk, s.seed, from, worker.pool) ? 1 : 0;
+  });
+  std::vector<std::size_t> lit;
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    if (visible[i] == 0) continue;
+    of_edges_[i].lit = true;
+    lit.push_back(i);
+  }
+  return lit;
+}
+
+std::vector<std::size_t> Sources::newly_lit_vertices(std::size_t first) {
+  std::vector<char> visible(of_vertices_.size(), 0);
+  workers_.for_each(of_vertices_.size(), [&](std::size_t i, Workers::Worker& worker) {
+    OfVertex& s = of_vertices_[i];
+    visible[i] = !s.lit && newly_visible(s.beside, s.walk, s.seed, first, worker.pool) ? 1 : 0;
+  });
+  std::vector<std::size_t> lit;
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    if (visible[i] == 0) continue;
+    of_vertices_[i].lit = true;
+    lit.push_back(i);
+  }
+  return lit;
+}
+
+std::uint64_t Sources::unresolved() const {
+  const auto is_unresolved = [](const auto& s) { return s.walk.end == Walk::End::unresolved; };
+  return static_cast<std::uint64_t>(std::count_if(of_edges_.begin(), of_edges_.end(), is_unresolved) +
+                                    std::count_if(of_vertices_.begin(), of_vertices_.end(), is_unresolved));
+}
+
+}  // namespace clues::fastpath

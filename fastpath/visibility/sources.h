@@ -1,0 +1,72 @@
+// D17: what has to be visible for a wedge to be there. A part of a contour edge between neighbouring cuts has wedges where the space beside it is visible (D13a), and a
+// mesh vertex where the space beside it on the way to the cell is. Each source keeps a walk (D14) from one round to the next, and is asked again only about
+// new wedge pieces.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "fastpath/visibility/beside.h"
+#include "fastpath/visibility/contacts.h"
+#include "fastpath/visibility/contour.h"
+#include "fastpath/visibility/walker.h"
+
+namespace clues::fastpath {
+
+class Sources {
+ public:
+  // A part of a contour edge, seen from one supporting plane, with a point beside it.
+  struct OfEdge {
+    std::size_t contour = 0;
+    EdgePart part;
+    const ExactPoint* beside = nullptr;
+    int level = 0;  // of nearness of `beside`
+    std::uint64_t seed = 0x51;
+    Walk walk;
+    bool lit = false;
+  };
+
+  // A mesh vertex and a point beside it on the way to the cell.
+  struct OfVertex {
+    std::uint32_t point = 0;
+    const ExactPoint* beside = nullptr;
+    std::uint64_t seed = 0xa7;
+    Walk walk;
+    bool lit = false;
+  };
+
+  // Keeps references. `pieces` must be empty until the first round.
+  Sources(const LocalScene& scene, const std::vector<ContourEdge>& contours, const PieceSet& pieces,
+          const Walker& walker, Contacts& contacts, Workers& workers);
+
+  // With the cuts of each edge, ascending from its first end. Nothing is lit; `pieces` must be empty.
+  void start_round(const std::vector<std::vector<const ExactPoint*>>& cuts);
+
+  const std::vector<OfEdge>& of_edges() const { return of_edges_; }
+  const std::vector<OfVertex>& of_vertices() const { return of_vertices_; }
+  // Those that become visible by the pieces from number `first` on, ascending; from here on they are lit.
+  std::vector<std::size_t> newly_lit_edges(std::size_t first);
+  std::vector<std::size_t> newly_lit_vertices(std::size_t first);
+
+  std::uint64_t walks() const { return walks_; }
+  std::uint64_t unresolved() const;  // sources that count as visible without a proof
+
+ private:
+  Walk walk(const ExactPoint* p, std::uint64_t seed, Pool& pool);
+  void place(OfEdge& source, Pool& pool);
+  std::vector<OfVertex> beside_vertex(std::uint32_t vertex, Pool& pool);
+  bool newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first, Pool& pool);
+
+  const LocalScene& scene_;
+  const std::vector<ContourEdge>& contours_;
+  const PieceSet& pieces_;
+  const Walker& walker_;
+  Contacts& contacts_;
+  Workers& workers_;
+  std::vector<OfEdge> of_edges_;
+  std::vector<OfVertex> of_vertices_;
+  std::atomic<std::uint64_t> walks_{0};
+};
+
+}  // namespace clues::fastpath
