@@ -25,6 +25,7 @@ int leading(const NT& a, const NT& b, const NT& c) {
 template <class NT>
 struct Beside {
   Vec3<NT> limit, aside, off;
+  SpotName at;  // in which limit points, if that is of the mesh
   int side_of(const Vec3<NT>& normal) const {
     return leading(dot(normal, limit), dot(normal, aside), dot(normal, off));
   }
@@ -51,7 +52,7 @@ class Apex::Star {
  public:
   using V = Vec3<NT>;
 
-  explicit Star(const Apex& apex) : x_(apex.x_) {
+  explicit Star(const Apex& apex) : scene_(apex.scene_), x_(apex.x_) {
     std::map<std::uint32_t, int> node_of;
     const auto node = [&](std::uint32_t v) {
       const auto [it, fresh] = node_of.try_emplace(v, static_cast<int>(nodes_.size()));
@@ -64,7 +65,7 @@ class Apex::Star {
     }
     for (const Apex::Arc& arc : apex.arcs_) {
       const int a = node(arc.a), b = node(arc.b);
-      arcs_.push_back({a, b, cross(nodes_[idx(a)], nodes_[idx(b)])});
+      arcs_.push_back({a, b, arc.piece, cross(nodes_[idx(a)], nodes_[idx(b)])});
     }
     find_faces();
   }
@@ -76,7 +77,7 @@ class Apex::Star {
     for (const int exponent : {10, 30, 60, 120, 250, 500, 1000, 2000, 4000, 8000}) {
       const V m = moved_by<NT>(d.limit, d.aside, d.off, exponent);
       if (std::all_of(arcs_.begin(), arcs_.end(),
-                      [&](const Arc& arc) { return sign_of(NT(dot(arc.normal, m))) == d.side_of(arc.normal); }))
+                      [&](const Arc& arc) { return sign_of(NT(dot(arc.normal, m))) == side_of(arc, d); }))
         return m;
     }
     return std::nullopt;
@@ -99,7 +100,7 @@ class Apex::Star {
           side = side_met(d, first, aim);
         } else {  // from a direction beside it: it may lie on great circles of arcs
           const V by{NT(aim % 7 - 3), NT((aim * 3) % 11 - 5), NT((aim * 5) % 13 - 6)};
-          if (const std::optional<V> start = moved_if_possible({d, by, by})) side = side_met(*start, first, aim);
+          if (const std::optional<V> start = moved_if_possible({d, by, by, {}})) side = side_met(*start, first, aim);
         }
       }
       if (side < 0) give_up<NT>("apex: no clean way to an incident piece");
@@ -111,11 +112,11 @@ class Apex::Star {
   // Whether the great circle arc from just beside d0.limit to d1 surely meets no arc.
   bool free_between(const Beside<NT>& d0, const V& d1) const {
     for (const Arc& arc : arcs_) {
-      const int s0 = d0.side_of(arc.normal), s1 = sign_of(NT(dot(arc.normal, d1)));
+      const int s0 = side_of(arc, d0), s1 = sign_of(NT(dot(arc.normal, d1)));
       if (s0 != 0 && s0 == s1) continue;
       if (s0 == 0 && s1 != 0) continue;
       if (s0 == 0) return false;
-      const NT l = dot(arc.normal, d0.limit), m = dot(arc.normal, d1);
+      const NT l = is_on(arc, d0) ? NT(0) : NT(dot(arc.normal, d0.limit)), m = dot(arc.normal, d1);
       const NT at0 = sign_of(l) < 0 ? NT(-l) : l, at1 = sign_of(m) < 0 ? NT(-m) : m;
       const V y = sign_of(at0) == 0 ? d0.limit : V(at1 * d0.limit + at0 * d1);
       if (in_arc(nodes_[idx(arc.a)], nodes_[idx(arc.b)], arc.normal, y)) return false;
@@ -129,20 +130,26 @@ class Apex::Star {
   template <class Along>
   bool spreads(const Beside<NT>& d, const V& inner, const std::vector<V>& rays, const Along& along) const {
     const V& axis = nodes_[0];
-    const auto turn = [&](const V& w) { return d.side_of(cross(w, axis)); };  // of d to w
-    const auto half = [&](const V& w) {  // 0: like d, 1: first half turn, 2: opposite, 3: second half turn
-      const int s = turn(w);
+    // Of d to w; `level`: limit, w and the edge are in one plane.
+    const auto turn = [&](const V& w, bool level) {
+      const V n = cross(w, axis);
+      return level ? leading(NT(0), NT(dot(n, d.aside)), NT(dot(n, d.off))) : d.side_of(n);
+    };
+    const auto half = [&](const V& w, bool level) {  // 0: like d, 1: first half turn, 2: opposite, 3: second half turn
+      const int s = turn(w, level);
       if (s != 0) return s > 0 ? 1 : 3;
       return sign_of(NT(dot(cross(axis, d.limit), cross(axis, w)))) > 0 ? 0 : 2;
     };
     bool ccw = true;  // inner comes before all pieces
-    const int half_inner = half(inner);
-    for (std::size_t i = 2; i < nodes_.size() && ccw; ++i) {
-      const int h = half(nodes_[i]);
-      ccw = half_inner != h ? half_inner < h : det_sign(axis, inner, nodes_[i]) > 0;
+    const int half_inner = half(inner, false);
+    for (int i = 2; i < static_cast<int>(nodes_.size()) && ccw; ++i) {
+      const bool level = std::any_of(arcs_.begin(), arcs_.end(),
+                                     [&](const Arc& arc) { return (arc.a == i || arc.b == i) && is_on(arc, d); });
+      const int h = half(nodes_[idx(i)], level);
+      ccw = half_inner != h ? half_inner < h : det_sign(axis, inner, nodes_[idx(i)]) > 0;
     }
     const int way = ccw ? 1 : -1;
-    if (turn(inner) == way) return true;
+    if (turn(inner, false) == way) return true;
     // Too far for one step: by way of some w of the cone, less than a half turn from d and from inner.
     struct Forms {
       NT from_d[3], to_inner;
@@ -170,9 +177,21 @@ class Apex::Star {
  private:
   struct Arc {
     int a, b;
+    std::uint32_t piece;
     V normal;
   };
   static std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+
+  // Whether the arc's great circle holds the limit of d because both are of one piece: then no sign need be computed.
+  bool is_on(const Arc& arc, const Beside<NT>& d) const {
+    const LocalPiece& piece = scene_->pieces[arc.piece];
+    const auto& ids = d.at.kind == SpotName::Kind::vertex ? piece.corners : piece.edges;
+    return d.at.kind != SpotName::Kind::none && std::find(ids.begin(), ids.end(), d.at.id) != ids.end();
+  }
+  int side_of(const Arc& arc, const Beside<NT>& d) const {
+    if (!is_on(arc, d)) return d.side_of(arc.normal);
+    return leading(NT(0), NT(dot(arc.normal, d.aside)), NT(dot(arc.normal, d.off)));
+  }
 
   int root(int side) const {
     while (face_[idx(side)] != side) side = face_[idx(side)];
@@ -229,6 +248,8 @@ class Apex::Star {
     for (std::size_t i = 0; i < arcs_.size(); ++i) {
       if (component_[i] != component_[aim_arc]) continue;
       const Arc& arc = arcs_[i];
+      if (i != aim_arc && arc.piece == arcs_[aim_arc].piece)
+        continue;  // in one great circle, which the way meets at its end
       const NT at_d = dot(arc.normal, d), at_target = i == aim_arc ? NT(0) : NT(dot(arc.normal, target));
       const int sd = filtered_sign(at_d), st = filtered_sign(at_target);
       if (sd == kUnsure || st == kUnsure || (sd == 0 && st == 0)) return -1;
@@ -250,6 +271,7 @@ class Apex::Star {
     return side;
   }
 
+  const LocalScene* scene_;
   const ExactPoint* x_;
   std::vector<V> nodes_;
   std::vector<Arc> arcs_;
@@ -269,7 +291,7 @@ void Apex::find_arcs() {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t e = piece.edges[i], a = piece.corners[i], b = piece.corners[(i + 1) % 3];
       if (on_edge_ ? e == id_ : a == id_ || b == id_) continue;
-      arcs_.push_back({a, b, e});
+      arcs_.push_back({a, b, e, t});
     }
   }
 }
@@ -287,7 +309,7 @@ void Apex::find_sectors(Pool& pool) {
       for (const int c : cell.facets[f]) {
         if (!equal(*x_, vertex(c))) rays.push_back(pool.keep(ExactPoint::reflected(*x_, vertex(c))));
       }
-      const OnWedge frame{&plane, x_, {}, {}, {}, {}, {}};
+      const OnWedge frame{&plane, x_, {}, {}, {}, {}, {}, {}};
       for (std::size_t i = 0; i < rays.size(); ++i) {
         const ExactPoint *a = rays[i], *b = rays[(i + 1) % rays.size()];
         if (frame.turn(a, b) > 0) split(pool, &plane, a, b);
@@ -317,7 +339,7 @@ void Apex::find_sectors(Pool& pool) {
     std::vector<const ExactPoint*> rays;
     for (const int k : touching) rays.push_back(pool.keep(ExactPoint::reflected(*x_, vertex(k))));
     for (const Plane* plane : planes) {
-      const OnWedge frame{plane, x_, {}, {}, {}, {}, {}};
+      const OnWedge frame{plane, x_, {}, {}, {}, {}, {}, {}};
       const ExactPoint *first = rays.front(), *last = first;  // they span less than a half turn
       for (const ExactPoint* w : rays) {
         if (frame.turn(w, first) > 0) first = w;
@@ -330,7 +352,7 @@ void Apex::find_sectors(Pool& pool) {
 
 // At the traces of incident pieces: each part has one face beside it.
 void Apex::split(Pool& pool, const Plane* plane, const ExactPoint* ray0, const ExactPoint* ray1) {
-  const OnWedge frame{plane, x_, {}, {}, {}, {}, {}};
+  const OnWedge frame{plane, x_, {}, {}, {}, {}, {}, {}};
   struct Ray {
     const ExactPoint* p;
     SpotName name;
@@ -385,7 +407,7 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
   const V nothing{NT(0), NT(0), NT(0)};
   std::vector<Lit> lit;
   for (const Probe& p : probes) {
-    Lit l{{star.to(*p.to), nothing, nothing}, {}, p.to, p.lit_end};
+    Lit l{{star.to(*p.to), nothing, nothing, p.at}, {}, p.to, p.lit_end};
     if (p.plane) {
       const V n = normal_direction<NT>(*p.plane);
       l.beside.aside = n;
@@ -416,7 +438,7 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
       }
     }
     if (bounds_nothing) continue;
-    const V inner = star.moved({middle, sign_of(NT(dot(n, away))) > 0 ? away : n, nothing});
+    const V inner = star.moved({middle, sign_of(NT(dot(n, away))) > 0 ? away : n, nothing, {}});
     const std::vector<int> face = star.face_of(inner);
     bool exists = false;
     for (const Lit& l : lit) {

@@ -24,6 +24,7 @@ struct Probe {
   };
   Kind kind = Kind::sight;
   const ExactPoint* to = nullptr;
+  SpotName at;                          // what of the mesh `to` is
   const Plane* plane = nullptr;         // contour, csv
   int aside = 0;                        // csv: +1 counter-clockwise about the plane's normal, -1 clockwise
   const ExactPoint* lit_end = nullptr;  // csv on an edge: the edge's end in H-
@@ -63,6 +64,7 @@ class Apex {
   struct Arc {
     std::uint32_t a = 0, b = 0;  // mesh vertices: the arc runs between their directions
     std::uint32_t edge = 0;      // the mesh edge ab
+    std::uint32_t piece = 0;
   };
   void find_arcs();
   void find_sectors(Pool& pool);

@@ -40,7 +40,7 @@ std::vector<Support> supporting_planes(const LocalScene& scene, Pool& pool, cons
     if (passed) return {};
     Support support;
     support.plane = turn > 0 ? pool.plane(a, b, m) : pool.plane(b, a, m);
-    const OnWedge frame{support.plane, &a, {}, {}, {}, {}, {}};
+    const OnWedge frame{support.plane, &a, {}, {}, {}, {}, {}, {}};
     for (const int i : on)
       (frame.turn(&b, &s[static_cast<std::size_t>(i)]) > 0 ? support.left : support.right).push_back(i);
     std::sort(support.left.begin(), support.left.end());
@@ -66,7 +66,7 @@ std::vector<ContourEdge> contour_edges(const LocalScene& scene, Pool& pool) {
     const std::vector<Support> supports = supporting_planes(scene, pool, edge);
     for (std::size_t k = 0; k < supports.size(); ++k) {
       const Plane* plane = supports[k].plane;
-      const OnWedge frame{plane, &a, {}, {}, {}, {}, {}};
+      const OnWedge frame{plane, &a, {}, {}, {}, {}, {}, {}};
       bool in_h_plus = true, left = false, right = false;
       for (const std::uint32_t t : edge.pieces) {
         for (const std::uint32_t c : scene.pieces[t].corners) {

@@ -403,6 +403,7 @@ OnWedge OnWedgeMaker::make(const Sector& sector) {
   w.out = OnWedge{};
   w.out.plane = sector.plane;
   w.out.center = sector.center;
+  w.out.apex = sector.apex;
   w.center = w.own_spot(sector.center, sector.apex);
   w.ray0 = w.own_spot(sector.ray0, sector.name0);
   w.ray1 = w.own_spot(sector.ray1, sector.name1);

@@ -14,6 +14,7 @@ struct SpotName {
   enum class Kind : std::uint8_t { none, vertex, edge };
   Kind kind = Kind::none;
   std::uint32_t id = 0;
+  bool operator==(const SpotName&) const = default;
 };
 
 // A planar radial sector of less than a half turn: behind a mesh edge as seen from a cell vertex, or with its apex on a contour vertex.
@@ -53,6 +54,7 @@ struct Radial {
 struct OnWedge {
   const Plane* plane = nullptr;
   const ExactPoint* center = nullptr;
+  SpotName apex;              // where the centre is, if it is a contour vertex
   std::vector<Strip> strips;  // counter-clockwise, covering the sector
   std::vector<Blocker> blockers;
   std::vector<Radial> radials;

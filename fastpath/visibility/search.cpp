@@ -97,7 +97,7 @@ class Search::Work {
   std::vector<Job> light(std::size_t first) {
     for (const std::size_t i : sources.newly_lit_vertices(first)) {
       const Sources::OfVertex& v = sources.of_vertices()[i];
-      contacts.add(contacts.corner(v.point), {Probe::Kind::sight, v.beside, nullptr, 0, nullptr});
+      contacts.add(contacts.corner(v.point), {Probe::Kind::sight, v.beside, {}, nullptr, 0, nullptr});
     }
     std::vector<Job> jobs;
     for (const std::size_t i : sources.newly_lit_edges(first)) {
@@ -107,8 +107,12 @@ class Search::Work {
         jobs.push_back({s.contour, k, s.part.lo, s.part.hi, nullptr, 0});
       const LocalEdge& e = scene.edges[c.edge];
       const ExactPoint *a = &scene.points[e.a], *b = &scene.points[e.b];
-      if (s.part.lo == a) contacts.add(contacts.corner(e.a), {Probe::Kind::contour, b, c.plane, 0, nullptr});
-      if (s.part.hi == b) contacts.add(contacts.corner(e.b), {Probe::Kind::contour, a, c.plane, 0, nullptr});
+      if (s.part.lo == a)
+        contacts.add(contacts.corner(e.a),
+                     {Probe::Kind::contour, b, {SpotName::Kind::vertex, e.b}, c.plane, 0, nullptr});
+      if (s.part.hi == b)
+        contacts.add(contacts.corner(e.b),
+                     {Probe::Kind::contour, a, {SpotName::Kind::vertex, e.a}, c.plane, 0, nullptr});
     }
     std::vector<Contact*> lit = contacts.lit();
     for (const Contact* c : lit) {
@@ -176,7 +180,7 @@ class Search::Work {
       s.ray1 = &scene.points[e.b];
       s.name0 = {SpotName::Kind::vertex, e.a};
       s.name1 = {SpotName::Kind::vertex, e.b};
-      const OnWedge frame{s.plane, s.center, {}, {}, {}, {}, {}};
+      const OnWedge frame{s.plane, s.center, {}, {}, {}, {}, {}, {}};
       if (frame.turn(s.ray0, s.ray1) < 0) {
         std::swap(s.ray0, s.ray1);
         std::swap(s.name0, s.name1);
@@ -264,7 +268,7 @@ class Search::Work {
       for (const auto& [meeting, before, after] : met[i]) {
         const Meeting& m = *meeting;
         Contact* c = m.at_vertex ? contacts.corner(m.id) : contacts.csv(m.id, m.at);
-        Probe probe{Probe::Kind::csv, on.center, on.plane, 0, nullptr};
+        Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr};
         if (!m.at_vertex) {
           new_cuts[m.id].push_back(c->x);
           if (c->generation < 0 || generation < c->generation) c->generation = generation;
