@@ -15,13 +15,6 @@ using exact::Point2;
 
 namespace {
 
-bool on_outline(const Kernel::Triangle_2& outline, const Point2& p, const Point2& q) {
-  for (int k = 0; k < 3; ++k) {
-    if (CGAL::collinear(outline[k], outline[k + 1], p) && CGAL::collinear(outline[k], outline[k + 1], q)) return true;
-  }
-  return false;
-}
-
 // A corner, and the segment that leaves it.
 struct Corner {
   Point2 p;

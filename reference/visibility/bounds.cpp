@@ -16,11 +16,6 @@ using exact::Point3;
 
 namespace {
 
-FT twice_flat_area(const exact::Complex& complex, std::uint32_t piece) {
-  const TriangleFrame frame(complex, piece);
-  return exact::collapsed(twice_area({frame.flat()[0], frame.flat()[1], frame.flat()[2]}));
-}
-
 bool faced(const exact::Complex& complex, const exact::ConvexCell& cell, std::size_t side) {
   const auto wanted = side % 2 == 0 ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
   return std::any_of(cell.vertices().begin(), cell.vertices().end(),
@@ -63,7 +58,7 @@ Bounds::Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, c
 SideSets Bounds::nothing() const {
   SideSets sets;
   for (std::uint32_t t = 0; t < map_.complex.pieces.size(); ++t) {
-    const FT area = twice_flat_area(map_.complex, t);
+    const FT area = exact::collapsed(TriangleFrame(map_.complex, t).twice_area());
     sets.emplace_back(area);
     sets.emplace_back(area);
   }
@@ -86,7 +81,7 @@ SideSets Bounds::sets_of(const VisibilityMap& map) const {
         for (const Point3& p : ring) faces.back().back().push_back(frame.frame()(p));
       }
     }
-    sets[i] = FlatSet(twice_area({frame.flat()[0], frame.flat()[1], frame.flat()[2]}), faces);
+    sets[i] = FlatSet(frame.twice_area(), faces);
   });
   return sets;
 }

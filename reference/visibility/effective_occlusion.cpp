@@ -42,11 +42,6 @@ SideRegions by_side(const VisibilityMap& map) {
   return sides;
 }
 
-FT twice_triangle(const TriangleFrame& frame) {
-  const auto& f = frame.flat();
-  return twice_area({f[0], f[1], f[2]});
-}
-
 std::uint32_t piece_of(std::size_t side) { return static_cast<std::uint32_t>(side / 2); }
 bool is_front(std::size_t side) { return side % 2 == 0; }
 
@@ -71,7 +66,7 @@ FlatSet set_with(bool visible, const std::vector<const Region*>& regions, const 
   for (const Region* r : regions) {
     if (r->visible == visible) faces.push_back(flat_face(*r, frame));
   }
-  return faces.size() == regions.size() ? whole_of(frame) : FlatSet(twice_triangle(frame), faces);
+  return faces.size() == regions.size() ? whole_of(frame) : FlatSet(frame.twice_area(), faces);
 }
 
 template <class Work>
@@ -83,7 +78,7 @@ void in_parallel(std::size_t count, int threads, const Work& work) {
 void measure(HiddenRegion& region, const exact::Complex& complex, const TriangleFrame& frame) {
   FT twice(0);
   for (const Ring2& ring : region.face) twice += twice_area(ring);  // holes run clockwise
-  region.fraction = exact::collapsed(twice / twice_triangle(frame));
+  region.fraction = exact::collapsed(twice / frame.twice_area());
   region.segments = boundary_segments(region.face, frame.flat());
   region.whole = region.fraction == FT(1);
   const auto& c = complex.pieces[piece_of(region.side)].corners;
@@ -210,7 +205,7 @@ void simplify(std::vector<HiddenRegion>& regions, const exact::Complex& complex,
     HiddenRegion& region = regions[i];
     if (region.segments < 2) return;
     const TriangleFrame frame(complex, piece_of(region.side));
-    const FT budget = exact::collapsed(FT(controls.max_loss) * region.fraction * twice_triangle(frame));
+    const FT budget = exact::collapsed(FT(controls.max_loss) * region.fraction * frame.twice_area());
     Face2 simpler = simplified(region.face, frame.flat(), budget, controls.planted);
     if (simpler == region.face) return;
     region.face = std::move(simpler);
@@ -228,8 +223,8 @@ VisibilityMap rebuilt(const VisibilityMap& map, const std::map<std::size_t, std:
   in_parallel(order.size(), controls.threads, [&](std::size_t k) {
     const std::uint32_t t = piece_of(order[k]);
     const TriangleFrame frame(map.complex, t);
-    FlatSet hidden(twice_triangle(frame));
-    for (const Face2& face : changed.at(order[k])) hidden = unite(hidden, FlatSet(twice_triangle(frame), {face}));
+    FlatSet hidden(frame.twice_area());
+    for (const Face2& face : changed.at(order[k])) hidden = unite(hidden, FlatSet(frame.twice_area(), {face}));
     if (controls.planted == PlantedStep::none && !subtract(hidden, set_with(false, old.at(order[k]), frame)).empty())
       throw scene::Error(scene::ErrorCode::internal, "simplification: a hidden region grew");
     made[k] = side_faces(subtract(whole_of(frame), hidden), frame, t, is_front(order[k]));

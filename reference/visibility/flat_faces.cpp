@@ -70,6 +70,14 @@ Ring2 without_spurs(Ring2 ring) {
   return ring;
 }
 
+bool on_outline(const Kernel::Triangle_2& triangle, const Point2& p, const Point2& q) {
+  for (int k = 0; k < 3; ++k) {
+    if (CGAL::collinear(triangle[k], triangle[k + 1], p) && CGAL::collinear(triangle[k], triangle[k + 1], q))
+      return true;
+  }
+  return false;
+}
+
 Point2 inner_point(const std::vector<Ring2>& rings, std::size_t which) {
   if (rings.size() == 1 && rings[0].size() == 3) return inner_point(rings[0][0], rings[0][1], rings[0][2], which);
   using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>,

@@ -119,8 +119,7 @@ bool runs_along(const DmSegment& s, const InsideCorner& corner) {
 // The cone between chain and planes, on the triangle.
 FlatSet between(const InsideCorner& corner, const exact::Complex& complex, std::uint32_t piece,
                 const TriangleFrame& frame) {
-  const auto& f = frame.flat();
-  const FT twice = twice_area({f[0], f[1], f[2]});
+  const FT twice = frame.twice_area();
   FlatSet all(twice);
   for (const InsideCorner::Swept& swept : corner.chain) {
     std::vector<Point3> part;
@@ -215,13 +214,12 @@ FlatSet hidden_by_planes(const FlatSet& hidden, const VisibilityMap& map, std::u
     std::copy_if(boundary.begin(), boundary.end(), std::back_inserter(traces),
                  [&](const DmSegment* s) { return runs_along(*s, corners[i]); });
     if (traces.empty()) continue;
-    const auto& f = frame.flat();
-    FlatSet given_up(twice_area({f[0], f[1], f[2]}));
+    FlatSet given_up(frame.twice_area());
     for (const Face2& face : intersect(rest, between(corners[i], map.complex, piece, frame)).faces()) {
       const bool cut_off = std::any_of(traces.begin(), traces.end(), [&](const DmSegment* s) {
         return borders_on(face, frame.frame()(s->a), frame.frame()(s->b));
       });
-      if (cut_off) given_up = unite(given_up, FlatSet(twice_area({f[0], f[1], f[2]}), {face}));
+      if (cut_off) given_up = unite(given_up, FlatSet(frame.twice_area(), {face}));
     }
     if (given_up.empty()) continue;
     FlatSet fewer = subtract(rest, given_up);

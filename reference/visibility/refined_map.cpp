@@ -45,8 +45,7 @@ std::vector<TriangleBounds> Bounds::by_triangle() const {
   std::vector<TriangleBounds> sides(2 * complex.input_triangles, {0, true, exact::FT(0), exact::FT(0), exact::FT(0)});
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
     const TriangleFrame frame(complex, t);
-    const auto& f = frame.flat();
-    const exact::FT area = twice_area({f[0], f[1], f[2]});  // pieces of one triangle are laid flat in one way
+    const exact::FT area = frame.twice_area();  // pieces of one triangle are laid flat in one way
     for (const exact::Origin& o : complex.pieces[t].origins) {
       whole[o.triangle] += area;
       for (const bool front : {true, false}) {

@@ -94,7 +94,7 @@ class SideMapper {
 
     if (!visited_.empty() && !visited_[t]) {  // lies in no point of Omega
       Region r{t, front, false, {{p[0], p[1], p[2]}}, FT(1), {}};
-      r.sample = lift(inner_point({{triangle[0], triangle[1], triangle[2]}}, 0));
+      r.sample = lift(inner_point({flat_triangle.outline()}, 0));
       out.regions.push_back(std::move(r));
       return out;
     }
@@ -106,7 +106,7 @@ class SideMapper {
     const Segments2 flat = without_overlaps(segments_on({t, front}, flat_triangle.frame(), triangle));
     if (flat.empty()) {
       Region r{t, front, false, {{p[0], p[1], p[2]}}, FT(1), {}};
-      finish(r, {{triangle[0], triangle[1], triangle[2]}}, lift, out);
+      finish(r, {flat_triangle.outline()}, lift, out);
       out.regions.push_back(std::move(r));
       return out;
     }
@@ -141,7 +141,7 @@ class SideMapper {
         for (const Point2& q : points) lifted.push_back(lift(q));
         r.rings.push_back(std::move(lifted));
       }
-      r.area_fraction = exact::collapsed(area / twice_area({triangle[0], triangle[1], triangle[2]}));
+      r.area_fraction = exact::collapsed(area / flat_triangle.twice_area());
       finish(r, rings, lift, out);
       label[&*f] = r.visible;
       out.regions.push_back(std::move(r));
@@ -180,11 +180,7 @@ class SideMapper {
     Segments2 flat;
     const auto add = [&](const Point2& a, const Point2& b) {
       for (const auto& s : clipped(triangle, a, b)) {
-        bool on_border = false;  // along the triangle's own border a segment separates nothing
-        for (int i = 0; i < 3; ++i)
-          on_border |= CGAL::collinear(triangle[i], triangle[i + 1], s.first) &&
-                       CGAL::collinear(triangle[i], triangle[i + 1], s.second);
-        if (!on_border) flat.push_back(s);
+        if (!on_outline(triangle, s.first, s.second)) flat.push_back(s);  // there it separates nothing
       }
     };
     const auto traces = traces_.find(key);

@@ -11,7 +11,7 @@ namespace {
 
 void add_faces(const FlatSet& set, bool visible, const TriangleFrame& frame, std::uint32_t t, bool front,
                SideFaces& out) {
-  const auto twice_triangle = twice_area({frame.flat()[0], frame.flat()[1], frame.flat()[2]});
+  const auto twice_triangle = frame.twice_area();
   for (const Face2& face : set.faces()) {
     Region r{t, front, visible, {}, exact::FT(0), frame.lift(inner_point(face, 0))};
     for (const Ring2& ring : face) {
@@ -26,14 +26,11 @@ void add_faces(const FlatSet& set, bool visible, const TriangleFrame& frame, std
 
 // The borders of the set inside the triangle.
 void add_borders(const FlatSet& set, const TriangleFrame& frame, std::uint32_t t, bool front, SideFaces& out) {
-  const auto& f = frame.flat();
   for (const Face2& face : set.faces()) {
     for (const Ring2& ring : face) {
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const Point2 &p = ring[i], &q = ring[(i + 1) % ring.size()];
-        bool outline = false;
-        for (int k = 0; k < 3; ++k) outline |= CGAL::collinear(f[k], f[k + 1], p) && CGAL::collinear(f[k], f[k + 1], q);
-        if (outline) continue;
+        if (on_outline(frame.flat(), p, q)) continue;
         Point3 a = frame.lift(p), b = frame.lift(q);
         if (CGAL::lexicographically_xyz_smaller(b, a)) std::swap(a, b);
         out.segments.push_back({t, front, true, a, b});
@@ -44,10 +41,7 @@ void add_borders(const FlatSet& set, const TriangleFrame& frame, std::uint32_t t
 
 }  // namespace
 
-FlatSet whole_of(const TriangleFrame& frame) {
-  const auto& f = frame.flat();
-  return FlatSet(twice_area({f[0], f[1], f[2]}), {Face2{Ring2{f[0], f[1], f[2]}}});
-}
+FlatSet whole_of(const TriangleFrame& frame) { return FlatSet(frame.twice_area(), {Face2{frame.outline()}}); }
 
 SideFaces side_faces(const FlatSet& visible, const TriangleFrame& frame, std::uint32_t piece, bool front) {
   SideFaces out;

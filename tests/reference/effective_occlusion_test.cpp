@@ -170,7 +170,7 @@ std::uint64_t seen_of_newly_hidden(const VisibilityMap& before, const Visibility
   std::uint64_t seen = 0;
   for (std::uint32_t t = 0; t < before.complex.pieces.size(); ++t) {
     const reference::TriangleFrame frame(before.complex, t);
-    const exact::FT twice = reference::twice_area({frame.flat()[0], frame.flat()[1], frame.flat()[2]});
+    const exact::FT twice = frame.twice_area();
     for (const bool front : {true, false}) {
       const auto hidden = [&](const VisibilityMap& map) {
         std::vector<reference::Face2> faces;
