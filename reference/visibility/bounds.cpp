@@ -1,39 +1,21 @@
 #include "reference/visibility/bounds.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <utility>
 
 #include "exact/area.h"
 #include "exact/cell_cut.h"
+#include "reference/visibility/in_parallel.h"
+#include "reference/visibility/side_faces.h"
+#include "reference/visibility/sides.h"
 
 namespace clues::reference {
 
 using exact::FT;
 using exact::Point3;
 
-namespace {
-
-bool faced(const exact::Complex& complex, const exact::ConvexCell& cell, std::size_t side) {
-  const auto wanted = side % 2 == 0 ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
-  return std::any_of(cell.vertices().begin(), cell.vertices().end(),
-                     [&](const Point3& v) { return complex.planes[side / 2].oriented_side(v) == wanted; });
-}
-
-bool side_counts(const VisibilityMap& map, std::size_t side) {
-  const auto& origins = map.complex.pieces[side / 2].origins;
-  return map.mode == Mode::sheet ||
-         std::any_of(origins.begin(), origins.end(), [&](const auto& o) { return o.same_side == (side % 2 == 0); });
-}
-
-}  // namespace
-
 template <class Work>
 void Bounds::for_each_side(const Work& work) const {
-  tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, 2 * map_.complex.pieces.size(), work); });
+  in_parallel(2 * map_.complex.pieces.size(), options_.threads, work);
 }
 
 Bounds::Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options)
@@ -47,8 +29,10 @@ Bounds::Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, c
   lower_ = nothing();
   upper_ = sets_of(map_);
   for (std::size_t i = 0; i < upper_.size(); ++i) {
-    if (side_counts(map_, i) && (faced(complex, cell, i) || complex.in_cell[i / 2])) facing_ += piece_area_[i / 2];
-    if (complex.in_cell[i / 2]) lower_[i] = upper_[i];  // D3
+    const std::uint32_t t = piece_of(i);
+    const bool faces = faces_cell(complex, cell, t, is_front(i)) || complex.in_cell[t];
+    if (faces && counts(map_.mode, complex.pieces[t], is_front(i))) facing_ += piece_area_[t];
+    if (complex.in_cell[t]) lower_[i] = upper_[i];  // D3
   }
   first_order_area_ = area_estimate(upper_);
   open_.assign(upper_.size(), 1);
@@ -72,15 +56,9 @@ SideSets Bounds::sets_of(const VisibilityMap& map) const {
     if (r.visible) visible[side_index(r.piece, r.front)].push_back(&r);
   }
   for_each_side([&](std::size_t i) {
-    const TriangleFrame frame(map_.complex, static_cast<std::uint32_t>(i / 2));
+    const TriangleFrame frame(map_.complex, piece_of(i));
     std::vector<Face2> faces;
-    for (const Region* r : visible[i]) {
-      faces.emplace_back();
-      for (const auto& ring : r->rings) {
-        faces.back().emplace_back();
-        for (const Point3& p : ring) faces.back().back().push_back(frame.frame()(p));
-      }
-    }
+    for (const Region* r : visible[i]) faces.push_back(flat_face(*r, frame));
     sets[i] = FlatSet(frame.twice_area(), faces);
   });
   return sets;
@@ -143,7 +121,7 @@ bool Bounds::restrict_to(const SideSets& seen, const std::vector<bool>& wanted) 
 
 double Bounds::area_estimate(const SideSets& sets) const {
   double sum = 0;
-  for (std::size_t i = 0; i < sets.size(); ++i) sum += piece_area_[i / 2] * CGAL::to_double(sets[i].fraction());
+  for (std::size_t i = 0; i < sets.size(); ++i) sum += piece_area_[piece_of(i)] * CGAL::to_double(sets[i].fraction());
   return sum;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "reference/visibility/sides.h"
+
 namespace clues::reference {
 
 using exact::FT;
@@ -67,7 +69,7 @@ Plane3 separating_plane(const ContourSegment& segment, const exact::ConvexCell& 
 DoubtfulArea::DoubtfulArea(const Bounds& bounds, const SideSets& seen, const std::vector<bool>& wanted) {
   for (std::size_t i = 0; i < seen.size(); ++i) {
     if (!wanted[i]) continue;
-    const TriangleFrame frame(bounds.first_order().complex, static_cast<std::uint32_t>(i / 2));
+    const TriangleFrame frame(bounds.first_order().complex, piece_of(i));
     for (const Face2& face : subtract(intersect(seen[i], bounds.upper()[i]), bounds.lower()[i]).faces()) {
       for (std::size_t r = 0; r < face.size(); ++r) {
         Ring ring{{}, r > 0};

@@ -1,8 +1,5 @@
 #include "reference/visibility/effective_occlusion.h"
 
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -13,8 +10,10 @@
 #include "exact/area.h"
 #include "exact/scene_query.h"
 #include "reference/visibility/flat_set.h"
+#include "reference/visibility/in_parallel.h"
 #include "reference/visibility/inside_corners.h"
 #include "reference/visibility/side_faces.h"
+#include "reference/visibility/sides.h"
 #include "scene/error.h"
 
 namespace clues::reference {
@@ -42,37 +41,12 @@ SideRegions by_side(const VisibilityMap& map) {
   return sides;
 }
 
-std::uint32_t piece_of(std::size_t side) { return static_cast<std::uint32_t>(side / 2); }
-bool is_front(std::size_t side) { return side % 2 == 0; }
-
-bool faces_cell(const VisibilityMap& map, std::size_t side) {
-  const auto wanted = is_front(side) ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
-  const auto& cell = map.cell.vertices();
-  return std::any_of(cell.begin(), cell.end(),
-                     [&](const Point3& v) { return map.complex.planes[piece_of(side)].oriented_side(v) == wanted; });
-}
-
-Face2 flat_face(const Region& r, const TriangleFrame& frame) {
-  Face2 face;
-  for (const auto& ring : r.rings) {
-    face.emplace_back();
-    for (const Point3& p : ring) face.back().push_back(frame.frame()(p));
-  }
-  return face;
-}
-
 FlatSet set_with(bool visible, const std::vector<const Region*>& regions, const TriangleFrame& frame) {
   std::vector<Face2> faces;
   for (const Region* r : regions) {
     if (r->visible == visible) faces.push_back(flat_face(*r, frame));
   }
   return faces.size() == regions.size() ? whole_of(frame) : FlatSet(frame.twice_area(), faces);
-}
-
-template <class Work>
-void in_parallel(std::size_t count, int threads, const Work& work) {
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, work); });
 }
 
 void measure(HiddenRegion& region, const exact::Complex& complex, const TriangleFrame& frame) {
@@ -91,7 +65,8 @@ std::vector<HiddenRegion> hidden_regions(const VisibilityMap& map, int threads) 
   std::vector<std::pair<std::size_t, std::vector<const Region*>>> sides;
   for (auto& [side, regions] : by_side(map)) {
     const bool hides = std::any_of(regions.begin(), regions.end(), [](const Region* r) { return !r->visible; });
-    if (hides && faces_cell(map, side)) sides.emplace_back(side, std::move(regions));
+    if (hides && faces_cell(map.complex, map.cell, piece_of(side), is_front(side)))
+      sides.emplace_back(side, std::move(regions));
   }
   std::vector<std::vector<HiddenRegion>> found(sides.size());
   in_parallel(sides.size(), threads, [&](std::size_t k) {

@@ -2,7 +2,6 @@
 
 #include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <cassert>
 #include <string>
 
@@ -12,6 +11,7 @@
 #include "reference/visibility/omega.h"
 #include "reference/visibility/regions.h"
 #include "reference/visibility/render_states.h"
+#include "reference/visibility/sides.h"
 #include "reference/visibility/traversal/traversal.h"
 
 namespace clues::reference {
@@ -23,8 +23,6 @@ exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexC
   if (mode == Mode::solid) exact::require_solid(complex);
   return complex;
 }
-
-bool counts(Mode mode, const exact::Origin& o, bool front) { return mode == Mode::sheet || o.same_side == front; }
 
 }  // namespace
 

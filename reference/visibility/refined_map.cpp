@@ -1,12 +1,11 @@
 // Bounds as a map: its visible regions are the upper bound.
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
-#include <algorithm>
 #include <set>
+#include <utility>
 
 #include "reference/visibility/bounds.h"
+#include "reference/visibility/in_parallel.h"
 #include "reference/visibility/side_faces.h"
+#include "reference/visibility/sides.h"
 
 namespace clues::reference {
 
@@ -16,20 +15,12 @@ VisibilityMap Bounds::refined_map(const std::string& method) const {
   for (const Region& r : map_.regions) present.insert(side_index(r.piece, r.front));
   const std::vector<std::size_t> order(present.begin(), present.end());
   std::vector<SideFaces> sides(order.size());
-  tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
-  const auto describe = [&](std::size_t k) {
-    const auto t = static_cast<std::uint32_t>(order[k] / 2);
-    sides[k] = side_faces(upper_[order[k]], TriangleFrame(map.complex, t), t, order[k] % 2 == 0);
-  };
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, order.size(), describe); });
+  in_parallel(order.size(), options_.threads, [&](std::size_t k) {
+    const std::uint32_t t = piece_of(order[k]);
+    sides[k] = side_faces(upper_[order[k]], TriangleFrame(map.complex, t), t, is_front(order[k]));
+  });
   map.statistics.regions_visible = map.statistics.regions_hidden = 0;
-  for (SideFaces& side : sides) {
-    for (Region& r : side.regions) {
-      ++(r.visible ? map.statistics.regions_visible : map.statistics.regions_hidden);
-      map.regions.push_back(std::move(r));
-    }
-    std::move(side.segments.begin(), side.segments.end(), std::back_inserter(map.segments));
-  }
+  for (SideFaces& side : sides) side.move_to(map);
   map.statistics.conservative_fallbacks += fallbacks_;
   find_visible(exact::SceneQuery(map.complex, map.cell), map);
   return map;

@@ -11,6 +11,8 @@
 
 #include "reference/visibility/anticone.h"
 #include "reference/visibility/flat_faces.h"
+#include "reference/visibility/side_faces.h"
+#include "reference/visibility/sides.h"
 #include "reference/visibility/walk.h"
 #include "scene/error.h"
 
@@ -78,9 +80,7 @@ class SideMapper {
     }
   }
 
-  struct Output {
-    std::vector<Region> regions;
-    std::vector<DmSegment> segments;
+  struct Output : SideFaces {
     std::uint64_t walks = 0, disagreements = 0, fallbacks = 0;
   };
 
@@ -152,11 +152,7 @@ class SideMapper {
       if (CGAL::lexicographically_xyz_smaller(b, a)) std::swap(a, b);
       out.segments.push_back({t, front, label[&*e->face()] != label[&*e->twin()->face()], a, b});
     }
-    std::sort(out.regions.begin(), out.regions.end(),
-              [](const Region& x, const Region& y) { return CGAL::lexicographically_xyz_smaller(x.sample, y.sample); });
-    std::sort(out.segments.begin(), out.segments.end(), [](const DmSegment& x, const DmSegment& y) {
-      return x.a != y.a ? CGAL::lexicographically_xyz_smaller(x.a, y.a) : CGAL::lexicographically_xyz_smaller(x.b, y.b);
-    });
+    out.sort();
     return out;
   }
 
@@ -208,13 +204,7 @@ class SideMapper {
 
   template <class Lift>
   void finish(Region& r, const std::vector<std::vector<Point2>>& rings, const Lift& lift, Output& out) const {
-    // A side that no point of V is strictly in front of is reached by no sight line and no continuation (D8), though the space beside it may be seen.
-    const auto in_front = [&](const Point3& s) {
-      return scene_.complex().planes[r.piece].oriented_side(s) ==
-             (r.front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE);
-    };
-    const std::vector<Point3>& cell = scene_.cell().vertices();
-    if (std::none_of(cell.begin(), cell.end(), in_front)) {
+    if (!faces_cell(scene_.complex(), scene_.cell(), r.piece, r.front)) {  // though the space beside it may be seen
       r.sample = lift(inner_point(rings, 0));
       return;
     }
@@ -264,10 +254,8 @@ void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, cons
   std::vector<SideKey> sides;
   for (std::uint32_t t = 0; t < pieces.size(); ++t) {
     for (const bool front : {true, false}) {
-      const bool counts =
-          map.mode == Mode::sheet || std::any_of(pieces[t].origins.begin(), pieces[t].origins.end(),
-                                                 [&](const exact::Origin& o) { return o.same_side == front; });
-      if (counts && (scope.wanted.empty() || scope.wanted[side_index(t, front)])) sides.emplace_back(t, front);
+      if (counts(map.mode, pieces[t], front) && (scope.wanted.empty() || scope.wanted[side_index(t, front)]))
+        sides.emplace_back(t, front);
     }
   }
   std::vector<SideMapper::Output> outputs(sides.size());
@@ -285,11 +273,7 @@ void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, cons
     map.statistics.walks += out.walks;
     map.statistics.walk_disagreements += out.disagreements;
     map.statistics.conservative_fallbacks += out.fallbacks;
-    for (Region& r : out.regions) {
-      ++(r.visible ? map.statistics.regions_visible : map.statistics.regions_hidden);
-      map.regions.push_back(std::move(r));
-    }
-    std::move(out.segments.begin(), out.segments.end(), std::back_inserter(map.segments));
+    out.move_to(map);
   }
 }
 

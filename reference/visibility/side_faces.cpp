@@ -1,6 +1,8 @@
 #include "reference/visibility/side_faces.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace clues::reference {
 
@@ -41,6 +43,29 @@ void add_borders(const FlatSet& set, const TriangleFrame& frame, std::uint32_t t
 
 }  // namespace
 
+void SideFaces::sort() {
+  std::sort(regions.begin(), regions.end(),
+            [](const Region& x, const Region& y) { return CGAL::lexicographically_xyz_smaller(x.sample, y.sample); });
+  std::sort(segments.begin(), segments.end(), [](const DmSegment& x, const DmSegment& y) {
+    return x.a != y.a ? CGAL::lexicographically_xyz_smaller(x.a, y.a) : CGAL::lexicographically_xyz_smaller(x.b, y.b);
+  });
+}
+
+void SideFaces::move_to(VisibilityMap& map) {
+  for (const Region& r : regions) ++(r.visible ? map.statistics.regions_visible : map.statistics.regions_hidden);
+  std::move(regions.begin(), regions.end(), std::back_inserter(map.regions));
+  std::move(segments.begin(), segments.end(), std::back_inserter(map.segments));
+}
+
+Face2 flat_face(const Region& region, const TriangleFrame& frame) {
+  Face2 face;
+  for (const auto& ring : region.rings) {
+    face.emplace_back();
+    for (const Point3& p : ring) face.back().push_back(frame.frame()(p));
+  }
+  return face;
+}
+
 FlatSet whole_of(const TriangleFrame& frame) { return FlatSet(frame.twice_area(), {Face2{frame.outline()}}); }
 
 SideFaces side_faces(const FlatSet& visible, const TriangleFrame& frame, std::uint32_t piece, bool front) {
@@ -48,11 +73,7 @@ SideFaces side_faces(const FlatSet& visible, const TriangleFrame& frame, std::ui
   add_faces(visible, true, frame, piece, front, out);
   add_faces(subtract(whole_of(frame), visible), false, frame, piece, front, out);
   add_borders(visible, frame, piece, front, out);
-  std::sort(out.regions.begin(), out.regions.end(),
-            [](const Region& x, const Region& y) { return CGAL::lexicographically_xyz_smaller(x.sample, y.sample); });
-  std::sort(out.segments.begin(), out.segments.end(), [](const DmSegment& x, const DmSegment& y) {
-    return x.a != y.a ? CGAL::lexicographically_xyz_smaller(x.a, y.a) : CGAL::lexicographically_xyz_smaller(x.b, y.b);
-  });
+  out.sort();
   return out;
 }
 

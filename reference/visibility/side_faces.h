@@ -1,4 +1,4 @@
-// One side of a piece of the complex as regions and segments of a map, from the set of what is visible on it.
+// D15: one side of a piece of the complex as regions and segments of a map, and as the set of what is visible on it.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,18 @@ namespace clues::reference {
 
 struct SideFaces {
   std::vector<Region> regions;      // ordered by their samples
-  std::vector<DmSegment> segments;  // the borders of the set inside the triangle
+  std::vector<DmSegment> segments;  // borders inside the triangle
+
+  // The order in which a map has them.
+  void sort();
+  // At the end of the map; the regions are counted there.
+  void move_to(VisibilityMap& map);
 };
 
 SideFaces side_faces(const FlatSet& visible, const TriangleFrame& frame, std::uint32_t piece, bool front);
+
+// A region of the piece, laid flat.
+Face2 flat_face(const Region& region, const TriangleFrame& frame);
 
 // All of the triangle.
 FlatSet whole_of(const TriangleFrame& frame);

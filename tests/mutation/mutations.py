@@ -45,7 +45,7 @@ MUTATIONS = [
     ("regions-no-far-traces", V + "regions.cpp", "traces_[{w.blocker, front}].push_back({w.far0, w.far1});", "if (w.generation < 0) traces_[{w.blocker, front}].push_back({w.far0, w.far1});"),
     ("regions-far-traces-wrong-side", V + "regions.cpp", "oriented_side(w.center) == CGAL::ON_POSITIVE_SIDE;\n        traces_", "oriented_side(w.center) == CGAL::ON_NEGATIVE_SIDE;\n        traces_"),
     ("regions-label-negated", V + "regions.cpp", "r.visible = label.visible;", "r.visible = !label.visible;"),
-    ("regions-facing-away-swapped", V + "regions.cpp", "(r.front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE);", "(r.front ? CGAL::ON_NEGATIVE_SIDE : CGAL::ON_POSITIVE_SIDE);"),
+    ("regions-facing-away-swapped", V + "regions.cpp", "if (!faces_cell(scene_.complex(), scene_.cell(), r.piece, r.front)) {", "if (!faces_cell(scene_.complex(), scene_.cell(), r.piece, !r.front)) {"),
     ("star-free-between-always", V + "local_star.cpp", "    if (in_arc(a, b, arc.normal, CGAL::is_zero(at0)", "    if (false && in_arc(a, b, arc.normal, CGAL::is_zero(at0)"),
     ("star-spreads-never", V + "local_star.cpp", "  if (turn(inner) == way) return true;", "  if (turn(inner) == way) return false;"),
     ("d3-contact-is-not-visible", V + "first_order.cpp", "    if (!scene.meets_cell(t)) continue;", "    continue;"),
