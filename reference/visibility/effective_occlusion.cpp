@@ -239,12 +239,17 @@ WithPlanes with_planes(const VisibilityMap& map, const OcclusionControls& contro
       if (regions.size() > 1) sides.emplace_back(side, std::move(regions));
     }
   }
+  std::vector<std::vector<const DmSegment*>> boundaries(2 * map.complex.pieces.size());  // by side_index
+  for (const DmSegment& s : map.segments) {
+    if (s.boundary) boundaries[side_index(s.piece, s.front)].push_back(&s);
+  }
   std::vector<std::vector<char>> taken(sides.size(), std::vector<char>(corners.size(), 0));
   std::vector<std::vector<Face2>> hidden(sides.size());
   in_parallel(sides.size(), controls.threads, [&](std::size_t k) {
-    const std::uint32_t t = piece_of(sides[k].first);
-    const FlatSet old = set_with(false, sides[k].second, TriangleFrame(map.complex, t));
-    hidden[k] = hidden_by_planes(old, map, t, is_front(sides[k].first), corners, taken[k]).faces();
+    const auto& [side, regions] = sides[k];
+    const std::uint32_t t = piece_of(side);
+    const FlatSet old = set_with(false, regions, TriangleFrame(map.complex, t));
+    hidden[k] = hidden_by_planes(old, map.complex, t, boundaries[side], corners, taken[k]).faces();
   });
   std::map<std::size_t, std::vector<Face2>> changed;
   std::vector<char> anywhere(corners.size(), 0);

@@ -33,6 +33,7 @@ Key key_of(const Vector3& d) {
 // A wedge of another source whose lateral bound runs on from x.
 struct Neighbour {
   Plane3 plane;
+  Vector3 along;  // from its source to x
   Vector3 aside;  // from the bound into the wedge
 };
 
@@ -45,19 +46,17 @@ std::optional<Neighbour> ends_at(const Wedge& w, const Point3& x) {
                  &far = second ? w.far1 : w.far0;
     if (!CGAL::collinear(w.center, on_ray, x) || !CGAL::is_positive((on_ray - w.center) * d)) continue;
     const bool begins = !CGAL::is_negative((x - near) * d), goes_on = w.unbounded || CGAL::is_positive((far - x) * d);
-    if (begins && goes_on) return Neighbour{w.plane, (second ? w.on_ray0 : w.on_ray1) - on_ray};
+    if (begins && goes_on) return Neighbour{w.plane, d, (second ? w.on_ray0 : w.on_ray1) - on_ray};
   }
   return std::nullopt;
 }
 
-// The one wedge that the chain ends at; none if there are several in different planes.
-std::optional<Neighbour> neighbour(const std::vector<const Wedge*>& at_x, const Point3& x, const Vector3& ray) {
+// The one of them that the chain ends at with this ray; none if there are several in different planes.
+std::optional<Neighbour> neighbour(const std::vector<Neighbour>& at_x, const Vector3& ray) {
   std::optional<Neighbour> found;
-  for (const Wedge* w : at_x) {
-    if (!CGAL::is_zero(CGAL::cross_product(x - w->center, ray).squared_length())) continue;
-    const auto n = ends_at(*w, x);
-    if (!n) continue;
-    if (found && found->plane != n->plane) return std::nullopt;
+  for (const Neighbour& n : at_x) {
+    if (CGAL::cross_product(n.along, ray) != CGAL::NULL_VECTOR) continue;
+    if (found && found->plane != n.plane) return std::nullopt;
     found = n;
   }
   return found;
@@ -182,13 +181,13 @@ std::vector<InsideCorner> inside_corners(const VisibilityMap& map) {
   }
   std::vector<InsideCorner> corners;
   for (const auto& [x, swept] : swept_at) {
-    std::vector<const Wedge*> at_x;
+    std::vector<Neighbour> at_x;
     for (const Wedge& w : map.wedges) {
-      if (ends_at(w, x)) at_x.push_back(&w);
+      if (auto n = ends_at(w, x)) at_x.push_back(std::move(*n));
     }
     for (auto& chain : chains_at(swept, x)) {
       const Vector3 &first = chain.front().ray0, &last = chain.back().ray1;
-      const auto a = neighbour(at_x, x, first), b = neighbour(at_x, x, last);
+      const auto a = neighbour(at_x, first), b = neighbour(at_x, last);
       if (!a || !b) continue;
       const auto line = line_of(*a, first, *b, last);
       if (!line) continue;
@@ -201,13 +200,10 @@ std::vector<InsideCorner> inside_corners(const VisibilityMap& map) {
   return corners;
 }
 
-FlatSet hidden_by_planes(const FlatSet& hidden, const VisibilityMap& map, std::uint32_t piece, bool front,
-                         const std::vector<InsideCorner>& corners, std::vector<char>& taken) {
-  const TriangleFrame frame(map.complex, piece);
-  std::vector<const DmSegment*> boundary;
-  for (const DmSegment& s : map.segments) {
-    if (s.piece == piece && s.front == front && s.boundary) boundary.push_back(&s);
-  }
+FlatSet hidden_by_planes(const FlatSet& hidden, const exact::Complex& complex, std::uint32_t piece,
+                         const std::vector<const DmSegment*>& boundary, const std::vector<InsideCorner>& corners,
+                         std::vector<char>& taken) {
+  const TriangleFrame frame(complex, piece);
   FlatSet rest = hidden;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     std::vector<const DmSegment*> traces;
@@ -215,7 +211,7 @@ FlatSet hidden_by_planes(const FlatSet& hidden, const VisibilityMap& map, std::u
                  [&](const DmSegment* s) { return runs_along(*s, corners[i]); });
     if (traces.empty()) continue;
     FlatSet given_up(frame.twice_area());
-    for (const Face2& face : intersect(rest, between(corners[i], map.complex, piece, frame)).faces()) {
+    for (const Face2& face : intersect(rest, between(corners[i], complex, piece, frame)).faces()) {
       const bool cut_off = std::any_of(traces.begin(), traces.end(), [&](const DmSegment* s) {
         return borders_on(face, frame.frame()(s->a), frame.frame()(s->b));
       });

@@ -33,9 +33,10 @@ struct InsideCorner {
 // Those whose planes can stand in for the chain, by position. O(c w) for c corners and w wedges.
 std::vector<InsideCorner> inside_corners(const VisibilityMap& map);
 
-// What stays hidden of a side of a piece when the corners' planes stand in for their chains. A corner counts where a boundary of the map runs along its chain, and only if that
+// What stays hidden of a side of a piece when the corners' planes stand in for their chains. A corner counts where a boundary on this side runs along its chain, and only if that
 // saves a segment. `taken` has an entry for each corner; those that were used are set.
-FlatSet hidden_by_planes(const FlatSet& hidden, const VisibilityMap& map, std::uint32_t piece, bool front,
-                         const std::vector<InsideCorner>& corners, std::vector<char>& taken);
+FlatSet hidden_by_planes(const FlatSet& hidden, const exact::Complex& complex, std::uint32_t piece,
+                         const std::vector<const DmSegment*>& boundary, const std::vector<InsideCorner>& corners,
+                         std::vector<char>& taken);
 
 }  // namespace clues::reference
