@@ -5,10 +5,8 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
-#include "exact/convex_cell.h"
 #include "exact/kernel.h"
 #include "reference/visibility/first_order.h"
 #include "scene/mesh.h"

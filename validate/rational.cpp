@@ -1,8 +1,6 @@
 // Rational vectors: conversions.
 #include "validate/rational.h"
 
-#include <sstream>
-
 namespace clues::validate {
 namespace {
 

@@ -5,7 +5,6 @@
 // empty window is empty on a whole range of s (moving_planes.h).
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 

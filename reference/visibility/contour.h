@@ -6,7 +6,6 @@
 // (hazards B-2, B-5, B-7, B-8, B-16, B-27).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>

@@ -10,7 +10,6 @@
 // same segments and gives up less.)
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>

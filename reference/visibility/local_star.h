@@ -3,7 +3,6 @@
 // circle arc from where it comes from to where it goes. Used to decide on which sides of the surface at x a wedge with apex x exists (D12, D13).
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>

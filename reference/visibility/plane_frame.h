@@ -1,8 +1,6 @@
 // Two coordinates in a plane, so that "counter-clockwise about the plane's normal" is "counter-clockwise" of the flat points.
 #pragma once
 
-#include <utility>
-
 #include "exact/complex_internal.h"
 #include "exact/kernel.h"
 

@@ -1,7 +1,6 @@
 #include "reference/visibility/render_states.h"
 
 #include <algorithm>
-#include <memory>
 #include <optional>
 
 #include "exact/direction_cone.h"

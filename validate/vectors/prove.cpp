@@ -9,7 +9,6 @@
 #include "exact/scene_query.h"
 #include "exact/witness.h"
 #include "reference/visibility/first_order.h"
-#include "scene/error.h"
 #include "validate/judge.h"
 #include "validate/judge_report.h"
 #include "validate/vectors/short_witness.h"

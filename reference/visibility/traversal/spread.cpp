@@ -1,7 +1,5 @@
 #include "reference/visibility/traversal/spread.h"
 
-#include <algorithm>
-
 namespace clues::reference {
 
 using exact::FT;
