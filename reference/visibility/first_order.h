@@ -1,6 +1,6 @@
 // First-order CLUES (D8-D17a): from a scene and a convex view cell to the exact visibility map. This is the door; the
-// ideas live one to a file beside it: contour.h (D10, D11), anticone.h (D12), on_wedge.h (D13), walk.h (D14),
-// fixpoint.h (D17, D17a), regions.h (D15).
+// ideas live one to a file beside it: contour.h (D10, D11), anticone.h (D12), on_wedge.h and valid_pieces.h (D13),
+// walk.h (D14), fixpoint.h (D17, D17a), regions.h (D15).
 #pragma once
 
 #include <cstdint>

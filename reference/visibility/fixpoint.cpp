@@ -7,10 +7,10 @@
 #include <memory>
 #include <set>
 
-#include "exact/simple_point.h"
 #include "reference/visibility/apex.h"
 #include "reference/visibility/contour.h"
 #include "reference/visibility/sources.h"
+#include "reference/visibility/valid_pieces.h"
 #include "reference/visibility/walk.h"
 #include "scene/error.h"
 
@@ -21,28 +21,7 @@ using exact::Vector3;
 
 namespace {
 
-// The planted bug of a tolerance: strips that look narrow in doubles are taken for nothing.
-bool is_narrow(const Strip& s, const Point3& center) {
-  const auto c = exact::to_double_estimate(center), a = exact::to_double_estimate(s.on_ray0.p),
-             b = exact::to_double_estimate(s.on_ray1.p);
-  double dot = 0, aa = 0, bb = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    dot += (a[i] - c[i]) * (b[i] - c[i]);
-    aa += (a[i] - c[i]) * (a[i] - c[i]);
-    bb += (b[i] - c[i]) * (b[i] - c[i]);
-  }
-  return dot * dot > 0.98 * aa * bb;
-}
-
-// A sector waiting to become valid pieces: either a contour edge seen from a touching cell vertex, or a sector of an apex.
-struct Job {
-  std::size_t contour = 0;
-  int touching = -1;  // index into ContourEdge::touching; -1: an apex sector
-  Point3 lo, hi;      // the part of the contour edge
-  Apex* apex = nullptr;
-  std::size_t sector = 0;
-  std::shared_ptr<const OnWedge>* slot = nullptr;
-};
+using Job = PieceMaker::Job;
 
 class Search {
  public:
@@ -53,13 +32,10 @@ class Search {
         statistics_(statistics),
         walker_(scene, options.planted_bug != PlantedBug::no_rule_3),
         contours_(contour_edges(complex_, scene.cell())),
+        maker_(scene, contours_, options.planted_bug),
         cuts_(complex_.edges.size()),
         wedges_(scene) {
-    edge_wedges_.resize(contours_.size());
-    for (std::size_t i = 0; i < contours_.size(); ++i) {
-      edge_wedges_[i].resize(contours_[i].touching.size());
-      is_contour_.insert(contours_[i].edge);
-    }
+    for (const ContourEdge& c : contours_) is_contour_.insert(c.edge);
     if (options.planted_bug == PlantedBug::wrong_wedge_side) {
       for (ContourEdge& c : contours_) c.plane = c.plane.opposite();
     }
@@ -102,7 +78,7 @@ class Search {
     while (!jobs.empty()) {
       report();
       const std::size_t first = wedges_.pieces().size();
-      std::vector<ValidPiece> batch = build(jobs);
+      std::vector<ValidPiece> batch = maker_.build(jobs);
       wedges_.add(std::move(batch));
       for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
       for (VertexSource& s : vertex_sources_) {
@@ -113,7 +89,7 @@ class Search {
 
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     wedges_ = WedgeSet(scene_);
-    wedges_.add(build(merged_jobs()));
+    wedges_.add(maker_.build(merged_jobs()));
     for (const ValidPiece& piece : wedges_.pieces()) {
       for (const std::uint32_t e : piece.on_wedge->coplanar_edges) cut_coplanar(piece, e);
     }
@@ -165,9 +141,7 @@ class Search {
       Source& s = sources_[i];
       s.lit = true;
       const ContourEdge& c = contours_[s.contour];
-      for (int k = 0; k < static_cast<int>(c.touching.size()); ++k) {
-        jobs.push_back({s.contour, k, s.lo, s.hi, nullptr, 0, &edge_wedges_[s.contour][static_cast<std::size_t>(k)]});
-      }
+      maker_.add_jobs(s.contour, s.lo, s.hi, jobs);
       const exact::Edge& e = complex_.edges[c.edge];
       for (const auto& [end, other] : {std::pair(e.a, e.b), std::pair(e.b, e.a)}) {
         const Point3& x = complex_.points[end];
@@ -194,8 +168,7 @@ class Search {
         beyond_limit_.push_back(apex->x());
         continue;
       }
-      for (const std::size_t k : apex->new_sectors())
-        jobs.push_back({0, -1, {}, {}, apex, k, &apex->sectors()[k].on_wedge});
+      for (const std::size_t k : apex->new_sectors()) PieceMaker::add_job(*apex, k, jobs);
     }
     return jobs;
   }
@@ -206,114 +179,17 @@ class Search {
     for (std::size_t i = 0; i < sources_.size();) {
       std::size_t j = i;
       while (j < sources_.size() && sources_[j].contour == sources_[i].contour && sources_[j].lit) ++j;
-      if (j > i) {
-        const std::size_t c = sources_[i].contour;
-        for (int k = 0; k < static_cast<int>(contours_[c].touching.size()); ++k) {
-          jobs.push_back(
-              {c, k, sources_[i].lo, sources_[j - 1].hi, nullptr, 0, &edge_wedges_[c][static_cast<std::size_t>(k)]});
-        }
-      }
+      if (j > i) maker_.add_jobs(sources_[i].contour, sources_[i].lo, sources_[j - 1].hi, jobs);
       i = std::max(j, i + 1);
     }
     const auto add = [&jobs](Apex& apex) {
       for (std::size_t k = 0; k < apex.sectors().size(); ++k) {
-        if (apex.sectors()[k].built) jobs.push_back({0, -1, {}, {}, &apex, k, &apex.sectors()[k].on_wedge});
+        if (apex.sectors()[k].built) PieceMaker::add_job(apex, k, jobs);
       }
     };
     for (auto& [key, apex] : corners_) add(*apex);
     for (auto& [key, apex] : csvs_) add(*apex);
     return jobs;
-  }
-
-  // --- wedges -----------------------------------------------------------------------------------------------------------------
-
-  Sector sector_of(const Job& job) const {
-    Sector out;
-    if (job.touching < 0) {
-      const ApexSector& s = job.apex->sectors()[job.sector];
-      out.plane = s.plane;
-      out.center = out.near0 = out.near1 = job.apex->x();
-      out.on_ray0 = out.center + s.ray0;
-      out.on_ray1 = out.center + s.ray1;
-      if (!job.apex->on_edge()) out.on_plane = {job.apex->id()};
-      return out;
-    }
-    const ContourEdge& c = contours_[job.contour];
-    const exact::Edge& e = complex_.edges[c.edge];
-    out.plane = c.plane;
-    out.center = scene_.cell().vertices()[static_cast<std::size_t>(c.touching[static_cast<std::size_t>(job.touching)])];
-    out.near0 = complex_.points[e.a];
-    out.near1 = complex_.points[e.b];
-    if (CGAL::is_negative(c.plane.orthogonal_vector() *
-                          CGAL::cross_product(out.near0 - out.center, out.near1 - out.center))) {
-      std::swap(out.near0, out.near1);
-    }
-    out.on_ray0 = out.near0;
-    out.on_ray1 = out.near1;
-    out.on_plane = {e.a, e.b};
-    return out;
-  }
-
-  std::vector<ValidPiece> build(const std::vector<Job>& jobs) {
-    std::vector<const Job*> missing;
-    std::set<std::shared_ptr<const OnWedge>*> claimed;
-    for (const Job& job : jobs) {
-      if (!*job.slot && claimed.insert(job.slot).second) missing.push_back(&job);
-    }
-    tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
-      *missing[i]->slot = std::make_shared<const OnWedge>(on_wedge_visibility(sector_of(*missing[i]), scene_));
-    });
-    std::vector<std::vector<ValidPiece>> made(jobs.size());
-    tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) { made[i] = pieces_of(jobs[i]); });
-    std::vector<ValidPiece> batch;
-    for (auto& pieces : made) std::move(pieces.begin(), pieces.end(), std::back_inserter(batch));
-    return batch;
-  }
-
-  // Where the ray through `on_ray` starts: on the sector's near bound.
-  static Point3 near_point(const Sector& sector, const OnWedge& on, const Spot& on_ray) {
-    if (sector.from_apex()) return sector.center;
-    if (on_ray.p == sector.near0 || on_ray.p == sector.near1) return on_ray.p;
-    const exact::Point2 a = on.frame(sector.near0), b = on.frame(sector.near1);
-    const exact::Vector2 d = on_ray.q - on.center;
-    const exact::FT at_a = CGAL::determinant(d, a - on.center), at_b = CGAL::determinant(d, b - on.center);
-    return exact::collapsed(sector.near0 + (at_a / (at_a - at_b)) * (sector.near1 - sector.near0));
-  }
-
-  std::vector<ValidPiece> pieces_of(const Job& job) const {
-    const Sector sector = sector_of(job);
-    const std::shared_ptr<const OnWedge>& on = *job.slot;
-    std::vector<Strip> strips = on->strips;
-    if (job.touching >= 0) {
-      Spot lo{job.lo, on->frame(job.lo)}, hi{job.hi, on->frame(job.hi)};
-      if (CGAL::orientation(on->center, lo.q, hi.q) == CGAL::RIGHT_TURN) std::swap(lo, hi);
-      strips = strips_between(*on, lo, hi);
-    }
-    std::vector<ValidPiece> pieces;
-    for (const Strip& strip : strips) {
-      if (options_.planted_bug == PlantedBug::rounded_comparison && is_narrow(strip, sector.center)) continue;
-      ValidPiece piece{{}, on, strip};
-      Wedge& w = piece.wedge;
-      w.kind = job.touching < 0                             ? WedgeKind::se_mv
-               : contours_[job.contour].touching.size() > 1 ? WedgeKind::se_me
-                                                            : WedgeKind::sv_me;
-      w.generation = job.touching < 0 ? job.apex->generation : 0;
-      w.plane = sector.plane;
-      w.center = sector.center;
-      w.near0 = near_point(sector, *on, strip.on_ray0);
-      w.near1 = near_point(sector, *on, strip.on_ray1);
-      w.on_ray0 = strip.on_ray0.p;
-      w.on_ray1 = strip.on_ray1.p;
-      w.unbounded = !strip.blocker;
-      if (strip.blocker) {
-        const Blocker& b = on->blockers[*strip.blocker];
-        w.blocker = b.piece;
-        w.far0 = far_point(*on, b, strip.on_ray0);
-        w.far1 = far_point(*on, b, strip.on_ray1);
-      }
-      pieces.push_back(std::move(piece));
-    }
-    return pieces;
   }
 
   // --- CSVs -------------------------------------------------------------------------------------------------------------------
@@ -391,9 +267,7 @@ class Search {
   }
 
   void count() {
-    for (const auto& of_edge : edge_wedges_)
-      statistics_.wedges_built += static_cast<std::uint64_t>(
-          std::count_if(of_edge.begin(), of_edge.end(), [](const auto& on) { return on != nullptr; }));
+    statistics_.wedges_built += maker_.wedges_on_edges();
     const auto built = [this](Apex& apex) {
       for (const ApexSector& s : apex.sectors()) statistics_.wedges_built += s.on_wedge != nullptr;
     };
@@ -441,7 +315,7 @@ class Search {
   Statistics& statistics_;
   Walker walker_;
   std::vector<ContourEdge> contours_;
-  std::vector<std::vector<std::shared_ptr<const OnWedge>>> edge_wedges_;  // per contour edge and touching vertex
+  PieceMaker maker_;
   std::set<std::uint32_t> is_contour_;
   std::vector<std::vector<Point3>> cuts_, new_cuts_;  // per edge; cuts_ in lexicographic order
   std::vector<Source> sources_;
