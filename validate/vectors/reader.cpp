@@ -1,4 +1,4 @@
-// One function per object of the schema. `Field` carries where we are, so that every error can say it.
+// One function per object of the schema.
 #include "validate/vectors/reader.h"
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 #include "scene/error.h"
 #include "scene/formats/file_bytes.h"
-#include "scene/formats/number.h"
+#include "validate/vectors/field.h"
 #include "validate/vectors/words.h"
 
 namespace clues::validate {
@@ -19,137 +19,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using scene::Error;
 using scene::ErrorCode;
-
-struct Where {
-  std::string file;
-  std::string case_id;  // empty outside of cases
-};
-
-class Field {
- public:
-  Field(const json& value, const Where& where, std::string path)
-      : value_(&value), where_(&where), path_(std::move(path)) {}
-
-  [[noreturn]] void fail(const std::string& what) const {
-    std::string text = where_->file + ": ";
-    if (!where_->case_id.empty()) text += "case " + where_->case_id + ": ";
-    throw Error(ErrorCode::malformed, text + (path_.empty() ? "" : path_ + ": ") + what);
-  }
-  // An object with exactly these keys, or with any if `keys` is empty.
-  const Field& object(std::initializer_list<const char*> required,
-                      std::initializer_list<const char*> optional = {}) const {
-    if (!value_->is_object()) fail("must be an object");
-    for (const char* key : required) {
-      if (!value_->contains(key)) fail(fmt::format("the field \"{}\" is missing", key));
-    }
-    if (required.size() == 0) return *this;
-    for (const auto& [key, unused] : value_->items()) {
-      const auto is = [&key = key](const char* known) { return key == known; };
-      if (std::none_of(required.begin(), required.end(), is) && std::none_of(optional.begin(), optional.end(), is)) {
-        fail(fmt::format("unknown field \"{}\"; the schema is closed", key));
-      }
-    }
-    return *this;
-  }
-  bool has(const char* key) const { return value_->contains(key); }
-  Field operator[](const char* key) const {
-    return {value_->at(key), *where_, path_.empty() ? key : path_ + "." + key};
-  }
-  std::vector<std::pair<std::string, Field>> members() const {
-    std::vector<std::pair<std::string, Field>> all;
-    for (const auto& [key, value] : value_->items()) all.emplace_back(key, (*this)[key.c_str()]);
-    return all;
-  }
-  std::vector<Field> array(std::size_t least, std::size_t most = SIZE_MAX) const {
-    if (!value_->is_array()) fail("must be a list");
-    if (value_->size() < least) fail(fmt::format("must have at least {} items, has {}", least, value_->size()));
-    if (value_->size() > most) fail(fmt::format("must have at most {} items, has {}", most, value_->size()));
-    std::vector<Field> items;
-    for (std::size_t i = 0; i < value_->size(); ++i)
-      items.emplace_back((*value_)[i], *where_, fmt::format("{}[{}]", path_, i));
-    return items;
-  }
-  std::string text() const {
-    if (!value_->is_string() || value_->get_ref<const std::string&>().empty()) fail("must be a text that is not empty");
-    return value_->get<std::string>();
-  }
-  std::string text(bool (*is_kind)(std::string_view), const char* kind) const {
-    std::string found = text();
-    if (!is_kind(found)) fail(fmt::format("\"{}\" is not {}", found, kind));
-    return found;
-  }
-  // Which of the words it is.
-  std::size_t one_of(std::initializer_list<const char*> words) const {
-    const std::string found = text();
-    std::size_t i = 0;
-    std::string list;
-    for (const char* word : words) {
-      if (found == word) return i;
-      list += fmt::format("{}\"{}\"", i++ ? ", " : "", word);
-    }
-    fail(fmt::format("\"{}\" is none of {}", found, list));
-  }
-  bool flag() const {
-    if (!value_->is_boolean()) fail("must be true or false");
-    return value_->get<bool>();
-  }
-  std::uint64_t number() const {
-    if (!value_->is_number_unsigned()) fail("must be a whole number, at least 0");
-    return value_->get<std::uint64_t>();
-  }
-  // An index below `limit`, or any 32-bit one.
-  std::uint32_t index(std::uint64_t limit, const char* of) const {
-    const std::uint64_t i = number();
-    if (i >= limit) fail(fmt::format("{} is out of range: there are {} {}", i, limit, of));
-    return static_cast<std::uint32_t>(i);
-  }
-  bool is_null() const { return value_->is_null(); }
-
-  scene::Point point() const {
-    scene::Point p{};
-    const auto coordinates = array(3, 3);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto parsed = scene::parse_number(coordinates[i].text(is_hex_float, "a C99 hex float like 0x1.8p+1"));
-      if (parsed.kind != scene::NumberKind::finite) coordinates[i].fail("is not a finite double");
-      p[i] = parsed.value;
-    }
-    return p;
-  }
-  RationalPoint rational_point() const {
-    RationalPoint p;
-    const auto coordinates = array(3, 3);
-    for (std::size_t i = 0; i < 3; ++i)
-      p[i] = coordinates[i].text(is_rational, "an exact number: \"p/q\", or \"p\", without leading zeros");
-    return p;
-  }
-
- private:
-  const json* value_;
-  const Where* where_;
-  std::string path_;
-};
-
-// nlohmann keeps the last of two equal keys; here two are an error.
-json parse_json(std::string_view text, const std::string& file) {
-  std::vector<std::set<std::string>> open;
-  std::string twice;
-  const auto watch = [&](int, json::parse_event_t event, json& parsed) {
-    if (event == json::parse_event_t::object_start) open.emplace_back();
-    if (event == json::parse_event_t::object_end) open.pop_back();
-    if (event == json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second) {
-      twice = parsed.get<std::string>();
-    }
-    return true;
-  };
-  try {
-    json value = json::parse(text, watch);
-    if (!twice.empty())
-      throw Error(ErrorCode::malformed, fmt::format("{}: the field \"{}\" is there twice", file, twice));
-    return value;
-  } catch (const json::exception& e) {
-    throw Error(ErrorCode::malformed, file + ": not JSON: " + e.what());
-  }
-}
 
 VectorScene read_scene(const Field& field) {
   field.object({"vertices", "triangles"});
