@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "exact/area.h"
+#include "reference/visibility/sides.h"
 #include "scene/error.h"
 
 namespace clues::app {
@@ -150,13 +151,6 @@ bool make_folder(const std::filesystem::path& folder) {
   return made;
 }
 
-bool faces_cell(const reference::VisibilityMap& map, std::uint32_t piece, bool front) {
-  const auto wanted = front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
-  const auto& corners = map.cell.vertices();
-  return std::any_of(corners.begin(), corners.end(),
-                     [&](const auto& v) { return map.complex.planes[piece].oriented_side(v) == wanted; });
-}
-
 Census take_census(const reference::VisibilityMap& map) {
   struct Flags {
     bool visible = false, hidden = false;
@@ -165,10 +159,9 @@ Census take_census(const reference::VisibilityMap& map) {
   Census census;
   for (const auto& region : map.regions) {
     const auto& piece = map.complex.pieces[region.piece];
-    const bool facing = faces_cell(map, region.piece, region.front);
+    const bool facing = reference::faces_cell(map.complex, map.cell, region.piece, region.front);
     for (const auto& origin : piece.origins) {
-      const bool counts = map.mode == reference::Mode::sheet || region.front == origin.same_side;
-      if (!counts || (!facing && !region.visible)) continue;
+      if (!reference::counts(map.mode, origin, region.front) || (!facing && !region.visible)) continue;
       (region.visible ? flags[origin.triangle].visible : flags[origin.triangle].hidden) = true;
     }
     if (!facing) continue;

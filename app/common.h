@@ -57,7 +57,4 @@ struct Census {
 };
 Census take_census(const reference::VisibilityMap& map);
 
-// Whether some point of the cell lies strictly on that side of a piece of the complex.
-bool faces_cell(const reference::VisibilityMap& map, std::uint32_t piece, bool front);
-
 }  // namespace clues::app

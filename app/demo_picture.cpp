@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "app/common.h"
+#include "reference/visibility/sides.h"
 #include "validate/region_points.h"
 
 namespace clues::app {
@@ -35,7 +35,7 @@ Point unit_normal(const exact::Plane3& plane, bool front) {
 std::vector<Fragment> fragments(const reference::VisibilityMap& map) {
   std::vector<Fragment> all;
   for (const auto& region : map.regions) {
-    const bool facing = faces_cell(map, region.piece, region.front);
+    const bool facing = reference::faces_cell(map.complex, map.cell, region.piece, region.front);
     const Paint paint = region.visible ? Paint::seen : facing ? Paint::hidden : Paint::away;
     const Point normal = unit_normal(map.complex.planes[region.piece], region.front);
     for (const auto& triangle : validate::triangulate_region(region.rings)) {
