@@ -84,18 +84,6 @@ void find_visible(const exact::SceneQuery& scene, VisibilityMap& map) {
   }
 }
 
-std::vector<std::uint8_t> VisibilityMap::triangle_state() const {
-  std::vector<std::uint8_t> state(complex.input_triangles, 0);
-  for (const Region& r : regions) {
-    for (const exact::Origin& o : complex.pieces[r.piece].origins) {
-      if (counts(mode, o, r.front))
-        state[o.triangle] = static_cast<std::uint8_t>(state[o.triangle] | (r.visible ? 1U : 2U));
-    }
-  }
-  for (const std::uint32_t t : visible) state[t] = static_cast<std::uint8_t>(state[t] | 1U);
-  return state;
-}
-
 scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map, bool with_render_states) {
   scene::Result result;
   result.scene_triangles = map.complex.input_triangles;

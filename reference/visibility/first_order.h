@@ -97,10 +97,6 @@ struct VisibilityMap {
   std::vector<std::uint32_t> visible;  // the PVS: input triangle ids, ascending
   Statistics statistics;
   std::string method = "first-order";  // or how it was refined (D20, D21)
-
-  // Whether any visible region / any hidden region of input triangle t exists (partly visible: both), on sides that count in
-  // the mode.
-  std::vector<std::uint8_t> triangle_state() const;  // per input triangle: bit 0 a visible region, bit 1 a hidden one
 };
 
 // Throws scene::Error not_solid when mode is solid and the mesh is not closed and consistently oriented.
