@@ -16,36 +16,45 @@ namespace clues::fastpath {
 BoxTree::BoxTree(std::vector<IntervalBox> boxes) : boxes_(std::move(boxes)) {
   const auto count = static_cast<std::uint32_t>(boxes_.size());
   if (count == 0) return;
-  std::vector<Keyed> items(count);
-  for (std::uint32_t i = 0; i < count; ++i) items[i].item = i;
+  std::vector<Item> items;
+  items.reserve(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const IntervalBox& b = boxes_[i];
+    items.push_back({{b.x.inf() + b.x.sup(), b.y.inf() + b.y.sup(), b.z.inf() + b.z.sup()}, i});
+  }
   nodes_.reserve(count);
   build(items, 0, count);
-  for (const Keyed& k : items) items_.push_back(k.item);
+  for (const Item& item : items) items_.push_back(item.id);
 }
 
-// By the median, so the depth is below 32.
-std::uint32_t BoxTree::build(std::vector<Keyed>& items, std::uint32_t begin, std::uint32_t end) {
+// By the median of the middles, on the axis on which they spread most; so the depth is below 32.
+std::uint32_t BoxTree::build(std::vector<Item>& items, std::uint32_t begin, std::uint32_t end) {
   const auto id = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
-  IntervalBox box = boxes_[items[begin].item];
-  for (std::uint32_t i = begin + 1; i < end; ++i) box = hull(box, boxes_[items[i].item]);
-  nodes_[id].box = box;
   if (end - begin <= 2) {
+    nodes_[id].box = hull(boxes_[items[begin].id], boxes_[items[end - 1].id]);
     nodes_[id].first = begin;
     nodes_[id].count = end - begin;
     return id;
   }
-  const double size[3] = {box.x.sup() - box.x.inf(), box.y.sup() - box.y.inf(), box.z.sup() - box.z.inf()};
-  const int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    const IntervalBox& b = boxes_[items[i].item];
-    const Interval& x = axis == 0 ? b.x : axis == 1 ? b.y : b.z;
-    items[i].key = x.inf() + x.sup();
+  std::array<double, 3> low = items[begin].middle, high = low;
+  for (std::uint32_t i = begin + 1; i < end; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], items[i].middle[k]);
+      high[k] = std::max(high[k], items[i].middle[k]);
+    }
+  }
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
   }
   const std::uint32_t half = begin + (end - begin) / 2;
   std::nth_element(items.begin() + begin, items.begin() + half, items.begin() + end,
-                   [](const Keyed& a, const Keyed& b) { return a.key != b.key ? a.key < b.key : a.item < b.item; });
+                   [axis](const Item& a, const Item& b) {
+                     return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis] : a.id < b.id;
+                   });
   const std::uint32_t left = build(items, begin, half), right = build(items, half, end);
+  nodes_[id].box = hull(nodes_[left].box, nodes_[right].box);
   nodes_[id].first = left;
   nodes_[id].second = right;
   return id;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -74,11 +75,11 @@ class BoxTree {
     std::uint32_t count = 0;
   };
 
-  struct Keyed {
-    double key;  // middle of the box on the axis that is halved
-    std::uint32_t item;
+  struct Item {
+    std::array<double, 3> middle;  // of its box, times two
+    std::uint32_t id;
   };
-  std::uint32_t build(std::vector<Keyed>& items, std::uint32_t begin, std::uint32_t end);
+  std::uint32_t build(std::vector<Item>& items, std::uint32_t begin, std::uint32_t end);
 
   std::vector<IntervalBox> boxes_;
   std::vector<std::uint32_t> items_;

@@ -95,12 +95,13 @@ class Search::Work {
 
   // The wedges that sources make which the pieces from number `first` on light: their own (D10, D11), and those at the contour vertices they light (D12).
   std::vector<Job> light(std::size_t first) {
-    for (const std::size_t i : sources.newly_lit_vertices(first)) {
+    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first);
+    for (const std::size_t i : newly_lit_vertices) {
       const Sources::OfVertex& v = sources.of_vertices()[i];
       contacts.add(contacts.corner(v.point), {Probe::Kind::sight, v.beside, {}, nullptr, 0, nullptr});
     }
     std::vector<Job> jobs;
-    for (const std::size_t i : sources.newly_lit_edges(first)) {
+    for (const std::size_t i : newly_lit_edges) {
       const Sources::OfEdge& s = sources.of_edges()[i];
       const ContourEdge& c = contours[s.contour];
       for (int k = 0; k < static_cast<int>(c.touching.size()); ++k)
@@ -235,55 +236,40 @@ class Search::Work {
 
   // --- CSVs ---------------------------------------------------------------------------------------------------------------------
 
-  // A meeting within a piece, and whether the piece lies on either side of the ray through it.
-  struct Met {
-    const Meeting* meeting = nullptr;
-    bool before = false, after = false;
-  };
-
-  static std::vector<Met> meetings_of(const ValidPiece& piece) {
-    const OnWedge& on = *piece.on;
-    std::vector<Met> met;
-    for (const Meeting& m : on.meetings) {
-      const int after = on.turn(piece.ray0, m.at);
-      if (after < 0) continue;
-      const int before = on.turn(m.at, piece.ray1);
-      if (before < 0) continue;
-      if (piece.blocker >= 0) {
-        const Blocker& b = on.blockers[static_cast<std::size_t>(piece.blocker)];
-        if (on.turn(b.u, b.w, m.at) < 0) continue;
-      }
-      met.push_back({&m, before > 0, after > 0});
+  // Where the pieces from number `first` on meet mesh edges and vertices, these become contour vertices, lit by the pieces.
+  void meet_edges(std::size_t first) {
+    for (std::size_t i = first; i < set.pieces().size(); ++i) {
+      for (const Meeting& m : set.pieces()[i].on->meetings) meet(set.pieces()[i], m);
     }
-    return met;
   }
 
-  void meet_edges(std::size_t first) {
-    std::vector<std::vector<Met>> met(set.pieces().size() - first);
-    workers.for_each(met.size(),
-                     [&](std::size_t i, Workers::Worker&) { met[i] = meetings_of(set.pieces()[first + i]); });
-    for (std::size_t i = 0; i < met.size(); ++i) {
-      const OnWedge& on = *set.pieces()[first + i].on;
-      const int generation = set.pieces()[first + i].generation + 1;
-      for (const auto& [meeting, before, after] : met[i]) {
-        const Meeting& m = *meeting;
-        Contact* c = m.at_vertex ? contacts.corner(m.id) : contacts.csv(m.id, m.at);
-        Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr};
-        if (!m.at_vertex) {
-          new_cuts[m.id].push_back(c->x);
-          if (c->generation < 0 || generation < c->generation) c->generation = generation;
-          const LocalEdge& e = scene.edges[m.id];
-          probe.lit_end = &scene.points[on.plane->side(scene.points[e.a]) > 0 ? e.a : e.b];
-        }
-        if (before) {
-          probe.aside = 1;
-          contacts.add(c, probe);
-        }
-        if (after) {
-          probe.aside = -1;
-          contacts.add(c, probe);
-        }
-      }
+  void meet(const ValidPiece& piece, const Meeting& m) {
+    const OnWedge& on = *piece.on;
+    const int after = on.turn(piece.ray0, m.at);
+    if (after < 0) return;
+    const int before = on.turn(m.at, piece.ray1);
+    if (before < 0) return;
+    if (piece.blocker >= 0) {
+      const Blocker& b = on.blockers[static_cast<std::size_t>(piece.blocker)];
+      if (on.turn(b.u, b.w, m.at) < 0) return;
+    }
+    Contact* c = m.at_vertex ? contacts.corner(m.id) : contacts.csv(m.id, m.at);
+    Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr};
+    if (!m.at_vertex) {
+      new_cuts[m.id].push_back(c->x);
+      const int generation = piece.generation + 1;
+      if (c->generation < 0 || generation < c->generation) c->generation = generation;
+      const LocalEdge& e = scene.edges[m.id];
+      probe.lit_end = &scene.points[on.plane->side(scene.points[e.a]) > 0 ? e.a : e.b];
+    }
+    // The piece lies on both sides of the ray through the vertex, or on one.
+    if (before > 0) {
+      probe.aside = 1;
+      contacts.add(c, probe);
+    }
+    if (after > 0) {
+      probe.aside = -1;
+      contacts.add(c, probe);
     }
   }
 

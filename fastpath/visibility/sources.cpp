@@ -61,19 +61,17 @@ void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cut
       s.part.hi = stops[i + 1];
     }
   }
-  workers_.for_each(of_edges_.size(), [&](std::size_t i, Workers::Worker& worker) {
+  for (OfVertex& s : of_vertices_) s.lit = false;
+  const std::size_t edges = of_edges_.size();
+  workers_.for_each(edges + of_vertices_.size(), [&](std::size_t i, Workers::Worker& worker) {
+    const auto walk_again = [&](auto& s) {
+      if (s.walk.end == Walk::End::crossed) s.walk = walk(s.beside, s.seed, worker.pool);
+    };
+    if (i >= edges) return walk_again(of_vertices_[i - edges]);
     OfEdge& s = of_edges_[i];
-    if (!s.part.y) {
-      s.part.y = worker.pool.keep(ExactPoint::between(*s.part.lo, *s.part.hi, 0.4716796875));
-      place(s, worker.pool);
-    } else if (s.walk.end == Walk::End::crossed) {
-      s.walk = walk(s.beside, s.seed, worker.pool);
-    }
-  });
-  workers_.for_each(of_vertices_.size(), [&](std::size_t i, Workers::Worker& worker) {
-    OfVertex& s = of_vertices_[i];
-    s.lit = false;
-    if (s.walk.end == Walk::End::crossed) s.walk = walk(s.beside, s.seed, worker.pool);
+    if (s.part.y) return walk_again(s);
+    s.part.y = worker.pool.keep(ExactPoint::between(*s.part.lo, *s.part.hi, 0.4716796875));
+    place(s, worker.pool);
   });
 }
 
@@ -99,39 +97,32 @@ bool Sources::newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, s
   return c != Crossing::no;
 }
 
-std::vector<std::size_t> Sources::newly_lit_edges(std::size_t first) {
-  std::vector<char> visible(of_edges_.size(), 0);
-  workers_.for_each(of_edges_.size(), [&](std::size_t i, Workers::Worker& worker) {
-    OfEdge& s = of_edges_[i];
-    if (s.lit) return;
-    std::size_t from = first;
-    if (s.beside && pieces_.may_meet(*s.beside, *s.part.y, first, holds_edge(scene_, contours_[s.contour].edge))) {
-      ++s.level;
-      place(s, worker.pool);
-      from = 0;
-    }
-    visible[i] = newly_visible(s.beside, s.walk, s.seed, from, worker.pool) ? 1 : 0;
-  });
-  std::vector<std::size_t> lit;
-  for (std::size_t i = 0; i < visible.size(); ++i) {
-    if (visible[i] == 0) continue;
-    of_edges_[i].lit = true;
-    lit.push_back(i);
+bool Sources::newly_visible(OfEdge& s, std::size_t first, Pool& pool) {
+  if (s.beside && pieces_.may_meet(*s.beside, *s.part.y, first, holds_edge(scene_, contours_[s.contour].edge))) {
+    ++s.level;
+    place(s, pool);
+    first = 0;
   }
-  return lit;
+  return newly_visible(s.beside, s.walk, s.seed, first, pool);
 }
 
-std::vector<std::size_t> Sources::newly_lit_vertices(std::size_t first) {
-  std::vector<char> visible(of_vertices_.size(), 0);
-  workers_.for_each(of_vertices_.size(), [&](std::size_t i, Workers::Worker& worker) {
-    OfVertex& s = of_vertices_[i];
-    visible[i] = !s.lit && newly_visible(s.beside, s.walk, s.seed, first, worker.pool) ? 1 : 0;
+Sources::Numbers Sources::newly_lit(std::size_t first) {
+  const std::size_t edges = of_edges_.size();
+  std::vector<char> visible(edges + of_vertices_.size(), 0);
+  workers_.for_each(visible.size(), [&](std::size_t i, Workers::Worker& worker) {
+    if (i < edges) {
+      OfEdge& s = of_edges_[i];
+      visible[i] = !s.lit && newly_visible(s, first, worker.pool) ? 1 : 0;
+    } else {
+      OfVertex& s = of_vertices_[i - edges];
+      visible[i] = !s.lit && newly_visible(s.beside, s.walk, s.seed, first, worker.pool) ? 1 : 0;
+    }
   });
-  std::vector<std::size_t> lit;
+  Numbers lit;
   for (std::size_t i = 0; i < visible.size(); ++i) {
     if (visible[i] == 0) continue;
-    of_vertices_[i].lit = true;
-    lit.push_back(i);
+    (i < edges ? of_edges_[i].lit : of_vertices_[i - edges].lit) = true;
+    i < edges ? lit.of_edges.push_back(i) : lit.of_vertices.push_back(i - edges);
   }
   return lit;
 }

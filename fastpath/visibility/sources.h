@@ -46,8 +46,10 @@ class Sources {
   const std::vector<OfEdge>& of_edges() const { return of_edges_; }
   const std::vector<OfVertex>& of_vertices() const { return of_vertices_; }
   // Those that become visible by the pieces from number `first` on, ascending; from here on they are lit.
-  std::vector<std::size_t> newly_lit_edges(std::size_t first);
-  std::vector<std::size_t> newly_lit_vertices(std::size_t first);
+  struct Numbers {
+    std::vector<std::size_t> of_edges, of_vertices;
+  };
+  Numbers newly_lit(std::size_t first);
 
   std::uint64_t walks() const { return walks_; }
   std::uint64_t unresolved() const;  // sources that count as visible without a proof
@@ -56,6 +58,7 @@ class Sources {
   Walk walk(const ExactPoint* p, std::uint64_t seed, Pool& pool);
   void place(OfEdge& source, Pool& pool);
   std::vector<OfVertex> beside_vertex(std::uint32_t vertex, Pool& pool);
+  bool newly_visible(OfEdge& source, std::size_t first, Pool& pool);
   bool newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first, Pool& pool);
 
   const LocalScene& scene_;
