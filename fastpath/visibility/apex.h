@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fastpath/visibility/on_wedge.h"
+#include "fastpath/visibility/star.h"
 
 namespace clues::fastpath {
 
@@ -52,20 +53,17 @@ class Apex {
 
   // At a mesh vertex: whether the cell is seen from x without an incident piece between any two of the sight lines.
   bool sees_cell_in_one_part() const;
-  // The faces of directions, as numbers: equal for equal faces.
-  std::vector<int> faces_of(const std::vector<const ExactPoint*>& to) const;
+  // At a mesh vertex: one point x + t (q - x), t > 0, q inside V, in each part that incident pieces cut these points into; a part may have several. `inside_cell` is a point inside V. Throws
+  // scene::Error internal if the vertex is too intricate.
+  std::vector<ExactPoint> views_of_cell(const ExactPoint& inside_cell) const;
+  // Whether the directions towards p and q are in one local face; neither may be on an arc. Throws as above.
+  bool in_one_face(const ExactPoint& p, const ExactPoint& q) const;
 
  private:
   template <class NT>
-  class Star;
-  template <class NT>
   std::vector<std::uint32_t> existing_in(const std::vector<Probe>& probes) const;
 
-  struct Arc {
-    std::uint32_t a = 0, b = 0;  // mesh vertices: the arc runs between their directions
-    std::uint32_t edge = 0;      // the mesh edge ab
-    std::uint32_t piece = 0;
-  };
+  bool may_meet_cone(const LocalArc& arc) const;  // the directions from x to V; filtered
   void find_arcs();
   void find_sectors(Pool& pool);
   void split(Pool& pool, const Plane* plane, const ExactPoint* ray0, const ExactPoint* ray1);
@@ -74,7 +72,7 @@ class Apex {
   bool on_edge_;
   std::uint32_t id_;
   const ExactPoint* x_;
-  std::vector<Arc> arcs_;
+  std::vector<LocalArc> arcs_;
   std::vector<ApexSector> sectors_;
 };
 

@@ -1,4 +1,4 @@
-// Points that stand for a limit: for the space just off a part of a contour edge (D13a), and for what a mesh vertex sees of the cell (D12).
+// A point that stands for a limit: for the space just off a part of a contour edge (D13a).
 #pragma once
 
 #include <cstddef>
@@ -27,10 +27,5 @@ inline auto holds_edge(const LocalScene& scene, std::uint32_t edge) {
 // scene or of `set` lies between. Looks nearer and nearer, from `level` on, and leaves there how near it found one; none when it did not.
 std::optional<ExactPoint> beside_edge(const LocalScene& scene, const PieceSet& set, const ContourEdge& c,
                                       const EdgePart& part, int& level);
-
-// Points of V such that every local face at x from which V is seen is seen from one of them: near every vertex of V, and near the places where the
-// planes of incident pieces cross edges of V.
-// `inside` is a point of int V.
-std::vector<ExactPoint> viewpoints_of_parts(const LocalScene& scene, const Apex& apex, const ExactPoint& inside);
 
 }  // namespace clues::fastpath

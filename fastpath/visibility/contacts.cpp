@@ -81,7 +81,7 @@ void Contacts::find_sectors(const std::vector<Contact*>& contacts) {
     std::vector<std::uint32_t> sectors(c.apex->sectors().size());
     std::iota(sectors.begin(), sectors.end(), 0U);
     try {
-      sectors = c.apex->existing(c.probes);
+      if (!c.has_all_sectors) sectors = c.apex->existing(c.probes);
     } catch (const scene::Error& error) {
       if (error.code() != scene::ErrorCode::internal) throw;
       ++fallbacks_;

@@ -19,6 +19,7 @@ struct Contact {
   std::uint32_t id = 0;                          // of the edge that x is a point of, or of the mesh vertex
   int generation = 0;                            // of its wedges; -1: a CSV not met in this round
   std::unique_ptr<Apex> apex;                    // made when the contact is lit
+  bool has_all_sectors = false;                  // once lit: too intricate to tell which
   std::vector<Probe> probes;                     // of this round
   bool fresh = false;                            // some of them came since the last Contacts::lit()
   std::vector<bool> built;                       // by sector: in this round

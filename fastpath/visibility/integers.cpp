@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 namespace clues::fastpath {
 
@@ -23,6 +25,14 @@ Integer imported(const mpz_class& z) {
   if (mpz_size(raw) > 0)
     import_bits(out, mpz_limbs_read(raw), mpz_limbs_read(raw) + mpz_size(raw), GMP_NUMB_BITS, false);
   return sgn(z) < 0 ? Integer(-out) : out;
+}
+
+mpz_class exported(const Integer& x) {
+  std::vector<mp_limb_t> limbs;
+  export_bits(abs(x), std::back_inserter(limbs), GMP_NUMB_BITS, false);
+  mpz_class out;
+  mpz_import(out.get_mpz_t(), limbs.size(), -1, sizeof(mp_limb_t), 0, 0, limbs.data());
+  return x.sign() < 0 ? mpz_class(-out) : out;
 }
 
 // m 2^e, m a whole number of at most 53 bits.
@@ -142,9 +152,20 @@ Vec3<Interval> moved_by<Interval>(const Vec3<Interval>& limit, const Vec3<Interv
 template <>
 Vec3<Integer> moved_by<Integer>(const Vec3<Integer>& limit, const Vec3<Integer>& aside, const Vec3<Integer>& off,
                                 int exponent) {
-  const unsigned at_limit = bits(limit), most = std::max({at_limit, bits(aside), bits(off)});
+  const unsigned most = std::max({bits(limit), bits(aside), bits(off)});
   const auto e = static_cast<unsigned>(exponent);
-  return shifted(limit, most - at_limit + 2 * e) + shifted(aside, e) + off;
+  const auto as_long = [&](const IntegerVector& v, unsigned by) { return shifted(v, most - bits(v) + by); };
+  return as_long(limit, 2 * e) + as_long(aside, e) + as_long(off, 0);
+}
+
+ExactPoint point_towards(const ExactPoint& x, const Vec3<Integer>& d, double distance) {
+  const long shift = std::ilogb(distance) - static_cast<long>(bits(d));
+  const auto scaled = [&](const Integer& c) {
+    Rational q(exported(c));
+    (shift >= 0 ? mpq_mul_2exp : mpq_div_2exp)(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(std::abs(shift)));
+    return q;
+  };
+  return ExactPoint(x.exact() + Exact3{scaled(d.x), scaled(d.y), scaled(d.z)});
 }
 
 }  // namespace clues::fastpath

@@ -34,7 +34,7 @@ Vec3<Interval> balanced_sum<Interval>(const Vec3<Interval>& a, const Vec3<Interv
 template <>
 Vec3<Integer> balanced_sum<Integer>(const Vec3<Integer>& a, const Vec3<Integer>& b);
 
-// A positive multiple of limit + s aside + s^2 off, where s is 2^-exponent times a positive number that depends on the vectors' sizes only.
+// A positive multiple of limit + s aside + t s^2 off, where s is 2^-exponent and t is 1, both times positive numbers that depend on the vectors' sizes only.
 template <class NT>
 Vec3<NT> moved_by(const Vec3<NT>& limit, const Vec3<NT>& aside, const Vec3<NT>& off, int exponent);
 template <>
@@ -43,5 +43,8 @@ Vec3<Interval> moved_by<Interval>(const Vec3<Interval>& limit, const Vec3<Interv
 template <>
 Vec3<Integer> moved_by<Integer>(const Vec3<Integer>& limit, const Vec3<Integer>& aside, const Vec3<Integer>& off,
                                 int exponent);
+
+// x + a positive multiple of d, exactly; about this far from x.
+ExactPoint point_towards(const ExactPoint& x, const Vec3<Integer>& d, double distance);
 
 }  // namespace clues::fastpath

@@ -5,6 +5,8 @@
 #include <map>
 #include <tuple>
 
+#include "scene/error.h"
+
 namespace clues::fastpath {
 
 Sources::Sources(const LocalScene& scene, const std::vector<ContourEdge>& contours, const PieceSet& pieces,
@@ -18,24 +20,61 @@ Sources::Sources(const LocalScene& scene, const std::vector<ContourEdge>& contou
 }
 
 std::vector<Sources::OfVertex> Sources::beside_vertex(std::uint32_t v, Pool& pool) {
-  std::vector<OfVertex> found;
   const Apex& apex = contacts_.apex_of(v, pool);
-  if (apex.sectors().empty()) return found;
-  const auto from = apex.sees_cell_in_one_part() ? std::vector<ExactPoint>{*walker_.viewpoint(v)}
-                                                 : viewpoints_of_parts(scene_, apex, *walker_.viewpoint(0));
-  const ExactPoint& x = scene_.points[v];
-  for (const ExactPoint& p : from) {
-    for (int level = 0; level < 7; ++level) {
-      const ExactPoint beside = point_near(x, p, level);
-      if (equal(beside, x) || scene_.may_meet(beside, x)) continue;
-      OfVertex& s = found.emplace_back();
-      s.point = v;
-      s.beside = pool.keep(beside);
-      s.walk = walk(s.beside, s.seed, pool);
-      break;
+  if (apex.sectors().empty()) return {};
+  const ExactPoint& inside = *walker_.viewpoint(v);
+  std::vector<OfVertex> found;
+  const auto add = [&](const ExactPoint& view) {
+    std::optional<OfVertex> s = towards(
+        v, view, [&](const ExactPoint& beside) { return apex.in_one_face(beside, view); }, pool);
+    found.push_back(s ? std::move(*s) : unresolved(v, view, pool));
+  };
+  try {
+    if (apex.sees_cell_in_one_part()) {
+      add(inside);
+      return found;
     }
+    for (const ExactPoint& view : apex.views_of_cell(inside)) add(view);
+  } catch (const scene::Error& error) {
+    if (error.code() != scene::ErrorCode::internal) throw;
+    contacts_.corner(v)->has_all_sectors = true;
+    found.assign(1, unresolved(v, inside, pool));
+  }
+  // Not needed, but the more directions are known to be visible, the fewer sectors bound anything: those to V's vertices.
+  for (std::size_t i = 0; i < scene_.cell.vertices.size(); ++i) {
+    std::vector<double> weights(scene_.cell.vertices.size());
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      weights[j] = j == i ? 1 : 0x1p-12 * static_cast<double>(3 + (7 * j + 11 * i) % 13);
+    const auto anywhere = [](const ExactPoint&) { return true; };
+    if (auto s = towards(v, scene_.cell.interior_point(weights), anywhere, pool)) found.push_back(std::move(*s));
   }
   return found;
+}
+
+// Beside x on the way to `view`, where it is good.
+template <class Good>
+std::optional<Sources::OfVertex> Sources::towards(std::uint32_t v, const ExactPoint& view, const Good& good,
+                                                  Pool& pool) {
+  const ExactPoint& x = scene_.points[v];
+  for (int level = 0; level < 7; ++level) {
+    const ExactPoint beside = point_near(x, view, level);
+    if (equal(beside, x) || scene_.may_meet(beside, x) || !good(beside)) continue;
+    OfVertex s;
+    s.point = v;
+    s.beside = pool.keep(beside);
+    s.walk = walk(s.beside, s.seed, pool);
+    return s;
+  }
+  return std::nullopt;
+}
+
+// It counts as visible.
+Sources::OfVertex Sources::unresolved(std::uint32_t v, const ExactPoint& view, Pool& pool) {
+  OfVertex s;
+  s.point = v;
+  s.beside = pool.keep(view);
+  s.walk.end = Walk::End::unresolved;
+  return s;
 }
 
 Walk Sources::walk(const ExactPoint* p, std::uint64_t seed, Pool& pool) {

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "fastpath/visibility/beside.h"
@@ -58,6 +59,9 @@ class Sources {
   Walk walk(const ExactPoint* p, std::uint64_t seed, Pool& pool);
   void place(OfEdge& source, Pool& pool);
   std::vector<OfVertex> beside_vertex(std::uint32_t vertex, Pool& pool);
+  template <class Good>
+  std::optional<OfVertex> towards(std::uint32_t vertex, const ExactPoint& view, const Good& good, Pool& pool);
+  static OfVertex unresolved(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
   bool newly_visible(OfEdge& source, std::size_t first, Pool& pool);
   bool newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first, Pool& pool);
 

@@ -52,6 +52,11 @@ void judge_points(const scene::TriangleMesh& mesh, const std::vector<Point>& cel
   for (const LocalRegion& r : found.first_order.regions) {
     if (r.visible || most == 0) continue;
     const Corners c = bvh.corners(r.triangle);
+    // A side that faces away is hidden (D4), but points just off it are seen past its edges if the cell reaches up to its plane.
+    const exact::Plane3 plane(exact::to_exact(c[0]), exact::to_exact(c[1]), exact::to_exact(c[2]));
+    const auto in_front = r.front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
+    const auto& s = exact_cell.vertices();
+    if (std::none_of(s.begin(), s.end(), [&](const auto& v) { return plane.oriented_side(v) == in_front; })) continue;
     Point n{}, middle{};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
