@@ -47,7 +47,9 @@ Polygon common_part(Polygon p, const Polygon& q, std::vector<Polygon>& outside) 
   const double size = std::sqrt(length_estimate(area_vector(p)));
   for (std::size_t i = 0; i < q.size(); ++i) {
     const Point &a = q[i], &b = q[(i + 1) % q.size()];
-    const Point inward = cross_of(n, minus(b, a));
+    const Point along = minus(b, a), inward = cross_of(n, along);
+    // Between corners that are one but for roundings: the direction says nothing.
+    if (length_estimate(along) <= 0x1p-30 * std::sqrt(length_estimate(n))) continue;
     const double tolerance = length_estimate(inward) * size * 0x1p-40;
     std::vector<double> height;
     for (const Point& x : p) height.push_back(dot_of(inward, minus(x, a)));
