@@ -118,6 +118,15 @@ TEST(RefinementOfBothKernels, CutsTheSameAway) {
   print(tally);
 }
 
+// Regions with corners 1e-15 apart, whose edges point anywhere: an area of 0.1 was called hidden.
+TEST(RefinementOfBothKernels, CornersThatAreOneButForRoundingsCutNothingOff) {
+  Tally tally;
+  const fuzz::GeneratedScene scene = fuzz::generate(fuzz::Kind::loose_triangles, kSeed, 17);
+  compare(scene.mesh, scene.cell, 1, tally);
+  EXPECT_EQ(tally.fallbacks, 0U);
+  EXPECT_EQ(tally.same_area, 1U);
+}
+
 TEST(RefinementOfBothKernelsLong, CutsTheSameAway) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
   Tally tally;
