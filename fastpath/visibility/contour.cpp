@@ -20,12 +20,15 @@ std::vector<Support> supporting_planes(const LocalScene& scene, Pool& pool, cons
     // Seen along the line V spans at most a half turn, unless the line passes through int V; its end is found by comparison.
     int end = -1;
     bool passed = false;
-    for (int i = 0; i < static_cast<int>(s.size()); ++i) {
-      const ExactPoint& x = s[static_cast<std::size_t>(i)];
-      if (end < 0) {
-        if (!collinear(a, b, x)) end = i;
-      } else if (orientation(a, b, s[static_cast<std::size_t>(end)], x) == turn) {
-        end = i;
+    for (int round = 0; round < 2;
+         ++round) {  // the ends of a half turn are not told apart: one may be passed over once
+      for (int i = 0; i < static_cast<int>(s.size()); ++i) {
+        const ExactPoint& x = s[static_cast<std::size_t>(i)];
+        if (end < 0) {
+          if (!collinear(a, b, x)) end = i;
+        } else if (orientation(a, b, s[static_cast<std::size_t>(end)], x) == turn) {
+          end = i;
+        }
       }
     }
     if (end < 0) return {};

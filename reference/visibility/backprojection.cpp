@@ -130,8 +130,10 @@ std::optional<Plane3> adjusted_plane(const ContourSegment& segment, const std::v
   const CGAL::Orientation turn = CGAL::orientation(a, b, segment.center, cell.center());
   const auto ahead = [&](const Point3& x, const Point3& y) { return CGAL::orientation(a, b, x, y) == turn; };
   std::optional<Point3> first;
-  for (const Point3& q : seen) {
-    if (!CGAL::collinear(a, b, q) && (!first || ahead(q, *first))) first = q;
+  for (int round = 0; round < 2; ++round) {  // the ends of a half turn are not told apart: one may be passed over once
+    for (const Point3& q : seen) {
+      if (!CGAL::collinear(a, b, q) && (!first || ahead(q, *first))) first = q;
+    }
   }
   if (!first) return std::nullopt;
   const Plane3 plane(a, b, *first);

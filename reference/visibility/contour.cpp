@@ -27,8 +27,11 @@ std::vector<SupportingPlane> supporting_planes(const Point3& a, const Point3& b,
   // Seen along the line, V spans at most a half turn unless the line passes through int V; its ends are found by comparison.
   const auto end = [&](CGAL::Orientation turn) {
     std::size_t best = off_line.front();
-    for (const std::size_t i : off_line) {
-      if (CGAL::orientation(a, b, s[best], s[i]) == turn) best = i;
+    for (int round = 0; round < 2;
+         ++round) {  // the ends of a half turn are not told apart: one may be passed over once
+      for (const std::size_t i : off_line) {
+        if (CGAL::orientation(a, b, s[best], s[i]) == turn) best = i;
+      }
     }
     return best;
   };

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "exact/convex_cell.h"
+#include "fastpath/visibility/contour.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/generators/random_scenes.h"
 #include "reference/visibility/first_order.h"
@@ -230,6 +231,44 @@ TEST(LocalMap, SaysWhichBoxesItsPiecesMayTouch) {
   EXPECT_TRUE(map.piece_may_touch(Corners{Point{1.3, 0, -4}, {1.5, 0, -4}, {1.4, 0.1, -4}}));
   EXPECT_FALSE(map.piece_may_touch(Corners{Point{0, 0, -4}, {0.5, 0, -4}, {0, 0.5, -4}}));
   EXPECT_EQ(map.conservative_labels(), 0U);
+}
+
+// Where the line of an edge runs through a facet of V, the ends of V seen along it are a half turn apart and no comparison tells them from each other. Whether both were
+// found depended on which way the edge ran.
+TEST(LocalMap, ALineThroughAFacetOfTheCellHasTwoSupportsEitherWay) {
+  const RoundedUp rounded_up;
+  std::vector<scene::Point> corners;
+  for (const double x : {-1, 1}) {
+    for (const double y : {-1, 1}) {
+      for (const double z : {-1, 1}) corners.push_back({x, y, z});
+    }
+  }
+  const auto cell = exact::ConvexCell::from_doubles(corners);
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    for (const double side : {-1, 1}) {
+      const auto at = [&](double along, double across) {
+        scene::Point p{};
+        p[axis] = side;
+        p[(axis + 1) % 3] = along;
+        p[(axis + 2) % 3] = across;
+        return p;
+      };
+      for (const auto& [from, to] : {std::pair(2.0, 3.0), std::pair(3.0, 2.0)}) {
+        scene::TriangleMesh mesh;
+        mesh.points = {at(from, 0), at(to, 0), at(2.5, 4)};
+        mesh.triangles = {{0, 1, 2}};
+        mesh.face_of = {0};
+        const LocalScene scene(mesh, cell);
+        Pool pool;
+        const auto contour = contour_edges(scene, pool);
+        const auto in_line = std::count_if(contour.begin(), contour.end(), [&](const ContourEdge& c) {
+          const LocalEdge& e = scene.edges[c.edge];
+          return std::max(e.a, e.b) < 2 && c.touching.size() == 2;
+        });
+        EXPECT_EQ(in_line, 2) << "axis " << axis << ", side " << side << ", from " << from;
+      }
+    }
+  }
 }
 
 }  // namespace
