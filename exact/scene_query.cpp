@@ -95,6 +95,11 @@ SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_p
 }
 
 bool SceneQuery::is_free(const Point3& v, const Point3& p) const {
+  if (v == p) return true;
+  // An end of the segment is not in the open segment; what is beside it is in int V where the end is at least in V.
+  const auto end_in_cell = [&](const Point3& x) {
+    return x == v || x == p ? cell_->contains(x) : cell_->interior_contains(x);
+  };
   const Kernel::Segment_3 segment(v, p);
   for (const std::uint32_t t : candidates(SegmentBoxTest(v, p))) {
     const auto& c = complex_->pieces[t].corners;
@@ -102,22 +107,14 @@ bool SceneQuery::is_free(const Point3& v, const Point3& p) const {
     if (!CGAL::do_intersect(segment, triangle)) continue;
     const auto met = CGAL::intersection(segment, triangle);
     if (!met) continue;
-    // The met part, from the end at v to the end at p. Only points of the open segment outside int V block.
-    Point3 nearest_p;
     if (const auto* x = boost::get<Point3>(&*met)) {
-      nearest_p = *x;
+      if (*x != v && *x != p && !cell_->interior_contains(*x)) return false;
     } else {
       const auto& s = boost::get<Kernel::Segment_3>(*met);
-      const bool source_nearer = CGAL::has_smaller_distance_to_point(p, s.source(), s.target());
-      const Point3 far_end = source_nearer ? s.target() : s.source();
-      nearest_p = source_nearer ? s.source() : s.target();
-      if (nearest_p == p && far_end != p) {  // a whole stretch up to p: some of it is outside int V unless p is inside
-        if (!cell_->interior_contains(p)) return false;
-        continue;
-      }
+      if (!end_in_cell(s.source()) || !end_in_cell(s.target()) ||
+          !cell_->interior_contains(CGAL::midpoint(s.source(), s.target())))
+        return false;
     }
-    if (nearest_p == p || nearest_p == v) continue;
-    if (!cell_->interior_contains(nearest_p)) return false;
   }
   return true;
 }

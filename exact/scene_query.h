@@ -41,7 +41,7 @@ class SceneQuery {
   // not met at all, if p stands for points just off that plane (`off_planes`). O(log n + boxes met).
   SegmentAnswer crossings(const Point3& v, const Point3& p, bool off_planes = false) const;
 
-  // Whether the open segment (v,p) meets no closed piece outside int V (D5): exact for every position, never degenerate.
+  // Whether the open segment (v,p) meets no closed piece outside int V (D5): exact for every two points, never degenerate.
   bool is_free(const Point3& v, const Point3& p) const;
 
   // Occluders whose boxes the test cannot exclude.
