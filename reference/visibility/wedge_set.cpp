@@ -58,7 +58,7 @@ Meets covers(const ValidPiece& piece, const Point3& x) {
   return result;
 }
 
-Meets crosses(const ValidPiece& piece, const Point3& m, const Point3& p) {
+Meets crosses(const ValidPiece& piece, const Point3& m, const Point3& p, const exact::Vector3& off) {
   const Wedge& w = piece.wedge;
   const CGAL::Oriented_side at_p = w.plane.oriented_side(p);
   if (at_p == CGAL::ON_NEGATIVE_SIDE) return Meets::no;
@@ -66,12 +66,16 @@ Meets crosses(const ValidPiece& piece, const Point3& m, const Point3& p) {
   if (at_m == CGAL::ON_POSITIVE_SIDE) return Meets::no;
   if (at_p == CGAL::ON_ORIENTED_BOUNDARY) return covers(piece, p) == Meets::no ? Meets::no : Meets::degenerate;
   if (at_m == CGAL::ON_ORIENTED_BOUNDARY) return covers(piece, m) == Meets::no ? Meets::no : Meets::degenerate;
-  // m -> p runs along the normal; it passes left of a directed line of the plane exactly when the orientation is positive.
-  Meets result =
-      all_positive({CGAL::orientation(m, p, w.center, w.on_ray0), CGAL::orientation(m, p, w.on_ray1, w.center)});
+  // m -> p runs along the normal; it passes left of a directed line of the plane exactly when the orientation is positive. That is linear in p:
+  // where it is zero, the line from m to a point just off p tells.
+  const auto passes = [&](const Point3& a, const Point3& b) {
+    const CGAL::Orientation o = CGAL::orientation(m, p, a, b);
+    return o == CGAL::ZERO && off != CGAL::NULL_VECTOR ? CGAL::orientation(m, m + off, a, b) : o;
+  };
+  Meets result = all_positive({passes(w.center, w.on_ray0), passes(w.on_ray1, w.center)});
   const auto also = [&](const Point3& a, const Point3& b) {
     if (result == Meets::no) return;
-    const Meets r = all_positive({CGAL::orientation(m, p, a, b)});
+    const Meets r = all_positive({passes(a, b)});
     if (r != Meets::yes) result = r;
   };
   if (w.near0 != w.near1) also(w.near1, w.near0);

@@ -27,8 +27,9 @@ struct ValidPiece {
 Meets covers(const ValidPiece& piece, const exact::Point3& x);
 
 // Whether the segment from m to p crosses the piece from H+ to H-; p and m not both in its plane. Degenerate when it meets the outline,
-// or when an end lies on the piece.
-Meets crosses(const ValidPiece& piece, const exact::Point3& m, const exact::Point3& p);
+// or when an end lies on the piece. With `off` the segment stands for one just off it on that side: then what meets the outline is inside or outside.
+Meets crosses(const ValidPiece& piece, const exact::Point3& m, const exact::Point3& p,
+              const exact::Vector3& off = CGAL::NULL_VECTOR);
 
 class WedgeSet {
  public:
@@ -44,7 +45,8 @@ class WedgeSet {
   // Over the pieces from index `first` on (which must be the start of a batch): yes if any says yes, else degenerate if any does.
   // `skip(piece)` leaves a piece out.
   template <class Skip>
-  Meets crossed(const exact::Point3& m, const exact::Point3& p, std::size_t first, const Skip& skip) const {
+  Meets crossed(const exact::Point3& m, const exact::Point3& p, std::size_t first, const Skip& skip,
+                const exact::Vector3& off = CGAL::NULL_VECTOR) const {
     Meets worst = Meets::no;
     const exact::SegmentBoxTest test(m, p);
     for (const Batch& b : batches_) {
@@ -52,7 +54,7 @@ class WedgeSet {
       for (const std::uint32_t i : b.tree.candidates(test)) {
         const ValidPiece& piece = pieces_[b.begin + i];
         if (skip(piece)) continue;
-        const Meets r = crosses(piece, m, p);
+        const Meets r = crosses(piece, m, p, off);
         if (r == Meets::yes) return r;
         if (r == Meets::degenerate) worst = r;
       }
