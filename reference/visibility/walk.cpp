@@ -97,6 +97,59 @@ std::optional<Point3> Walker::end_of_groove(const SurfaceSide& one, const Surfac
   return found;
 }
 
+bool Walker::touches_only_the_edge(const SurfaceSide& one, const SurfaceSide& two) const {
+  std::vector<Point3> shared;  // by V and the closed groove: what is extreme among it, and more
+  bool on_line = true;
+  const auto note = [&](const Point3& x) {
+    if (CGAL::is_negative(height(one, x)) || CGAL::is_negative(height(two, x))) return false;
+    on_line = CGAL::is_zero(height(one, x)) && CGAL::is_zero(height(two, x));
+    shared.push_back(x);
+    return !on_line;
+  };
+  const std::vector<Point3>& s = scene_->cell().vertices();
+  if (std::any_of(s.begin(), s.end(), note)) return false;
+  leaves(one, [&](const Point3&, const Point3& x) { return note(x); });
+  if (!on_line) return false;
+
+  const exact::Complex& complex = scene_->complex();
+  const auto is_wall = [&](std::uint32_t piece, const SurfaceSide& in, const SurfaceSide& before) {
+    const auto& c = complex.pieces[piece].corners;
+    return std::all_of(c.begin(), c.end(), [&](auto i) { return CGAL::is_zero(height(in, complex.points[i])); }) &&
+           std::any_of(c.begin(), c.end(),
+                       [&](auto i) { return CGAL::is_positive(height(before, complex.points[i])); });
+  };
+  const auto carries_both = [&](const exact::Edge& e) {
+    const auto any = [&](const SurfaceSide& in, const SurfaceSide& before) {
+      return std::any_of(e.pieces.begin(), e.pieces.end(), [&](auto t) { return is_wall(t, in, before); });
+    };
+    return any(one, two) && any(two, one);
+  };
+  // From the common edge on, both ways along its line, as far as both walls stand.
+  const auto& own = complex.piece_edges[one.piece];
+  const auto common = std::find_if(own.begin(), own.end(), [&](auto id) { return carries_both(complex.edges[id]); });
+  if (common == own.end()) return false;
+  std::array<std::uint32_t, 2> ends{complex.edges[*common].a, complex.edges[*common].b};
+  const auto next = [&](std::uint32_t end, std::uint32_t other) -> std::optional<std::uint32_t> {
+    for (const std::uint32_t t : complex.point_pieces[end]) {
+      for (const std::uint32_t id : complex.piece_edges[t]) {
+        const exact::Edge& e = complex.edges[id];
+        if (e.a != end && e.b != end) continue;
+        const std::uint32_t beyond = e.a == end ? e.b : e.a;
+        const Point3 &x = complex.points[other], &y = complex.points[end], &z = complex.points[beyond];
+        if (CGAL::collinear(x, y, z) && CGAL::collinear_are_ordered_along_line(x, y, z) && carries_both(e))
+          return beyond;
+      }
+    }
+    return std::nullopt;
+  };
+  for (const int i : {0, 1}) {
+    while (const auto beyond = next(ends[i], ends[1 - i])) ends[i] = *beyond;
+  }
+  return std::all_of(shared.begin(), shared.end(), [&](const Point3& x) {
+    return CGAL::collinear_are_ordered_along_line(complex.points[ends[0]], x, complex.points[ends[1]]);
+  });
+}
+
 std::optional<Point3> Walker::along_groove(const Point3& p, const SurfaceSide& on, const SurfaceSide& before,
                                            const Point3& end) const {
   constexpr int kPulls = 64;
@@ -189,15 +242,15 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
         const std::optional<Point3> both = anchor_beyond(*surface, &*before);
         if (both) {
           anchor = both;
-        } else if (const std::optional<Point3> end = end_of_groove(*surface, *before)) {
-          along = along_groove(p, *surface, *before, *end);
-          before.reset();
         } else {
-          before.reset();
-          if (const std::optional<Leg> leg = groove_leg(walk)) {
+          const std::optional<Point3> end = end_of_groove(*surface, *before);
+          if (end && !touches_only_the_edge(*surface, *before)) {
+            along = along_groove(p, *surface, *before, *end);
+          } else if (const std::optional<Leg> leg = groove_leg(walk)) {
             walk.legs.push_back(*leg);
             return walk;
           }
+          before.reset();
         }
       }
       good = [beyond, on = *surface, before](const Point3& v) {
@@ -289,7 +342,7 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
   for (const Leg& leg : walk.legs) {
     if (result == Meets::yes) break;
     const bool at_start = &leg == &walk.legs.front();
-    note(wedges.crossed(leg.m, leg.p, first, [&](const ValidPiece& piece) {
+    const auto crosses_nothing = [&](const ValidPiece& piece) {
       const exact::Plane3& h = piece.wedge.plane;
       const auto on_plane = [&](std::uint32_t point) {
         return h.oriented_side(complex.points[point]) == CGAL::ON_ORIENTED_BOUNDARY;
@@ -311,7 +364,15 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
       if (start.contour)
         return on_plane(complex.edges[start.contour->edge].a) && on_plane(complex.edges[start.contour->edge].b);
       return start.surface && holds_piece(start.surface->piece);
-    }));
+    };
+    Meets crossed = wedges.crossed(leg.m, leg.p, first, crosses_nothing);
+    if (crossed == Meets::degenerate && start.contour) {
+      // A flat cell in the plane of its wedge has no other sight lines; D13a means those just off the plane, in H-.
+      const exact::Plane3& h = start.contour->plane;
+      if (h.has_on(leg.m) && h.has_on(leg.p))
+        crossed = wedges.crossed(leg.m, leg.p, first, crosses_nothing, h.orthogonal_vector());
+    }
+    note(crossed);
     if (result != Meets::yes && !leg.from_edge) upon(leg.piece, leg.front, leg.m);
   }
   return result;

@@ -5,10 +5,13 @@
 // It ends at the cell (visible) or at a surface that the cell does not face (hidden). The label is: visible if the walk ends
 // at the cell, or if any leg crosses a valid wedge piece from H+ to H-, or if one lies upon the surface where a leg starts.
 // A walk into a groove that no point of V looks into along its edge would go on for ever, from one wall to the other, towards the
-// edge: T3 orders points, but an order of points may descend without end (definition, D14 says the recursion ends). Beside the edge all is hidden:
-// a chain of D9 that comes to such a place came from a place still nearer to the edge, and so never began at V. So the walk
-// ends there, hidden, with a leg from the edge. This holds only if V keeps away from the edge's line. Where V touches it, sight lines nearly along
-// the edge come in at the groove's end, past the walls, however near the edge p is: then the walk looks that way.
+// edge: T3 orders points, but an order of points may descend without end (definition, D14 says the recursion ends). Beside the edge all is hidden, though, and the
+// walk ends there, with a leg from the edge. For over the edge stands a tent that nothing enters: the walls are its sides, and at either end of the edge it has a plane
+// through that end with V and the tent on one side (T2). The planes exist if V and the closed groove share no point, or none but points of the edge: let f be linear, positive in
+// the groove, zero on the edge and at most zero on V; let s be linear, the distance from the end along the edge, and at least zero where V has f = 0. As V is a
+// polytope, f <= k s holds on V where s < 0, for some k > 0; then f - r s is at most zero on V for all r in [0,k], and the less r is, the flatter is the tent.
+// Edges that carry both walls on along the line count as one edge. Where V touches the line elsewhere, sight lines nearly along the edge come in at the
+// groove's end, past the walls, however near the edge p is: then the walk looks that way.
 //
 // So walks are made once, and only their legs are looked at again when new wedge pieces appear (D17a).
 #pragma once
@@ -83,6 +86,9 @@ class Walker {
   std::optional<exact::Point3> anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const;
   // A point of the closed V in both closed half spaces, for two walls that no point of V is strictly in front of at once; none if V keeps away.
   std::optional<exact::Point3> end_of_groove(const SurfaceSide& one, const SurfaceSide& two) const;
+  // Whether V and the closed groove between two walls share nothing but points of their common edge, and of the edges that carry both walls on along
+  // its line.
+  bool touches_only_the_edge(const SurfaceSide& one, const SurfaceSide& two) const;
   // v in int V near `end`, strictly in front of `on`, such that the sight line to p does not cross `before`; none was found: nullopt.
   std::optional<exact::Point3> along_groove(const exact::Point3& p, const SurfaceSide& on, const SurfaceSide& before,
                                             const exact::Point3& end) const;

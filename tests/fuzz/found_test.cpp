@@ -91,6 +91,27 @@ TEST(Found, AWedgeAlongTheEdgesOfFlatTriangles) {
        {{0, 2.5, 5.5}, {0, 2, 6}}});
 }
 
+// The coverage-guided fuzzer, 3 triangles before: a side of the second plate lies in a plane that touches the cell on both sides of its line, and had no wedge. Both kernels called
+// hidden what is seen past it.
+TEST(Found, ASideWhoseLineRunsThroughAnEdgeOfTheCell) {
+  is_answered(
+      {"found",
+       0,
+       0,
+       mesh_of({{-2, 0, 0}, {0, 0, 0}, {0, 0, -1}, {-1, 0, 1}, {-1, 1, 0}, {-1, -1, -1}}, {{0, 1, 2}, {3, 4, 5}}),
+       {{0, 0, 1}, {-1, -1, 0}, {-1, 0, 0}, {0, 0, 0}}});
+}
+
+// The coverage-guided fuzzer: an edge in one plane with a flat cell, seen through the seam between two pieces of a wedge; "an edge piece without a walk in general position".
+TEST(Found, AnEdgeInThePlaneOfAFlatCell) {
+  is_answered(
+      {"found",
+       0,
+       0,
+       mesh_of({{3, -1, 0}, {3, 1, 0}, {5, 0, 3.0625}, {3, -1, 1}, {3, 1, 1}, {5, 0, 1}}, {{3, 4, 2}, {2, 4, 5}}),
+       {{-1, 0, 0}, {1, 0, 32.0625}}});
+}
+
 void campaign_finds_nothing(const char* name, std::uint64_t cases = 320, const std::string& left_out = "") {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
   const scene::TemporaryFolder folder;
