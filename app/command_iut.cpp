@@ -1,5 +1,4 @@
 // clues iut: the reference, or a shared library, as an implementation under test: a speaker of docs/protocol.md.
-#include <tbb/task_arena.h>
 
 #include <cstdio>
 #include <iostream>
@@ -10,6 +9,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "exact/convex_cell.h"
+#include "exact/threads.h"
 #include "fastpath/visibility/first_order.h"
 #include "reference/visibility/first_order.h"
 #include "scene/error.h"
@@ -38,9 +38,8 @@ std::vector<std::uint32_t> fast_pvs(const validate::Request& request) {
     fastpath::require_solid(request.mesh);
     options.mode = fastpath::SideMode::solid;
   }
-  tbb::task_arena arena(1);
-  return arena.execute(
-      [&] { return fastpath::first_order_visibility(fastpath::Bvh(request.mesh), request.cell, options).visible; });
+  return exact::by_threads(
+      1, [&] { return fastpath::first_order_visibility(fastpath::Bvh(request.mesh), request.cell, options).visible; });
 }
 
 void serve_kernel(const std::string& kernel) {

@@ -1,7 +1,6 @@
 // clues map: scene and cell in, exact visibility map out.
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -19,6 +18,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/progress.h"
+#include "exact/threads.h"
 #include "scene/atomic_file.h"
 #include "scene/cell_spec.h"
 #include "scene/error.h"
@@ -73,8 +73,7 @@ void map_many(const CellMapper& mapper, const std::vector<scene::CellSpec>& cell
   bar.show("cells", cells.size() - wanted.size(), cells.size());
   std::mutex mutex;
   std::size_t done = cells.size() - wanted.size();
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] {
+  exact::by_threads(threads, [&] {
     tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
       MappedCell mapped = mapper.map(cells[wanted[i]], 1, {});
       const std::lock_guard lock(mutex);

@@ -1,10 +1,9 @@
 // clues map --kernel fast: one tree for all cells, then the closure of fastpath/ for each.
 #include <fmt/format.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 
 #include "app/cell_mapper.h"
+#include "exact/threads.h"
 #include "fastpath/visibility/first_order.h"
 #include "fastpath/visibility/refinement.h"
 #include "scene/error.h"
@@ -30,9 +29,8 @@ class FastMapper : public CellMapper {
   MappedCell map(const scene::CellSpec& cell, int threads, const reference::Progress& progress) const override {
     if (progress) progress("cell", 0, 1);
     if (request_.refinement != validate::Refinement::none) return refined(cell, threads);
-    fastpath::FirstOrder found;
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    arena.execute([&] { found = fastpath::first_order_visibility(bvh_, cell.points, options_, request_.with_map); });
+    const fastpath::FirstOrder found = exact::by_threads(
+        threads, [&] { return fastpath::first_order_visibility(bvh_, cell.points, options_, request_.with_map); });
     MappedCell mapped;
     mapped.name = cell.name;
     const std::size_t triangles = bvh_.mesh().triangles.size();
@@ -55,9 +53,8 @@ class FastMapper : public CellMapper {
     options.max_depth = request_.refine.max_depth;
     options.tolerance_area = request_.refine.tolerance_area;
     options.regions = request_.with_map;
-    fastpath::RefinedVisibility found;
-    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-    arena.execute([&] { found = fastpath::refined_visibility(bvh_, cell.points, options_, options); });
+    const fastpath::RefinedVisibility found =
+        exact::by_threads(threads, [&] { return fastpath::refined_visibility(bvh_, cell.points, options_, options); });
     const fastpath::RefinementFigures& last = found.depths.back();
     MappedCell mapped;
     mapped.name = cell.name;

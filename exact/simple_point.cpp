@@ -9,14 +9,16 @@ namespace {
 
 constexpr double kDenominators[kSimpleLevels] = {251, 65521, 16777213, 274877906857.0};
 
-FT rounded(double x, int level) {
-  const double d = kDenominators[level];
-  return FT(std::nearbyint(x * d)) / FT(d);
+// none where doubles end, so far out that they are all whole
+std::optional<FT> rounded(double x, int level) {
+  const double d = kDenominators[level], whole = std::nearbyint(x * d);
+  if (!std::isfinite(whole)) return std::nullopt;
+  return FT(whole) / FT(d);
 }
 
 }  // namespace
 
-FT simple_near(const FT& x, int level) { return rounded(CGAL::to_double(x), level); }
+FT simple_near(const FT& x, int level) { return rounded(CGAL::to_double(x), level).value_or(x); }
 
 std::optional<Point3> simple_in_triangle(const Point3& x, const std::array<Point3, 3>& corners, int level) {
   const auto& [a, b, c] = corners;
@@ -32,9 +34,9 @@ std::optional<Point3> simple_in_triangle(const Point3& x, const std::array<Point
   };
   const double area = cross(fa, fb, fc);
   if (area == 0) return std::nullopt;
-  const FT u = rounded(cross(fa, fx, fc) / area, level), w = rounded(cross(fa, fb, fx) / area, level);
-  if (!CGAL::is_positive(u) || !CGAL::is_positive(w) || u + w >= FT(1)) return std::nullopt;
-  return collapsed(a + u * (b - a) + w * (c - a));
+  const auto u = rounded(cross(fa, fx, fc) / area, level), w = rounded(cross(fa, fb, fx) / area, level);
+  if (!u || !w || !CGAL::is_positive(*u) || !CGAL::is_positive(*w) || *u + *w >= FT(1)) return std::nullopt;
+  return collapsed(a + *u * (b - a) + *w * (c - a));
 }
 
 Point3 simple_between(const Point3& a, const Point3& b, const Point3& lo, const Point3& hi) {

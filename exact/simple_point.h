@@ -14,7 +14,7 @@ namespace clues::exact {
 
 inline constexpr int kSimpleLevels = 4;  // finer and finer
 
-// A short rational near x.
+// A short rational near x; x itself where the doubles end.
 FT simple_near(const FT& x, int level);
 
 // A short point of the open triangle abc (as an affine combination of its corners) near x, a point of its plane; none when

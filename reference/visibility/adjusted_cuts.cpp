@@ -87,7 +87,7 @@ class AdjustedCuts {
       parts_[i].segments.push_back({s.edge, middle, s.hi, s.plane, s.center});
     }
     if (parts_.size() == parts) return false;
-    narrow_what_was_cut(i);
+    narrow_wholes_of(i);
     return true;
   }
 
@@ -148,7 +148,7 @@ class AdjustedCuts {
     }
   }
 
-  void narrow_what_was_cut(std::size_t i) {
+  void narrow_wholes_of(std::size_t i) {
     for (; i != 0; i = parts_[i].whole) narrow(parts_[i].whole, i);
   }
 

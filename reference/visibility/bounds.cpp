@@ -83,10 +83,8 @@ VisibilityMap Bounds::map_of(const exact::ConvexCell& part, const std::vector<bo
 }
 
 void Bounds::add_viewpoint(const Point3& v) {
-  if (closed() || std::find(asked_.begin(), asked_.end(), v) != asked_.end()) return;
-  asked_.push_back(v);
   const exact::Complex& complex = map_.complex;
-  if (exact::is_touched(complex, v)) return;
+  if (closed() || exact::is_touched(complex, v)) return;
   const VisibilityMap seen =
       first_order_visibility_in(complex, exact::ConvexCell(std::vector<Point3>{v}), options_, open_sides());
   if (seen.statistics.conservative_fallbacks > 0) return;

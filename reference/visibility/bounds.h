@@ -53,10 +53,7 @@ class Bounds {
   VisibilityMap map_of(const exact::ConvexCell& part, const std::vector<bool>& wanted);
   SideSets sets_of(const VisibilityMap& map) const;
 
-  // Adds to lower what v sees on the open sides. Nothing if there are none, v was asked before, is touched by an occluder, or its map has a fallback.
-  void add_viewpoint(const exact::Point3& v);
-
-  // Adds the viewpoints for this depth (exact::Viewpoints).
+  // Adds to lower what the viewpoints for this depth (exact::Viewpoints) see.
   void look_around(int depth);
 
   // Side by side.
@@ -80,6 +77,8 @@ class Bounds {
 
  private:
   SideSets nothing() const;
+  // Adds to lower what v sees on the open sides. Nothing if there are none, v is touched by an occluder, or its map has a fallback.
+  void add_viewpoint(const exact::Point3& v);
   void find_open();  // of the sides that were open so far
   template <class Work>
   void for_each_side(const Work& work) const;  // in parallel, on the threads of the options
@@ -90,7 +89,6 @@ class Bounds {
   std::vector<char> open_;          // by side
   std::vector<double> piece_area_;  // estimates
   double facing_ = 0, first_order_area_ = 0;
-  std::vector<exact::Point3> asked_;
   exact::Viewpoints viewpoints_to_ask_;
   std::uint64_t maps_ = 0, viewpoints_ = 0, fallbacks_ = 0;
 };

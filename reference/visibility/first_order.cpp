@@ -1,11 +1,10 @@
 #include "reference/visibility/first_order.h"
 
-#include <tbb/task_arena.h>
-
 #include <cassert>
 #include <string>
 
 #include "exact/scene_query.h"
+#include "exact/threads.h"
 #include "reference/visibility/discontinuity_mesh.h"
 #include "reference/visibility/fixpoint.h"
 #include "reference/visibility/omega.h"
@@ -18,16 +17,16 @@ namespace clues::reference {
 
 namespace {
 
-exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, Mode mode) {
-  exact::Complex complex = exact::build_complex(mesh, &cell);
-  if (mode == Mode::solid) exact::require_solid(complex);
+exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options) {
+  exact::Complex complex = exact::by_threads(options.threads, [&] { return exact::build_complex(mesh, &cell); });
+  if (options.mode == Mode::solid) exact::require_solid(complex);
   return complex;
 }
 
 }  // namespace
 
 Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options)
-    : Omega(complex_for(mesh, cell, options.mode), cell, options, {}) {}
+    : Omega(complex_for(mesh, cell, options), cell, options, {}) {}
 
 Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Options& options,
              const std::vector<bool>& wanted) {
@@ -37,8 +36,7 @@ Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Option
   map.statistics.refined_triangles = map.complex.refined_triangles;
 
   scene_ = std::make_unique<exact::SceneQuery>(map.complex, map.cell);
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
+  exact::by_threads(options.threads, [&] {
     std::vector<bool> visited;
     if (options.formulation == Formulation::traversal) {
       Traversal t = traverse(*scene_, options, map.statistics);

@@ -2,17 +2,17 @@
 #pragma once
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <cstddef>
+
+#include "exact/threads.h"
 
 namespace clues::reference {
 
 // work(i) for every i below count; 0 threads: as many as the machine has.
 template <class Work>
 void in_parallel(std::size_t count, int threads, const Work& work) {
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, work); });
+  exact::by_threads(threads, [&] { tbb::parallel_for(std::size_t{0}, count, work); });
 }
 
 }  // namespace clues::reference

@@ -2,7 +2,6 @@
 #include "reference/visibility/umbra.h"
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <map>
@@ -10,6 +9,7 @@
 #include "exact/box_tree.h"
 #include "exact/direction_cone.h"
 #include "exact/simple_point.h"
+#include "exact/threads.h"
 #include "reference/visibility/plane_parts.h"
 #include "scene/error.h"
 
@@ -349,10 +349,7 @@ Umbra build_umbra(const Omega& omega, const std::optional<Box>& bounds, int thre
     }
   }
   const Builder builder(omega, box);
-  Umbra umbra;
-  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { umbra = builder.run(); });
-  return umbra;
+  return exact::by_threads(threads, [&] { return builder.run(); });
 }
 
 }  // namespace clues::reference

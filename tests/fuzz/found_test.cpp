@@ -112,6 +112,15 @@ TEST(Found, AnEdgeInThePlaneOfAFlatCell) {
        {{-1, 0, 0}, {1, 0, 32.0625}}});
 }
 
+// The coverage-guided fuzzer, 3 triangles before: in doubles a sliver has next to no area, and a point of it coordinates without bound.
+TEST(Found, ASliverOneSmallestDoubleHigh) {
+  is_answered({"found",
+               0,
+               0,
+               mesh_of({{0, 0, 1.5e-323}, {1, -1, 0}, {0, 30, -1}, {0, 0, 0}}, {{0, 3, 1}, {2, 0, 1}}),
+               {{4, 2, 0}, {-4, -2, 0}, {0, 0, 1}, {-4, 0, 0}}});
+}
+
 void campaign_finds_nothing(const char* name, std::uint64_t cases = 320, const std::string& left_out = "") {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
   const scene::TemporaryFolder folder;
