@@ -138,8 +138,8 @@ std::vector<ExactPoint> Apex::views_of_cell(const ExactPoint& inside_cell) const
   std::erase_if(found, [&](const V& d) { return star.is_on_arc(d); });
 
   std::vector<ExactPoint> points;
-  const Point x = x_->estimate(), s = scene_->cell.vertices.front().estimate();
-  const double distance = length_estimate({s[0] - x[0], s[1] - x[1], s[2] - x[2]});
+  const Point x = x_->estimate(), s = inside_cell.estimate();
+  const double distance = std::max({std::abs(s[0] - x[0]), std::abs(s[1] - x[1]), std::abs(s[2] - x[2])});
   for (const V& d : found) points.push_back(point_towards(*x_, d, distance));
   return points;
 }

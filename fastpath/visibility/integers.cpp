@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <vector>
 
 namespace clues::fastpath {
@@ -159,7 +160,9 @@ Vec3<Integer> moved_by<Integer>(const Vec3<Integer>& limit, const Vec3<Integer>&
 }
 
 ExactPoint point_towards(const ExactPoint& x, const Vec3<Integer>& d, double distance) {
-  const long shift = std::ilogb(distance) - static_cast<long>(bits(d));
+  // x may be a corner of V, in doubles even the point that is asked for; and twice the largest double is none.
+  using Limits = std::numeric_limits<double>;
+  const long shift = std::ilogb(std::clamp(distance, Limits::min(), Limits::max())) - static_cast<long>(bits(d));
   const auto scaled = [&](const Integer& c) {
     Rational q(exported(c));
     (shift >= 0 ? mpq_mul_2exp : mpq_div_2exp)(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(std::abs(shift)));

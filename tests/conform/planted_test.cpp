@@ -103,6 +103,11 @@ TEST(Reference, IsSoundThroughItsOwnDoor) {
   expect_within_first_order(conform({"--impl", clues, "--time-limit", "300"}, published_suite));
 }
 
+// Within the usual limit of time: no scene of the suite is to be slow.
+TEST(FastPath, IsSoundThroughItsOwnDoor) {
+  expect_within_first_order(conform({"--impl", "'" CLUES_PROGRAM "' iut --kernel fast"}, published_suite));
+}
+
 TEST(EverythingHidden, HasAnUnderestimateOfOne) {
   const auto done = conform({"--impl", planted("everything-hidden")});
   EXPECT_EQ(done.report["total"]["underestimate_qu"], 1.0);

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <numeric>
 
 #include "exact/convex_cell.h"
 #include "fastpath/visibility/apex.h"
+#include "fastpath/visibility/integers.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/generators/random.h"
 
@@ -58,6 +60,18 @@ bool free_between(const std::vector<Arc>& arcs, const Exact3& p, const Exact3& q
 struct Judged {
   std::size_t vertices = 0, views = 0, parts = 0;  // where V is seen in several parts
 };
+
+// A corner of V upon a mesh vertex: there is no distance to speak of, and the point was made with two thousand million digits.
+TEST(PointTowards, HasShortCoordinatesWhateverTheDistance) {
+  const ExactPoint x(Exact3{Rational(1), Rational(2), Rational(3)});
+  const fastpath::Vec3<fastpath::Integer> d{fastpath::Integer(1), fastpath::Integer(0), fastpath::Integer(0)};
+  for (const double distance : {0.0, 1.0, std::numeric_limits<double>::infinity()}) {
+    const Exact3 off = fastpath::point_towards(x, d, distance).exact() - x.exact();
+    EXPECT_GT(off.x, 0);
+    EXPECT_EQ(off.y, 0);
+    EXPECT_LT(mpz_sizeinbase(off.x.get_num_mpz_t(), 2) + mpz_sizeinbase(off.x.get_den_mpz_t(), 2), 2000U);
+  }
+}
 
 // Every part of the sampled directions must hold a view.
 void judge(const fuzz::Case& c, std::size_t samples, Judged& judged) {
