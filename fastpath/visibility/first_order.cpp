@@ -50,7 +50,6 @@ FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell
 
   FirstOrder result;
   for (const std::uint32_t t : map.visible()) result.visible.push_back(closure.part[t]);
-  result.lit = closure.visible;
   if (regions) result.regions = map.regions();
   for (LocalRegion& region : result.regions) region.triangle = closure.part[region.triangle];
   result.counts = map.counts();

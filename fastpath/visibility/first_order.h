@@ -12,7 +12,6 @@ namespace clues::fastpath {
 
 struct FirstOrder {
   std::vector<std::uint32_t> visible;  // the PVS (D15): ids of the scene, ascending
-  std::vector<std::uint32_t> lit;      // those that light meets on either side: in solid mode they may be more
   std::vector<std::uint32_t> part;  // ids of the triangles that were mapped, ascending; every visible one is among them
   std::vector<LocalRegion> regions;  // of the part, with ids of the scene, when asked for; all else is hidden
   LocalMapCounts counts;             // of the last map

@@ -107,6 +107,13 @@ class LocalMap::Parts {
     return l == Walker::Label::hidden && beyond_limit(*p) ? Walker::Label::unresolved : l;
   }
 
+  Label counted_label(const ExactPoint& p) const {
+    Pool pool;
+    const Walker::Label l = label(&p, pool, kLabelSeed);
+    if (l == Walker::Label::unresolved) ++conservative_labels;
+    return l == Walker::Label::hidden ? Label::hidden : Label::visible;
+  }
+
   static WedgePiece estimated(const ValidPiece& p) {
     WedgePiece out;
     out.kind = p.kind;
@@ -333,16 +340,12 @@ std::uint64_t LocalMap::conservative_labels() const { return parts_->conservativ
 std::vector<LocalRegion> LocalMap::regions() const {
   const RoundedUp rounded_up;
   return make_regions(parts_->scene, parts_->search.pieces(), parts_->options.mode, parts_->wanted,
-                      [&](const Point& p) { return label(p) == Label::visible; });
+                      [&](const ExactPoint& p) { return parts_->counted_label(p) == Label::visible; });
 }
 
 LocalMap::Label LocalMap::label(const Point& p) const {
   const RoundedUp rounded_up;
-  Pool pool;
-  const ExactPoint q(p);
-  const Walker::Label l = parts_->label(&q, pool, kLabelSeed);
-  if (l == Walker::Label::unresolved) ++parts_->conservative_labels;
-  return l == Walker::Label::hidden ? Label::hidden : Label::visible;
+  return parts_->counted_label(ExactPoint(p));
 }
 
 bool LocalMap::piece_may_touch(const Box& given) const {

@@ -61,7 +61,7 @@ class Refiner {
         sight_lines_(bvh, cell, whole_, options.mode) {
     result_.first_order = first_order_visibility(bvh, cell, options, with_areas_);
     result_.visible = result_.first_order.visible;
-    ids_ = result_.first_order.lit;
+    ids_ = result_.first_order.part;
     mesh_ = part_of(bvh.mesh(), ids_);
     complex_ = exact::build_complex(mesh_, &whole_);
     listed_.assign(ids_.size(), false);

@@ -10,7 +10,8 @@
 // is left out: the map of V+ alone is the raw adjusted wedge, and V- the proof that T4 asks for (hazard A-4). Neither the choice of planes nor the sight lines below
 // can do harm; so they may be approximate.
 //
-// K is the part of the scene with a point in Omega(V): Omega(Vi) lies in Omega(V), so by the theorem of closure.h the maps in K are those in S.
+// K is the part that the first-order map was made of: Omega(Vi) lies in Omega(V), so by the theorem of closure.h the maps in K are those in S. (The triangles with a point in Omega(V) would be
+// enough for the theorem, but at a mesh vertex the engine goes by all triangles that meet there: without the hidden ones its map has a little too much.)
 // A triangle is open if it is visible to first order, no free sight line to it is known, and the map of no point of V that was tried shows it (such maps are exact). Only parts that still may see an open triangle are cut, and only open triangles are asked
 // about. What stays undecided in a map (D17) counts as visible there.
 //

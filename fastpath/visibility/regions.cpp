@@ -80,8 +80,38 @@ std::vector<std::vector<Point>> cut_along(const std::vector<std::vector<Point>>&
   return out;
 }
 
+// Just off a point inside piece t, on that side: in doubles where they are fine enough, so not far from the origin; else exactly.
+ExactPoint beside(const LocalScene& scene, std::uint32_t t, int side, const Point& inner,
+                  const std::vector<Point>& corners, const Point& n) {
+  constexpr double kStep = 0x1p-34;
+  const double size = length_estimate(n), extent = std::sqrt(size);
+  Point off{};
+  double largest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    off[k] = inner[k] + side * extent * kStep * (n[k] / size);
+    largest = std::max(largest, std::abs(inner[k]));
+  }
+  const Plane& plane = scene.planes[t];
+  if (largest * 0x1p-52 <= extent * kStep / 4) {
+    const ExactPoint p(off);
+    if (plane.side(p) == side) return p;
+  }
+  // The point of the plane with about the same weights of the corners.
+  const Point d = minus(inner, corners[0]), u = minus(corners[1], corners[0]), w = minus(corners[2], corners[0]);
+  const auto share = [&](const Point& c) { return (c[0] * n[0] + c[1] * n[1] + c[2] * n[2]) / (size * size); };
+  const double at1 = share(cross_estimate(d, w)), at2 = share(cross_estimate(u, d));
+  Exact3 sum = Rational(0) * scene.corner(t, 0).exact();
+  Rational all(0);
+  for (const auto& [corner, weight] : {std::pair(0, 1 - at1 - at2), std::pair(1, at1), std::pair(2, at2)}) {
+    const Rational part(std::clamp(weight, kStep, 1.0));
+    sum = sum + part * scene.corner(t, static_cast<std::size_t>(corner)).exact();
+    all += part;
+  }
+  return ExactPoint::lifted(ExactPoint(Rational(1 / all) * sum), scene.corner(t, 0), kStep, plane, side);
+}
+
 void map_side(const LocalScene& scene, std::uint32_t t, bool front, const LocalOrigin& origin,
-              const std::vector<Trace>& traces, const std::function<bool(const Point&)>& visible,
+              const std::vector<Trace>& traces, const std::function<bool(const ExactPoint&)>& visible,
               std::vector<LocalRegion>& regions) {
   const int side = front ? 1 : -1;
   const auto& s = scene.cell.vertices;
@@ -110,8 +140,7 @@ void map_side(const LocalScene& scene, std::uint32_t t, bool front, const LocalO
       for (std::size_t k = 0; k < 3; ++k) center[k] += part[i][k] / static_cast<double>(part.size());
     }
     region.area_estimate = length_estimate(sum);
-    for (std::size_t k = 0; k < 3; ++k) center[k] += side * extent * 0x1p-34 * (n[k] / size);
-    region.visible = in_cell || (faced && visible(center));
+    region.visible = in_cell || (faced && visible(beside(scene, t, side, center, whole, n)));
     region.outline_estimate = std::move(part);
     regions.push_back(std::move(region));
   }
@@ -125,7 +154,7 @@ bool counts_for(SideMode mode, const LocalOrigin& o, bool front) {
 
 std::vector<LocalRegion> make_regions(const LocalScene& scene, const PieceSet& pieces, SideMode mode,
                                       const std::vector<bool>& wanted,
-                                      const std::function<bool(const Point&)>& visible) {
+                                      const std::function<bool(const ExactPoint&)>& visible) {
   std::vector<LocalRegion> regions;
   const auto traces = traces_of_sides(scene, pieces);
   for (std::uint32_t t = 0; t < scene.pieces.size(); ++t) {

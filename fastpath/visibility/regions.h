@@ -16,6 +16,6 @@ bool counts_for(SideMode mode, const LocalOrigin& o, bool front);
 // Of the wanted triangles. `visible` labels a point beside a region. O(k^2) parts on a side that k valid pieces cross.
 std::vector<LocalRegion> make_regions(const LocalScene& scene, const PieceSet& pieces, SideMode mode,
                                       const std::vector<bool>& wanted,
-                                      const std::function<bool(const Point&)>& visible);
+                                      const std::function<bool(const ExactPoint&)>& visible);
 
 }  // namespace clues::fastpath

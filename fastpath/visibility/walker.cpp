@@ -72,62 +72,85 @@ const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::
   return nullptr;
 }
 
+const LocalEdge* Walker::common_edge(std::uint32_t piece, std::uint32_t other) const {
+  for (const std::uint32_t id : scene_->pieces[piece].edges) {
+    const LocalEdge& e = scene_->edges[id];
+    if (std::find(e.pieces.begin(), e.pieces.end(), other) != e.pieces.end()) return &e;
+  }
+  return nullptr;
+}
+
 Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b) const {
+  const LocalEdge* common = common_edge(a.piece, b.piece);
+  const auto& vertices = scene_->cell.vertices;
   return decide([&]<class NT>() {
     const auto height = [&](const Surface& s, const ExactPoint& x) {
       const Plane& h = scene_->planes[s.piece];
       return NT(NT(s.side) * dot(normal_of<NT>(h), coordinates<NT>(x) - coordinates<NT>(h.base())));
     };
     std::vector<NT> ha, hb;
-    for (const ExactPoint& s : scene_->cell.vertices) {
+    for (const ExactPoint& s : vertices) {
       ha.push_back(height(a, s));
       hb.push_back(height(b, s));
     }
-    Both result = Both::apart;
+    bool touches = false, upon_edge = true;
+    // Of the line of both walls, the point of V that divides the way from i to j in these parts.
+    const auto touch = [&](std::size_t i, const NT& from_j, std::size_t j, const NT& from_i) {
+      touches = true;
+      if (!common) return;
+      const auto x = coordinates<NT>(scene_->points[common->a]), y = coordinates<NT>(scene_->points[common->b]);
+      const auto past = [&](const Vec3<NT>& end) {
+        const auto along = [&](std::size_t k) { return dot(y - x, coordinates<NT>(vertices[k]) - end); };
+        return sign_of(NT(NT(from_j * along(i)) + NT(from_i * along(j))));
+      };
+      upon_edge = upon_edge && past(x) >= 0 && past(y) <= 0;
+    };
     for (std::size_t i = 0; i < ha.size(); ++i) {
       const int ai = sign_of(ha[i]), bi = sign_of(hb[i]);
       if (ai > 0 && bi > 0) return Both::meet;
-      if (ai >= 0 && bi >= 0) result = Both::touch;
+      if (ai == 0 && bi == 0) {
+        touch(i, NT(1), i, NT(0));
+      } else if (ai >= 0 && bi >= 0) {
+        touches = true;
+        upon_edge = false;
+      }
       if (ai <= 0) continue;
       for (std::size_t j = 0; j < ha.size(); ++j) {
         if (sign_of(ha[j]) >= 0) continue;
         // The second height where the first is zero.
         const int s = sign_of(NT(NT(hb[j] * ha[i]) - NT(hb[i] * ha[j])));
         if (s > 0) return Both::meet;
-        if (s == 0) result = Both::touch;
+        if (s == 0) touch(i, NT(-ha[j]), j, ha[i]);
       }
     }
-    return result;
+    return touches && !(common && upon_edge) ? Both::touch : Both::apart;
   });
 }
 
 // A groove between two walls that share an edge, into which no point of V looks: the walk would go from one wall to the other for ever, towards
-// the edge. Beside the edge all is hidden, as V keeps away from the edge's line; so it ends with a leg from the edge.
+// the edge. Beside the edge all is hidden, as V touches the edge's line nowhere but upon the edge (docs/fast-path.md); so it ends with a leg from the edge.
 bool Walker::groove_leg(Walk& walk, Pool& pool) const {
   const Leg &last = walk.legs.back(), &one = walk.legs[walk.legs.size() - 2];
-  for (const std::uint32_t id : scene_->pieces[last.piece].edges) {
-    const LocalEdge& e = scene_->edges[id];
-    if (std::find(e.pieces.begin(), e.pieces.end(), one.piece) == e.pieces.end()) continue;
-    const ExactPoint &a = scene_->points[e.a], &b = scene_->points[e.b];
-    const Point pa = a.estimate(), pb = b.estimate(), q = last.next->estimate();
-    double along = 0, length = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      along += (q[k] - pa[k]) * (pb[k] - pa[k]);
-      length += (pb[k] - pa[k]) * (pb[k] - pa[k]);
-    }
-    const double t = along / length;
-    if (!(t > 0 && t < 1)) return false;
-    const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
-    const bool blocked = scene_->tree.any(SegmentTest(*y, *last.next), [&](std::uint32_t i) {
-      const std::uint32_t piece = scene_->occluders[i];
-      if (std::find(e.pieces.begin(), e.pieces.end(), piece) != e.pieces.end()) return false;
-      return scene_->crosses(*y, *last.next, piece) != Crossing::no;
-    });
-    if (blocked) return false;
-    walk.legs.push_back({y, last.next, nullptr, last.piece, last.side, true});
-    return true;
+  const LocalEdge* e = common_edge(last.piece, one.piece);
+  if (!e) return false;
+  const ExactPoint &a = scene_->points[e->a], &b = scene_->points[e->b];
+  const Point pa = a.estimate(), pb = b.estimate(), q = last.next->estimate();
+  double along = 0, length = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    along += (q[k] - pa[k]) * (pb[k] - pa[k]);
+    length += (pb[k] - pa[k]) * (pb[k] - pa[k]);
   }
-  return false;
+  const double t = along / length;
+  if (!(t > 0 && t < 1)) return false;
+  const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
+  const bool blocked = scene_->tree.any(SegmentTest(*y, *last.next), [&](std::uint32_t i) {
+    const std::uint32_t piece = scene_->occluders[i];
+    if (std::find(e->pieces.begin(), e->pieces.end(), piece) != e->pieces.end()) return false;
+    return scene_->crosses(*y, *last.next, piece) != Crossing::no;
+  });
+  if (blocked) return false;
+  walk.legs.push_back({y, last.next, nullptr, last.piece, last.side, true});
+  return true;
 }
 
 Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {

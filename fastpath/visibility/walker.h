@@ -54,7 +54,10 @@ class Walker {
   // A point of int V strictly in front of the surface (and of `also`, if given and possible); none if V has none in front of the first, or it is not found
   // within 2^-992 of a vertex.
   const ExactPoint* in_front(const Surface& on, const Surface* also, std::uint64_t seed, Pool& pool) const;
+  // The edge of both pieces, if they share one.
+  const LocalEdge* common_edge(std::uint32_t piece, std::uint32_t other) const;
   enum class Both : std::uint8_t { apart, touch, meet };  // V, or the closed V only, with the space in front of both
+  // Apart also if the closed V touches that space only upon the common edge.
   Both in_front_of_both(const Surface& a, const Surface& b) const;
   bool groove_leg(Walk& walk, Pool& pool) const;
 

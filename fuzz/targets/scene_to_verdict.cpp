@@ -1,10 +1,12 @@
 // From bytes to a verdict: a small scene and its map (D15), which independent exact means then look at. Omega contains all that is visible (T1): what the map
-// calls hidden, neither the point-occlusion oracle nor any sight line may see; and the fast path must agree with exact arithmetic about each line.
+// calls hidden, neither the point-occlusion oracle nor any sight line may see; and the fast path must agree with exact arithmetic about each line, and lose no triangle.
+#include <algorithm>
 #include <array>
 
 #include "exact/point_occlusion.h"
 #include "exact/scene_query.h"
 #include "fastpath/segment_queries.h"
+#include "fastpath/visibility/first_order.h"
 #include "fuzz/targets/scene_bytes.h"
 #include "fuzz/targets/targets.h"
 #include "reference/visibility/first_order.h"
@@ -39,6 +41,22 @@ bool hidden_regions_are_hidden(const reference::VisibilityMap& map) {
   return any;
 }
 
+// The default limits of D17 allow a scene of bytes whose coordinates are 1000 bits long minutes of work under sanitizers.
+template <class Options>
+void limit(Options& options) {
+  options.generation_limit = 4;
+  options.csv_limit = 64;
+}
+
+void fast_path_loses_nothing(const Case& scene, const reference::VisibilityMap& map) {
+  if (map.statistics.conservative_fallbacks > 0) return;
+  fastpath::LocalMapOptions options;
+  limit(options);
+  const auto fast = fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, options).visible;
+  require(std::includes(fast.begin(), fast.end(), map.visible.begin(), map.visible.end()),
+          "what the reference calls visible is visible to the fast path");
+}
+
 // From points of the cell to corners, edges and the inside of every triangle.
 void sight_lines_agree(const Case& scene, const reference::VisibilityMap& map) {
   std::vector<scene::Point> views;
@@ -68,12 +86,11 @@ bool scene_to_verdict(std::string_view bytes) {
   const Case scene = scene_of_bytes(bytes);
   reference::Options options;
   options.threads = 1;
-  // The default limits (D17) allow a scene of bytes whose coordinates are 1000 bits long minutes of work under sanitizers.
-  options.generation_limit = 4;
-  options.csv_limit = 64;
+  limit(options);
   const auto map = reference::first_order_visibility(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
   require(map.statistics.walk_disagreements == 0, "a label does not depend on where the walk starts (D14)");
   sight_lines_agree(scene, map);
+  fast_path_loses_nothing(scene, map);
   return hidden_regions_are_hidden(map);
 }
 

@@ -209,6 +209,37 @@ TEST(LocalMap, RegionsHaveTheAreasOfTheReference) {
 }
 
 // A square plate at z = 0 under a box cell at z = 4..5: its four shadow walls spread outward below it.
+// Far from the origin doubles cannot say what is just off a side: the middles of regions were labelled on the wrong side of it, and visible regions called hidden. Found by
+// RefinementOfBothKernelsLong.
+TEST(LocalMap, RegionsOfASceneFarFromTheOriginHaveTheSameAreas) {
+  using Areas = std::map<std::pair<std::uint32_t, bool>, double>;
+  const auto areas_of = [](const std::vector<LocalRegion>& regions) {
+    Areas areas;
+    for (const LocalRegion& r : regions) areas[{r.triangle, r.front}] += r.visible ? r.area_estimate : 0;
+    return areas;
+  };
+  std::size_t partly = 0;
+  for (const fuzz::Kind kind : fuzz::all_kinds) {
+    fuzz::GeneratedScene scene = fuzz::generate(kind, kSeed, 1);
+    const Areas near = areas_of(fast_map(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), false).regions());
+    for (auto* points : {&scene.mesh.points, &scene.cell}) {
+      for (scene::Point& p : *points) {
+        const scene::Point moved{p[0] + 0x1p24, p[1] - 0x1p23, p[2] + 0x1p22};
+        const bool exactly = moved[0] - 0x1p24 == p[0] && moved[1] + 0x1p23 == p[1] && moved[2] - 0x1p22 == p[2];
+        ASSERT_TRUE(exactly) << scene.name;
+        p = moved;
+      }
+    }
+    const Areas far = areas_of(fast_map(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), false).regions());
+    ASSERT_EQ(near.size(), far.size()) << scene.name;
+    for (const auto& [side, area] : near) {
+      EXPECT_NEAR(far.at(side), area, 1e-6 * (1 + area)) << scene.name << ", triangle " << side.first;
+      partly += area > 0;
+    }
+  }
+  EXPECT_GT(partly, 50U);
+}
+
 TEST(LocalMap, SaysWhichBoxesItsPiecesMayTouch) {
   scene::TriangleMesh mesh;
   mesh.points = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
