@@ -128,7 +128,7 @@ Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b) const 
 }
 
 // A groove between two walls that share an edge, into which no point of V looks: the walk would go from one wall to the other for ever, towards
-// the edge. Beside the edge all is hidden, as V touches the edge's line nowhere but upon the edge (docs/fast-path.md); so it ends with a leg from the edge.
+// the edge. Beside the edge all is hidden, as V touches the edge's line nowhere but upon the edge (docs/definition.md, D14); so it ends with a leg from the edge.
 bool Walker::groove_leg(Walk& walk, Pool& pool) const {
   const Leg &last = walk.legs.back(), &one = walk.legs[walk.legs.size() - 2];
   const LocalEdge* e = common_edge(last.piece, one.piece);

@@ -240,6 +240,21 @@ TEST(LocalMap, RegionsOfASceneFarFromTheOriginHaveTheSameAreas) {
   EXPECT_GT(partly, 50U);
 }
 
+// The reference's Hazard.AWalkIntoAGrooveThatStandsOnTheCellEnds, in a corner of the cell: walks ended undecided, and all was called visible.
+TEST(LocalMap, AGrooveThatStandsOnACornerOfTheCellNeedsNoFallback) {
+  scene::TriangleMesh mesh;
+  mesh.points = {{4, 0, 0}, {5, -255, 15.9375}, {0, -4, 4}, {5, 0, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.face_of = {0, 1};
+  const auto cell = exact::ConvexCell::from_doubles(
+      {{2, -1, -2}, {3, -1, -2}, {2, 257, -2}, {3, 1, -2}, {2, -0.5, -415}, {3, -1, 1}, {2, 1, 1}, {3, 1, 1}});
+  const LocalMap map = fast_map(mesh, cell, false);
+  std::size_t hidden = 0;
+  for (const LocalRegion& r : map.regions()) hidden += !r.visible;
+  EXPECT_GT(hidden, 0U);
+  EXPECT_EQ(map.counts().conservative_fallbacks + map.conservative_labels(), 0U);
+}
+
 TEST(LocalMap, SaysWhichBoxesItsPiecesMayTouch) {
   scene::TriangleMesh mesh;
   mesh.points = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
