@@ -20,8 +20,8 @@ std::vector<Support> supporting_planes(const LocalScene& scene, Pool& pool, cons
     // Seen along the line V spans at most a half turn, unless the line passes through int V; its end is found by comparison.
     int end = -1;
     bool passed = false;
-    for (int round = 0; round < 2;
-         ++round) {  // the ends of a half turn are not told apart: one may be passed over once
+    // Twice: the ends of a half turn are not told apart, so that one may be passed over the first time.
+    for (int round = 0; round < 2; ++round) {
       for (int i = 0; i < static_cast<int>(s.size()); ++i) {
         const ExactPoint& x = s[static_cast<std::size_t>(i)];
         if (end < 0) {

@@ -1,4 +1,5 @@
 #include "reference/visibility/backprojection.h"
+#include "reference/visibility/contour.h"
 
 #include <algorithm>
 #include <utility>
@@ -128,15 +129,9 @@ std::optional<Plane3> adjusted_plane(const ContourSegment& segment, const std::v
   const Point3 &a = segment.lo, &b = segment.hi;
   // Seen along the line of the segment, V fills an angle of at most a half turn, from the wedge's plane on; first: what it meets first.
   const CGAL::Orientation turn = CGAL::orientation(a, b, segment.center, cell.center());
-  const auto ahead = [&](const Point3& x, const Point3& y) { return CGAL::orientation(a, b, x, y) == turn; };
-  std::optional<Point3> first;
-  for (int round = 0; round < 2; ++round) {  // the ends of a half turn are not told apart: one may be passed over once
-    for (const Point3& q : seen) {
-      if (!CGAL::collinear(a, b, q) && (!first || ahead(q, *first))) first = q;
-    }
-  }
+  const auto first = last_about(a, b, seen, CGAL::opposite(turn));
   if (!first) return std::nullopt;
-  const Plane3 plane(a, b, *first);
+  const Plane3 plane(a, b, seen[*first]);
   // V(s) lies ahead of `first`, on the side of the plane that `turn` tells.
   return turn == CGAL::POSITIVE ? plane.opposite() : plane;
 }

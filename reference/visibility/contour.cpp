@@ -17,6 +17,19 @@ CGAL::Sign beside(const Point3& a, const Point3& b, const Vector3& n, const Poin
 
 }  // namespace
 
+std::optional<std::size_t> last_about(const Point3& a, const Point3& b, const std::vector<Point3>& points,
+                                      CGAL::Orientation turn) {
+  std::optional<std::size_t> last;
+  // Twice: the ends of a half turn are not told apart, so that one may be passed over the first time.
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if ((!last || CGAL::orientation(a, b, points[*last], points[i]) == turn) && !CGAL::collinear(a, b, points[i]))
+        last = i;
+    }
+  }
+  return last;
+}
+
 std::vector<SupportingPlane> supporting_planes(const Point3& a, const Point3& b, const exact::ConvexCell& cell) {
   const std::vector<Point3>& s = cell.vertices();
   std::vector<std::size_t> off_line;  // the line may touch V in a vertex or an edge
@@ -25,19 +38,9 @@ std::vector<SupportingPlane> supporting_planes(const Point3& a, const Point3& b,
   }
   if (off_line.empty()) return {};
   // Seen along the line, V spans at most a half turn unless the line passes through int V; its ends are found by comparison.
-  const auto end = [&](CGAL::Orientation turn) {
-    std::size_t best = off_line.front();
-    for (int round = 0; round < 2;
-         ++round) {  // the ends of a half turn are not told apart: one may be passed over once
-      for (const std::size_t i : off_line) {
-        if (CGAL::orientation(a, b, s[best], s[i]) == turn) best = i;
-      }
-    }
-    return best;
-  };
   std::vector<SupportingPlane> planes;
   for (const CGAL::Orientation turn : {CGAL::POSITIVE, CGAL::NEGATIVE}) {
-    const std::size_t m = end(turn);
+    const std::size_t m = *last_about(a, b, s, turn);
     const exact::Plane3 plane = turn == CGAL::POSITIVE ? exact::Plane3(a, b, s[m]) : exact::Plane3(b, a, s[m]);
     const Vector3 n = plane.orthogonal_vector();
     // The touching vertices, by the side of the line they are on. On both sides only if the line runs through a facet of V.

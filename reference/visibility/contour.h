@@ -25,6 +25,10 @@ struct ContourEdge {
       cover;  // a piece lying in the plane between the edge and V: it covers the near side of the edge
 };
 
+// Of points that span at most a half turn about the line ab, the index of the last in that sense; none if all are on the line.
+std::optional<std::size_t> last_about(const exact::Point3& a, const exact::Point3& b,
+                                      const std::vector<exact::Point3>& points, CGAL::Orientation turn);
+
 // The supporting planes of V through the line ab, each oriented with V in the closed negative side: up to two, none when the line
 // meets int V. A line that only touches V has them too (a box that leans on the cell: the definition's D10 says it has none, and
 // then hides what is visible). If the plane meets V on both sides of the line it is given once for each side.
