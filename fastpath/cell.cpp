@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact/convex_cell.h"
 #include "fastpath/exact_cell.h"
 #include "scene/error.h"
 
@@ -36,21 +35,26 @@ void clip_at_facet(const Segment& s, const Corners& facet, Cell::Span& span) {
   }
 }
 
-}  // namespace
-
-Cell::Cell(const std::vector<Point>& points) {
-  require_float_rules();
+exact::ConvexCell hull_of(const std::vector<Point>& points) {
   for (const Point& p : points) {
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) {
       throw scene::Error(scene::ErrorCode::non_finite, "a point of the view cell is not finite");
     }
   }
-  const exact::ConvexCell hull = exact::ConvexCell::from_doubles(points);
+  return exact::ConvexCell::from_doubles(points);
+}
+
+}  // namespace
+
+Cell::Cell(const std::vector<Point>& points) : Cell(hull_of(points)) {}
+
+Cell::Cell(const exact::ConvexCell& hull) {
+  require_float_rules();
   dimension_ = hull.dimension();
   for (const exact::Point3& p : hull.vertices()) {
     vertices_.push_back(exact::to_double_estimate(p));
     if (exact::to_exact(vertices_.back()) != p) {
-      throw scene::Error(scene::ErrorCode::internal, "a vertex of the view cell changed on its way through the hull");
+      throw scene::Error(scene::ErrorCode::internal, "a vertex of the view cell is not a point of doubles");
     }
   }
   low_ = high_ = vertices_.front();

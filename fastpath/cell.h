@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "exact/convex_cell.h"
 #include "fastpath/filter.h"
 
 namespace clues::fastpath {
@@ -14,6 +15,8 @@ class Cell {
  public:
   // The convex hull of finite points; at least one. Throws scene::Error.
   explicit Cell(const std::vector<Point>& points);
+  // A cell whose vertices are doubles. Throws scene::Error.
+  explicit Cell(const exact::ConvexCell& hull);
 
   const std::vector<Point>& vertices() const { return vertices_; }  // extreme points only
 

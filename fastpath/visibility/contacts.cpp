@@ -1,11 +1,23 @@
 #include "fastpath/visibility/contacts.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "scene/error.h"
 
 namespace clues::fastpath {
+
+namespace {
+
+// For these probes, in whatever order they came.
+auto known_sectors(const Contact& c) {
+  return std::find_if(c.known_sectors.begin(), c.known_sectors.end(), [&](const auto& k) {
+    return k.first.size() == c.probes.size() && std::is_permutation(k.first.begin(), k.first.end(), c.probes.begin());
+  });
+}
+
+}  // namespace
 
 Contacts::Contacts(const LocalScene& scene, Workers& workers)
     : scene_(scene), workers_(workers), corners_(scene.points.size()), on_edge_(scene.edges.size()) {}
@@ -36,13 +48,27 @@ Contact* Contacts::corner(std::uint32_t vertex) {
   return corners_[vertex].get();
 }
 
-Contact* Contacts::csv(std::uint32_t edge, const ExactPoint* x) {
-  for (const auto& c : on_edge_[edge]) {
-    if (c->x == x || equal(*c->x, *x)) return c.get();
+void Contacts::make_csvs(const std::vector<std::pair<std::uint32_t, const ExactPoint*>>& points) {
+  std::map<std::uint32_t, std::vector<std::pair<const ExactPoint*, Contact**>>> by_edge;
+  for (const auto& [edge, x] : points) {
+    const auto [at, is_new] = csv_at_.try_emplace(x, nullptr);
+    if (is_new) by_edge[edge].emplace_back(x, &at->second);
   }
-  Contact* c = on_edge_[edge].emplace_back(make(true, edge, x)).get();
-  c->generation = -1;
-  return c;
+  std::vector<std::uint32_t> edges;
+  for (const auto& [edge, list] : by_edge) edges.push_back(edge);
+  workers_.for_each(edges.size(), [&](std::size_t i, Workers::Worker&) {
+    auto& contacts = on_edge_[edges[i]];
+    for (const auto& [x, contact] : by_edge.at(edges[i])) {
+      const auto known =
+          std::find_if(contacts.begin(), contacts.end(), [&](const auto& c) { return equal(*c->x, *x); });
+      if (known != contacts.end()) {
+        *contact = known->get();
+        continue;
+      }
+      *contact = contacts.emplace_back(make(true, edges[i], x)).get();
+      (*contact)->generation = -1;
+    }
+  });
 }
 
 void Contacts::start_round() {
@@ -74,9 +100,7 @@ std::vector<Contact*> Contacts::lit() {
 void Contacts::find_sectors(const std::vector<Contact*>& contacts) {
   workers_.for_each(contacts.size(), [&](std::size_t i, Workers::Worker&) {
     Contact& c = *contacts[i];
-    const auto known = std::find_if(c.known_sectors.begin(), c.known_sectors.end(),
-                                    [&](const auto& k) { return k.first == c.probes; });
-    if (known != c.known_sectors.end()) return;
+    if (known_sectors(c) != c.known_sectors.end()) return;
     // A sector too many only makes more visible: where the vertex is too intricate to decide, all of them.
     std::vector<std::uint32_t> sectors(c.apex->sectors().size());
     std::iota(sectors.begin(), sectors.end(), 0U);
@@ -90,10 +114,6 @@ void Contacts::find_sectors(const std::vector<Contact*>& contacts) {
   });
 }
 
-const std::vector<std::uint32_t>& Contacts::existing_sectors(const Contact& c) {
-  return std::find_if(c.known_sectors.begin(), c.known_sectors.end(),
-                      [&](const auto& k) { return k.first == c.probes; })
-      ->second;
-}
+const std::vector<std::uint32_t>& Contacts::existing_sectors(const Contact& c) { return known_sectors(c)->second; }
 
 }  // namespace clues::fastpath

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -34,7 +35,10 @@ class Contacts {
   // The apex of a mesh vertex, made if need be. Different vertices may be asked for by different threads.
   const Apex& apex_of(std::uint32_t vertex, Pool& pool);
   Contact* corner(std::uint32_t vertex);
-  Contact* csv(std::uint32_t edge, const ExactPoint* x);
+  // Edges and points of them, which stay where they are and belong to one edge only.
+  void make_csvs(const std::vector<std::pair<std::uint32_t, const ExactPoint*>>& points);
+  // At such a point.
+  Contact* csv(const ExactPoint* x) const { return csv_at_.at(x); }
   // All of them: corners, then CSVs by edge.
   template <class Work>
   void for_all(const Work& work) const {
@@ -65,6 +69,7 @@ class Contacts {
   Workers& workers_;
   std::vector<std::unique_ptr<Contact>> corners_;
   std::vector<std::vector<std::unique_ptr<Contact>>> on_edge_;
+  std::unordered_map<const ExactPoint*, Contact*> csv_at_;
   std::vector<Contact*> touched_;
   std::atomic<std::uint64_t> fallbacks_{0};
 };

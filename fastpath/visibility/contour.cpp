@@ -59,34 +59,43 @@ std::vector<Support> supporting_planes(const LocalScene& scene, Pool& pool, cons
   return found;
 }
 
+// What an edge is a contour for.
+std::vector<ContourEdge> contours_of(const LocalScene& scene, std::uint32_t id, Pool& pool) {
+  std::vector<ContourEdge> contour;
+  const LocalEdge& edge = scene.edges[id];
+  const ExactPoint &a = scene.points[edge.a], &b = scene.points[edge.b];
+  const std::vector<Support> supports = supporting_planes(scene, pool, edge);
+  for (std::size_t k = 0; k < supports.size(); ++k) {
+    const Plane* plane = supports[k].plane;
+    const OnWedge frame{plane, &a, {}, {}, {}, {}, {}, {}};
+    bool in_h_plus = true, left = false, right = false;
+    for (const std::uint32_t t : edge.pieces) {
+      for (const std::uint32_t c : scene.pieces[t].corners) {
+        if (c == edge.a || c == edge.b) continue;
+        const int side = plane->side(scene.points[c]);
+        in_h_plus &= side <= 0;
+        if (side == 0) (frame.turn(&b, &scene.points[c]) > 0 ? left : right) = true;
+      }
+      if (!in_h_plus) break;
+    }
+    // With the plane's surface on both sides the edge is a seam of a flat surface: a wedge that reaches it runs on over it.
+    if (!in_h_plus || (left && right)) continue;
+    const Plane* other = supports.size() == 2 ? supports[1 - k].plane : nullptr;
+    if (!supports[k].left.empty()) contour.push_back({id, plane, supports[k].left, other});
+    if (!supports[k].right.empty()) contour.push_back({id, plane, supports[k].right, other});
+  }
+  return contour;
+}
+
 }  // namespace
 
-std::vector<ContourEdge> contour_edges(const LocalScene& scene, Pool& pool) {
+std::vector<ContourEdge> contour_edges(const LocalScene& scene, Workers& workers) {
+  std::vector<std::vector<ContourEdge>> found(scene.edges.size());
+  workers.for_each(found.size(), [&](std::size_t i, Workers::Worker& worker) {
+    found[i] = contours_of(scene, static_cast<std::uint32_t>(i), worker.pool);
+  });
   std::vector<ContourEdge> contour;
-  for (std::uint32_t id = 0; id < scene.edges.size(); ++id) {
-    const LocalEdge& edge = scene.edges[id];
-    const ExactPoint &a = scene.points[edge.a], &b = scene.points[edge.b];
-    const std::vector<Support> supports = supporting_planes(scene, pool, edge);
-    for (std::size_t k = 0; k < supports.size(); ++k) {
-      const Plane* plane = supports[k].plane;
-      const OnWedge frame{plane, &a, {}, {}, {}, {}, {}, {}};
-      bool in_h_plus = true, left = false, right = false;
-      for (const std::uint32_t t : edge.pieces) {
-        for (const std::uint32_t c : scene.pieces[t].corners) {
-          if (c == edge.a || c == edge.b) continue;
-          const int side = plane->side(scene.points[c]);
-          in_h_plus &= side <= 0;
-          if (side == 0) (frame.turn(&b, &scene.points[c]) > 0 ? left : right) = true;
-        }
-        if (!in_h_plus) break;
-      }
-      // With the plane's surface on both sides the edge is a seam of a flat surface: a wedge that reaches it runs on over it.
-      if (!in_h_plus || (left && right)) continue;
-      const Plane* other = supports.size() == 2 ? supports[1 - k].plane : nullptr;
-      if (!supports[k].left.empty()) contour.push_back({id, plane, supports[k].left, other});
-      if (!supports[k].right.empty()) contour.push_back({id, plane, supports[k].right, other});
-    }
-  }
+  for (auto& list : found) std::move(list.begin(), list.end(), std::back_inserter(contour));
   return contour;
 }
 

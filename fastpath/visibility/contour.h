@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fastpath/visibility/local_scene.h"
+#include "fastpath/visibility/workers.h"
 
 namespace clues::fastpath {
 
@@ -15,7 +16,7 @@ struct ContourEdge {
   const Plane* other = nullptr;  // the other supporting plane through the edge, if there is one and it differs
 };
 
-// All contour edges, by edge. Planes are kept in the pool. O(edges * cell vertices).
-std::vector<ContourEdge> contour_edges(const LocalScene& scene, Pool& pool);
+// All contour edges, by edge. The workers keep the planes. O(edges * cell vertices).
+std::vector<ContourEdge> contour_edges(const LocalScene& scene, Workers& workers);
 
 }  // namespace clues::fastpath

@@ -43,7 +43,7 @@ FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell
                                   bool regions) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   const Box outside = outside_of(bvh);
-  Closure closure = close_over_visible(bvh, Cell(cell), [&](const scene::TriangleMesh& part) {
+  Closure closure = close_over_visible(bvh, Cell(exact_cell), [&](const scene::TriangleMesh& part) {
     return std::make_shared<const EnginePart>(make_local_map(part, exact_cell, options, &outside));
   });
   const LocalMap& map = static_cast<const EnginePart&>(*closure.map).map();

@@ -28,7 +28,7 @@ int exact_turn(const Plane& h, const ExactPoint& a, const ExactPoint& b, const E
   return sgn(Rational((at(q, i) - at(p, i)) * (at(r, j) - at(p, j)) - (at(q, j) - at(p, j)) * (at(r, i) - at(p, i))));
 }
 
-int filtered_turn(const Flat& u, const Flat& w) { return filtered_sign(u.x * w.y - u.y * w.x); }
+[[gnu::flatten]] int filtered_turn(const Flat& u, const Flat& w) { return filtered_sign(u.x * w.y - u.y * w.x); }
 Flat minus(const Flat& a, const Flat& b) { return {a.x - b.x, a.y - b.y}; }
 
 // Boxes that may meet the sector: on its plane, between its rays, beyond its near bound.
@@ -44,7 +44,7 @@ class SectorTest {
       beyond_ = cross(s.ray1->approximate() - near_, normal_);
     }
   }
-  bool operator()(const IntervalBox& box) const {
+  [[gnu::flatten]] bool operator()(const IntervalBox& box) const {
     const IntervalBox r = box - center_;
     return may_be_zero(dot(normal_, r)) && dot(inward0_, r).sup() >= 0 && dot(inward1_, r).sup() >= 0 &&
            (!has_near_ || dot(beyond_, box - near_).sup() >= 0);

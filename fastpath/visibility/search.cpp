@@ -18,7 +18,7 @@ class Search::Work {
         options(o),
         counts(c),
         workers(w),
-        contours(contour_edges(s, pool)),
+        contours(contour_edges(s, w)),
         walker(s, set),
         contacts(s, workers),
         sources(s, contours, set, walker, contacts, workers),
@@ -47,8 +47,8 @@ class Search::Work {
 
   // --- one round ----------------------------------------------------------------------------------------------------------------
 
+  // Whether another one is needed. If not, the set holds what is valid.
   bool round() {
-    set.clear();
     beyond.clear();
     csvs_met.clear();
     contacts.start_round();
@@ -62,15 +62,16 @@ class Search::Work {
       jobs = light(first);
     }
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
-    set.clear();
-    set.add(build(merged_jobs()));
-    cut_coplanar();
+    std::vector<ValidPiece> merged = build(merged_jobs());
+    cut_coplanar(merged);
 
     bool changed = false;
     for (std::uint32_t e = 0; e < cuts.size(); ++e) {
       if (!is_contour[e]) continue;
       for (const ExactPoint* p : new_cuts[e]) changed |= insert_cut(e, p);
     }
+    set.clear();
+    if (!changed) set.add(std::move(merged));
     return changed;
   }
 
@@ -238,22 +239,46 @@ class Search::Work {
 
   // Where the pieces from number `first` on meet mesh edges and vertices, these become contour vertices, lit by the pieces.
   void meet_edges(std::size_t first) {
-    for (std::size_t i = first; i < set.pieces().size(); ++i) {
-      for (const Meeting& m : set.pieces()[i].on->meetings) meet(set.pieces()[i], m);
+    std::vector<std::vector<Met>> met(set.pieces().size() - first);
+    workers.for_each(met.size(),
+                     [&](std::size_t i, Workers::Worker&) { met[i] = meetings_of(set.pieces()[first + i]); });
+    std::vector<std::pair<std::uint32_t, const ExactPoint*>> on_edges;
+    for (const auto& list : met) {
+      for (const Met& m : list) {
+        if (!m.at->at_vertex) on_edges.emplace_back(m.at->id, m.at->at);
+      }
+    }
+    contacts.make_csvs(on_edges);
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      for (const Met& m : met[i]) meet(set.pieces()[first + i], *m.at, m.after, m.before);
     }
   }
 
-  void meet(const ValidPiece& piece, const Meeting& m) {
+  // A meeting that a piece reaches: after its first ray, before its second, or upon one of them.
+  struct Met {
+    const Meeting* at = nullptr;
+    bool after = false, before = false;
+  };
+  static std::vector<Met> meetings_of(const ValidPiece& piece) {
+    std::vector<Met> met;
     const OnWedge& on = *piece.on;
-    const int after = on.turn(piece.ray0, m.at);
-    if (after < 0) return;
-    const int before = on.turn(m.at, piece.ray1);
-    if (before < 0) return;
-    if (piece.blocker >= 0) {
-      const Blocker& b = on.blockers[static_cast<std::size_t>(piece.blocker)];
-      if (on.turn(b.u, b.w, m.at) < 0) return;
+    for (const Meeting& m : on.meetings) {
+      const int after = on.turn(piece.ray0, m.at);
+      if (after < 0) continue;
+      const int before = on.turn(m.at, piece.ray1);
+      if (before < 0) continue;
+      if (piece.blocker >= 0) {
+        const Blocker& b = on.blockers[static_cast<std::size_t>(piece.blocker)];
+        if (on.turn(b.u, b.w, m.at) < 0) continue;
+      }
+      met.push_back({&m, after > 0, before > 0});
     }
-    Contact* c = m.at_vertex ? contacts.corner(m.id) : contacts.csv(m.id, m.at);
+    return met;
+  }
+
+  void meet(const ValidPiece& piece, const Meeting& m, bool after, bool before) {
+    const OnWedge& on = *piece.on;
+    Contact* c = m.at_vertex ? contacts.corner(m.id) : contacts.csv(m.at);
     Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr};
     if (!m.at_vertex) {
       new_cuts[m.id].push_back(c->x);
@@ -263,57 +288,64 @@ class Search::Work {
       probe.lit_end = &scene.points[on.plane->side(scene.points[e.a]) > 0 ? e.a : e.b];
     }
     // The piece lies on both sides of the ray through the vertex, or on one.
-    if (before > 0) {
+    if (before) {
       probe.aside = 1;
       contacts.add(c, probe);
     }
-    if (after > 0) {
+    if (after) {
       probe.aside = -1;
       contacts.add(c, probe);
     }
   }
 
   // The outline of a piece that runs over an edge in its plane changes the label along that edge.
-  void cut_coplanar() {
+  void cut_coplanar(const std::vector<ValidPiece>& merged) {
     struct Cut {
       const OnWedge* on = nullptr;
       const ExactPoint* ray = nullptr;
       std::uint32_t edge = 0;
       const ExactPoint** at = nullptr;
     };
-    std::vector<Cut> all, fresh;
-    for (const ValidPiece& piece : set.pieces()) {
-      const OnWedge& on = *piece.on;
-      for (const std::uint32_t e : on.coplanar_edges) {
+    std::vector<std::vector<Cut>> found(merged.size());
+    workers.for_each(merged.size(), [&](std::size_t i, Workers::Worker&) {
+      const ValidPiece& piece = merged[i];
+      for (const std::uint32_t e : piece.on->coplanar_edges) {
         if (!is_contour[e]) continue;
         const ExactPoint &a = scene.points[scene.edges[e].a], &b = scene.points[scene.edges[e].b];
         for (const ExactPoint* ray : {piece.ray0, piece.ray1}) {
-          if (on.turn(ray, &a) * on.turn(ray, &b) >= 0) continue;
-          const auto [known, is_fresh] = coplanar_cuts.try_emplace({&on, ray, e}, nullptr);
-          all.push_back({&on, ray, e, &known->second});
-          if (is_fresh) fresh.push_back(all.back());
+          if (crosses_ray(*piece.on, ray, a, b)) found[i].push_back({piece.on, ray, e, nullptr});
         }
+      }
+    });
+    std::vector<Cut> all, fresh;
+    for (const auto& list : found) {
+      for (Cut cut : list) {
+        const auto [known, is_fresh] = coplanar_cuts.try_emplace({cut.on, cut.ray, cut.edge}, nullptr);
+        cut.at = &known->second;
+        all.push_back(cut);
+        if (is_fresh) fresh.push_back(cut);
       }
     }
     workers.for_each(fresh.size(), [&](std::size_t i, Workers::Worker& worker) {
       const Cut& c = fresh[i];
       const LocalEdge& e = scene.edges[c.edge];
-      *c.at = crossing_in_plane(*c.on, *c.ray, scene.points[e.a], scene.points[e.b], worker.pool);
+      *c.at = worker.pool.keep(crossing_in_plane(*c.on, *c.ray, scene.points[e.a], scene.points[e.b]));
     });
-    for (const Cut& c : all) {
-      if (*c.at) new_cuts[c.edge].push_back(*c.at);
-    }
+    for (const Cut& c : all) new_cuts[c.edge].push_back(*c.at);
   }
 
-  // Where the edge crosses the plane through the ray that is normal to the wedge; in front of the centre, not behind it.
-  static const ExactPoint* crossing_in_plane(const OnWedge& on, const ExactPoint& ray, const ExactPoint& a,
-                                             const ExactPoint& b, Pool& pool) {
+  // Whether the inside of the edge ab, in the plane, crosses the ray in one point, in front of the centre.
+  static bool crosses_ray(const OnWedge& on, const ExactPoint* ray, const ExactPoint& a, const ExactPoint& b) {
+    const int from_a = on.turn(&a, ray);
+    return from_a != 0 && from_a == on.turn(ray, &b) && from_a == on.turn(&a, &b);
+  }
+  // Where the edge crosses the plane through the ray that is normal to the wedge.
+  static ExactPoint crossing_in_plane(const OnWedge& on, const ExactPoint& ray, const ExactPoint& a,
+                                      const ExactPoint& b) {
     const Exact3 &c = on.center->exact(), &n = on.plane->normal_exact();
-    const Exact3 d = ray.exact() - c, beside = cross(n, d);
+    const Exact3 beside = cross(n, ray.exact() - c);
     const Rational at_a = dot(beside, a.exact() - c), at_b = dot(beside, b.exact() - c);
-    const Exact3 x = a.exact() + Rational(at_a / (at_a - at_b)) * (b.exact() - a.exact());
-    if (sgn(Rational(dot(x - c, d))) <= 0) return nullptr;
-    return pool.keep(ExactPoint(x));
+    return ExactPoint(a.exact() + Rational(at_a / (at_a - at_b)) * (b.exact() - a.exact()));
   }
 
   void count() {
@@ -329,7 +361,6 @@ class Search::Work {
   const IntervalBox& bounds;
   const LocalMapOptions& options;
   LocalMapCounts& counts;
-  Pool pool;  // planes of the contours
   Workers& workers;
   std::vector<ContourEdge> contours;
   PieceSet set;

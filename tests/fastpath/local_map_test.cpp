@@ -305,8 +305,8 @@ TEST(LocalMap, ALineThroughAFacetOfTheCellHasTwoSupportsEitherWay) {
         mesh.triangles = {{0, 1, 2}};
         mesh.face_of = {0};
         const LocalScene scene(mesh, cell);
-        Pool pool;
-        const auto contour = contour_edges(scene, pool);
+        Workers workers(scene);
+        const auto contour = contour_edges(scene, workers);
         const auto in_line = std::count_if(contour.begin(), contour.end(), [&](const ContourEdge& c) {
           const LocalEdge& e = scene.edges[c.edge];
           return std::max(e.a, e.b) < 2 && c.touching.size() == 2;
