@@ -220,7 +220,13 @@ Complex build_complex(const std::vector<Point3>& points, const std::vector<Corne
     tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
       const Sheet &a = sheets[pairs[k].first], &b = sheets[pairs[k].second];
       if (strictly_beside(pool, a.corners, b.corners) || strictly_beside(pool, b.corners, a.corners)) return;
-      met[k] = meet(triangle3(a), triangle3(b));
+      Contact contact = meet(triangle3(a), triangle3(b));
+      if (!contact.overlap) {
+        // One common corner, or one whole common edge, needs no cut.
+        if (static_cast<int>(contact.points.size()) <= common_corners(a.corners, b.corners)) return;
+        for (Point3& p : contact.points) p = collapsed(p);
+      }
+      met[k] = std::move(contact);
     });
   });
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -231,8 +237,6 @@ Complex build_complex(const std::vector<Point3>& points, const std::vector<Corne
       cluster[root(i)] = root(j);
       continue;
     }
-    const int common = common_corners(sheets[i].corners, sheets[j].corners);
-    if (static_cast<int>(contact.points.size()) <= common) continue;  // one common corner, or one whole common edge
     contacts[i].push_back(contact);
     contacts[j].push_back(contact);
   }

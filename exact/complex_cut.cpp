@@ -50,9 +50,9 @@ Contact meet(const Kernel::Triangle_3& a, const Kernel::Triangle_3& b) {
   const auto result = CGAL::intersection(a, b);
   if (!result) return contact;
   if (const auto* p = boost::get<Point3>(&*result)) {
-    contact.points = {collapsed(*p)};
+    contact.points = {*p};
   } else if (const auto* s = boost::get<Kernel::Segment_3>(&*result)) {
-    contact.points = {collapsed(s->source()), collapsed(s->target())};
+    contact.points = {s->source(), s->target()};
   } else if (const auto* t = boost::get<Kernel::Triangle_3>(&*result)) {
     contact.points = {t->vertex(0), t->vertex(1), t->vertex(2)};
     contact.overlap = true;

@@ -27,7 +27,7 @@ BoxTree::BoxTree(std::vector<IntervalBox> boxes) : boxes_(std::move(boxes)) {
   for (const Item& item : items) items_.push_back(item.id);
 }
 
-// By the median of the middles, on the axis on which they spread most; so the depth is below 32.
+// At half of the way on the axis on which the middles spread most, or by their median where that leaves less than a quarter on one side: so the depth is below 80.
 std::uint32_t BoxTree::build(std::vector<Item>& items, std::uint32_t begin, std::uint32_t end) {
   const auto id = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
@@ -48,12 +48,17 @@ std::uint32_t BoxTree::build(std::vector<Item>& items, std::uint32_t begin, std:
   for (std::size_t k = 1; k < 3; ++k) {
     if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
   }
-  const std::uint32_t half = begin + (end - begin) / 2;
-  std::nth_element(items.begin() + begin, items.begin() + half, items.begin() + end,
-                   [axis](const Item& a, const Item& b) {
-                     return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis] : a.id < b.id;
-                   });
-  const std::uint32_t left = build(items, begin, half), right = build(items, half, end);
+  const auto first = items.begin() + begin, last = items.begin() + end;
+  const double border = low[axis] / 2 + high[axis] / 2;
+  auto half = std::partition(first, last, [&](const Item& item) { return item.middle[axis] < border; });
+  if (4 * std::min(half - first, last - half) < last - first) {
+    half = first + (last - first) / 2;
+    std::nth_element(first, half, last, [axis](const Item& a, const Item& b) {
+      return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis] : a.id < b.id;
+    });
+  }
+  const auto middle = static_cast<std::uint32_t>(half - items.begin());
+  const std::uint32_t left = build(items, begin, middle), right = build(items, middle, end);
   nodes_[id].box = hull(nodes_[left].box, nodes_[right].box);
   nodes_[id].first = left;
   nodes_[id].second = right;

@@ -50,7 +50,7 @@ class BoxTree {
   template <class Test, class Found>
   bool any(const Test& test, const Found& found) const {
     if (nodes_.empty()) return false;
-    std::uint32_t stack[64];
+    std::uint32_t stack[96];
     int size = 0;
     stack[size++] = 0;
     while (size > 0) {

@@ -128,6 +128,7 @@ class Closer {
   std::uint64_t rays() const { return rays_.count(); }
   void add_all();
   void add_triangles_by_the_cell();
+  void nothing_by_the_cell() { rays_.cell_is_empty(); }
   void add_seen_by_rays();
 
   // The scene of the part, ids ascending.
@@ -304,6 +305,7 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
     closer.add_all();
   } else if (!bvh.nodes().empty()) {
     closer.add_triangles_by_the_cell();
+    if (closer.part().empty()) closer.nothing_by_the_cell();
     closer.add_seen_by_rays();
   }
   Closure result;

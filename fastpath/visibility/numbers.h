@@ -61,6 +61,11 @@ template <class NT>
 Vec3<NT> cross(const Vec3<NT>& a, const Vec3<NT>& b) {
   return {NT(NT(a.y * b.z) - NT(a.z * b.y)), NT(NT(a.z * b.x) - NT(a.x * b.z)), NT(NT(a.x * b.y) - NT(a.y * b.x))};
 }
+// Of intervals with all products in line: the compiler's own choice is to call each of them.
+[[gnu::flatten]] inline Interval dot(const Vec3<Interval>& a, const Vec3<Interval>& b) { return dot<Interval>(a, b); }
+[[gnu::flatten]] inline Vec3<Interval> cross(const Vec3<Interval>& a, const Vec3<Interval>& b) {
+  return cross<Interval>(a, b);
+}
 template <class NT>
 int det_sign(const Vec3<NT>& a, const Vec3<NT>& b, const Vec3<NT>& c) {
   return sign_of(NT(dot(a, cross(b, c))));

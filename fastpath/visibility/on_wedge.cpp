@@ -21,11 +21,19 @@ Flat flat(const Plane& h, const ExactPoint& center, const ExactPoint& p) {
   return {at(q, i) - at(c, i), at(q, j) - at(c, j)};
 }
 
+// Both products are multiplied by the denominators of both: no fraction is reduced.
 int exact_turn(const Plane& h, const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
   ++exact_decisions();
   const auto& [i, j] = h.axes();
   const Exact3 &p = a.exact(), &q = b.exact(), &r = c.exact();
-  return sgn(Rational((at(q, i) - at(p, i)) * (at(r, j) - at(p, j)) - (at(q, j) - at(p, j)) * (at(r, i) - at(p, i))));
+  const auto minus = [](const Rational& x, const Rational& y) {
+    return mpz_class(x.get_num() * y.get_den() - y.get_num() * x.get_den());
+  };
+  const mpz_class left =
+      minus(at(q, i), at(p, i)) * minus(at(r, j), at(p, j)) * at(q, j).get_den() * at(r, i).get_den();
+  const mpz_class right =
+      minus(at(q, j), at(p, j)) * minus(at(r, i), at(p, i)) * at(q, i).get_den() * at(r, j).get_den();
+  return (left > right) - (left < right);
 }
 
 [[gnu::flatten]] int filtered_turn(const Flat& u, const Flat& w) { return filtered_sign(u.x * w.y - u.y * w.x); }

@@ -224,6 +224,7 @@ class Search::Work {
       piece.near1 = on.strips.back().ray1;
       if (piece.near0 != &scene.points[scene.edges[c.edge].a]) std::swap(lo, hi);
     }
+    pieces.reserve(on.strips.size());
     for (const Strip& strip : on.strips) {
       piece.ray0 = lo && on.turn(strip.ray0, lo) > 0 ? lo : strip.ray0;
       piece.ray1 = hi && on.turn(hi, strip.ray1) > 0 ? hi : strip.ray1;

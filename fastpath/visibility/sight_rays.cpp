@@ -55,6 +55,7 @@ template <class RayOf>
 std::vector<std::uint32_t> SightRays::first_hits(std::size_t count, const RayOf& ray_of) {
   count_ += count;
   std::vector<std::uint32_t> met(count, kNothing);
+  const Except except{{}, cell_is_empty_ ? nullptr : &cell_};
   tbb::enumerable_thread_specific<SegmentQueries> queries(std::cref(bvh_));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 64), [&](const tbb::blocked_range<std::size_t>& range) {
     SegmentQueries& mine = queries.local();
@@ -63,7 +64,7 @@ std::vector<std::uint32_t> SightRays::first_hits(std::size_t count, const RayOf&
       const auto finite = [](const Point& p) {
         return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
       };
-      if (finite(ray.a) && finite(ray.b)) met[i] = mine.first_hit(ray, {{}, &cell_}).value_or(kNothing);
+      if (finite(ray.a) && finite(ray.b)) met[i] = mine.first_hit(ray, except).value_or(kNothing);
     }
   });
   return met;

@@ -16,6 +16,8 @@ class SightRays {
  public:
   // Keeps references. The same answers in every run and for any number of threads.
   SightRays(const Bvh& bvh, const Cell& cell) : bvh_(bvh), cell_(cell) {}
+  // No triangle is near the cell: so none needs to be asked which part of it is in int V (D3).
+  void cell_is_empty() { cell_is_empty_ = true; }
 
   // First hits of `count` rays spread evenly over all directions.
   std::vector<std::uint32_t> around(std::size_t count);
@@ -34,6 +36,7 @@ class SightRays {
 
   const Bvh& bvh_;
   const Cell& cell_;
+  bool cell_is_empty_ = false;
   std::uint64_t count_ = 0;
 };
 

@@ -16,6 +16,9 @@ namespace clues::fastpath {
 
 class Workers {
  public:
+  // So few items are done before another thread has taken up one.
+  static constexpr std::size_t kAlone = 2;
+
   // What a thread has for itself: a pool for the points that it makes, which live as long as the Workers, and a maker of envelopes.
   struct Worker {
     explicit Worker(const LocalScene& scene) : maker(scene, pool) {}
@@ -28,6 +31,11 @@ class Workers {
   // work(i, worker) for every i < count. Intervals are rounded in every thread; exact decisions are counted as the caller's.
   template <class Work>
   void for_each(std::size_t count, const Work& work) {
+    if (count <= kAlone) {
+      const RoundedUp rounded_up;
+      for (std::size_t i = 0; i < count; ++i) work(i, workers_.local());
+      return;
+    }
     std::atomic<std::uint64_t> decisions{0};
     // Isolated: a thread that waits here takes up nothing else, which would be counted here, too.
     tbb::this_task_arena::isolate([&] {
