@@ -22,17 +22,28 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kSeed = 1;
 
-template <class Work>
-double median_seconds(int repeats, const Work& work) {
-  std::vector<double> seconds;
-  for (int i = 0; i < repeats; ++i) {
-    const auto start = Clock::now();
-    work();
-    seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+// Times of runs, of which the median counts.
+class Times {
+ public:
+  // At least once, and so often that it takes about so many seconds.
+  template <class Work>
+  void run(double about, const Work& work) {
+    for (double sum = 0; sum <= about;) {
+      const auto start = Clock::now();
+      work();
+      seconds_.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+      sum += seconds_.back();
+    }
   }
-  std::sort(seconds.begin(), seconds.end());
-  return seconds[seconds.size() / 2];
-}
+  double median() {
+    if (seconds_.empty()) return 0;
+    std::sort(seconds_.begin(), seconds_.end());
+    return seconds_[seconds_.size() / 2];
+  }
+
+ private:
+  std::vector<double> seconds_;
+};
 
 void cities() {
   fmt::print("{:>10} {:>8} {:>9} {:>8} {:>8} {:>7} {:>7} {:>7} {:>9} {:>9} {:>10} {:>9} {:>8}\n", "triangles", "tree s",
@@ -47,19 +58,20 @@ void cities() {
     const clues::fastpath::Bvh bvh(mesh);
     const double tree = std::chrono::duration<double>(Clock::now() - start).count();
     clues::fastpath::FirstOrder fast;
-    const double time = median_seconds(5, [&] { fast = clues::fastpath::first_order_visibility(bvh, cell, {}); });
-    double exact = 0;
-    if (size <= 3000) {
-      clues::reference::Options options;
-      options.threads = tbb::this_task_arena::max_concurrency();
-      const auto exact_cell = clues::exact::ConvexCell::from_doubles(cell);
-      std::vector<std::uint32_t> visible;
-      exact = median_seconds(size <= 1000 ? 3 : 1, [&] {
-        visible = clues::reference::first_order_visibility(mesh, exact_cell, options).visible;
-      });
+    clues::reference::Options options;
+    options.threads = tbb::this_task_arena::max_concurrency();
+    const auto exact_cell = clues::exact::ConvexCell::from_doubles(cell);
+    std::vector<std::uint32_t> visible;
+    Times fast_times, exact_times;
+    for (int round = 0; round < 5; ++round) {  // in turn, so that both have their share of what else the machine does
+      fast_times.run(0.2, [&] { fast = clues::fastpath::first_order_visibility(bvh, cell, {}); });
+      if (size > 3000) continue;
+      exact_times.run(0,
+                      [&] { visible = clues::reference::first_order_visibility(mesh, exact_cell, options).visible; });
       if (visible != fast.visible)
         fmt::print("the two do not agree: {} and {} visible\n", visible.size(), fast.visible.size());
     }
+    const double time = fast_times.median(), exact = exact_times.median();
     const auto n = static_cast<double>(mesh.triangles.size());
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -119,7 +131,9 @@ void hidden_depth() {
     const auto mesh = town_beside_hidden_city(hidden);
     const clues::fastpath::Bvh bvh(mesh);
     clues::fastpath::FirstOrder fast;
-    const double time = median_seconds(7, [&] { fast = clues::fastpath::first_order_visibility(bvh, cell, {}); });
+    Times times;
+    times.run(0.5, [&] { fast = clues::fastpath::first_order_visibility(bvh, cell, {}); });
+    const double time = times.median();
     if (first == 0) first = time;
     fmt::print("{:>10} {:>9.3f} {:>8.2f} {:>8} {:>7} {:>8}\n", mesh.triangles.size(), time, time / first,
                fast.visible.size(), fast.part.size(), fast.counts.wedges);

@@ -128,7 +128,6 @@ class Closer {
   std::uint64_t rays() const { return rays_.count(); }
   void add_all();
   void add_triangles_by_the_cell();
-  void nothing_by_the_cell() { rays_.cell_is_empty(); }
   void add_seen_by_rays();
 
   // The scene of the part, ids ascending.
@@ -175,6 +174,7 @@ void Closer::add_triangles_by_the_cell() {
       }
     }
   }
+  if (part_.empty()) rays_.cell_is_empty();
 }
 
 void Closer::add_seen_by_rays() {
@@ -305,7 +305,6 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
     closer.add_all();
   } else if (!bvh.nodes().empty()) {
     closer.add_triangles_by_the_cell();
-    if (closer.part().empty()) closer.nothing_by_the_cell();
     closer.add_seen_by_rays();
   }
   Closure result;
