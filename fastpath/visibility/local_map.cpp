@@ -299,11 +299,8 @@ class LocalMap::Parts {
   // near 0, near 1, far 1, far 0
   static void outline(const ValidPiece& p, WedgePiece& out) {
     const Point c = p.on->center->estimate();
-    const auto middle = [](const IntervalBox& b) {
-      return Point{(b.x.inf() + b.x.sup()) / 2, (b.y.inf() + b.y.sup()) / 2, (b.z.inf() + b.z.sup()) / 2};
-    };
     const auto far = [&](const ExactPoint* ray) {
-      if (p.blocker >= 0) return middle(far_end(p, ray));
+      if (p.blocker >= 0) return far_end_estimate(p, ray);
       const Point r = ray->estimate();
       double reach = HUGE_VAL;  // where the ray leaves the piece's box
       const double low[3] = {p.box.x.inf(), p.box.y.inf(), p.box.z.inf()},

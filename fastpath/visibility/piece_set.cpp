@@ -7,7 +7,10 @@ namespace clues::fastpath {
 namespace {
 
 Interval& component(IntervalBox& b, int axis) { return axis == 0 ? b.x : axis == 1 ? b.y : b.z; }
-const Interval& component(const IntervalBox& b, int axis) { return axis == 0 ? b.x : axis == 1 ? b.y : b.z; }
+template <class NT>
+const NT& component(const Vec3<NT>& b, int axis) {
+  return axis == 0 ? b.x : axis == 1 ? b.y : b.z;
+}
 
 }  // namespace
 
@@ -25,6 +28,27 @@ IntervalBox far_end(const ValidPiece& piece, const ExactPoint* on_ray) {
   const Interval t = -det(ray, flat(u, c)) / det(ray, flat(w, u));
   const double low = t.inf() >= 0 ? std::min(t.inf(), 1.0) : 0, high = t.sup() <= 1 ? std::max(t.sup(), 0.0) : 1;
   return u + Interval(std::min(low, high), std::max(low, high)) * (w - u);
+}
+
+Point far_end_estimate(const ValidPiece& piece, const ExactPoint* on_ray) {
+  const Blocker& b = piece.on->blockers[static_cast<std::size_t>(piece.blocker)];
+  const IntervalBox near = far_end(piece, on_ray), all = hull(b.u->approximate(), b.w->approximate());
+  Point middle{};
+  bool narrow = true;
+  for (int i = 0; i < 3; ++i) {
+    const Interval &x = component(near, i), &side = component(all, i);
+    middle[static_cast<std::size_t>(i)] = x.inf() + (x.sup() - x.inf()) / 2;
+    narrow &= x.sup() - x.inf() <= 0x1p-40 * (side.sup() - side.inf()) || x.is_point();
+  }
+  if (narrow) return middle;
+  // Where the ray's point is next to the centre intervals know little of its direction.
+  const auto& axes = piece.on->plane->axes();
+  const Exact3 &c = piece.on->center->exact(), &u = b.u->exact();
+  const Exact3 along = b.w->exact() - u, ray = on_ray->exact() - c, to_u = u - c;
+  const auto det = [&](const Exact3& x, const Exact3& y) {
+    return Rational(component(x, axes[0]) * component(y, axes[1]) - component(x, axes[1]) * component(y, axes[0]));
+  };
+  return ExactPoint(u + Rational(-det(ray, to_u) / det(ray, along)) * along).estimate();
 }
 
 void set_box(ValidPiece& piece, const IntervalBox& bounds) {

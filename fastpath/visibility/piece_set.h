@@ -23,8 +23,9 @@ struct ValidPiece {
 
 // `bounds` must hold every segment that will be asked about. O(1).
 void set_box(ValidPiece& piece, const IntervalBox& bounds);
-// Where the ray through `on_ray` ends at the blocker: an enclosure.
+// Where the ray through `on_ray` ends at the blocker: an enclosure, and a point of doubles.
 IntervalBox far_end(const ValidPiece& piece, const ExactPoint* on_ray);
+Point far_end_estimate(const ValidPiece& piece, const ExactPoint* on_ray);
 
 class PieceSet {
  public:

@@ -16,9 +16,6 @@ Point cross_estimate(const Point& a, const Point& b) {
 struct Trace {
   Point a, b;
 };
-Point middle_of(const IntervalBox& b) {
-  return {(b.x.inf() + b.x.sup()) / 2, (b.y.inf() + b.y.sup()) / 2, (b.z.inf() + b.z.sup()) / 2};
-}
 
 std::vector<std::array<std::vector<Trace>, 2>> traces_of_sides(const LocalScene& scene, const PieceSet& pieces) {
   std::vector<std::array<std::vector<Trace>, 2>> traces(scene.pieces.size());  // front, back
@@ -27,7 +24,7 @@ std::vector<std::array<std::vector<Trace>, 2>> traces_of_sides(const LocalScene&
     if (piece.blocker >= 0) {
       const std::uint32_t t = on.blockers[static_cast<std::size_t>(piece.blocker)].piece;
       traces[t][scene.planes[t].side(*on.center) > 0 ? 0 : 1].push_back(
-          {middle_of(far_end(piece, piece.ray0)), middle_of(far_end(piece, piece.ray1))});
+          {far_end_estimate(piece, piece.ray0), far_end_estimate(piece, piece.ray1)});
     }
     for (const Radial& r : on.radials) {
       if (on.turn(piece.ray0, r.w) < 0 || on.turn(r.w, piece.ray1) < 0) continue;
