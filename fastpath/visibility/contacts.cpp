@@ -49,24 +49,28 @@ Contact* Contacts::corner(std::uint32_t vertex) {
 }
 
 void Contacts::make_csvs(const std::vector<std::pair<std::uint32_t, const ExactPoint*>>& points) {
-  std::map<std::uint32_t, std::vector<std::pair<const ExactPoint*, Contact**>>> by_edge;
+  struct Asked {
+    const ExactPoint* x = nullptr;
+    Contact** contact = nullptr;
+  };
+  std::map<std::uint32_t, std::vector<Asked>> by_edge;
   for (const auto& [edge, x] : points) {
     const auto [at, is_new] = csv_at_.try_emplace(x, nullptr);
-    if (is_new) by_edge[edge].emplace_back(x, &at->second);
+    if (is_new) by_edge[edge].push_back({x, &at->second});
   }
   std::vector<std::uint32_t> edges;
   for (const auto& [edge, list] : by_edge) edges.push_back(edge);
   workers_.for_each(edges.size(), [&](std::size_t i, Workers::Worker&) {
     auto& contacts = on_edge_[edges[i]];
-    for (const auto& [x, contact] : by_edge.at(edges[i])) {
+    for (const Asked& asked : by_edge.at(edges[i])) {
       const auto known =
-          std::find_if(contacts.begin(), contacts.end(), [&](const auto& c) { return equal(*c->x, *x); });
+          std::find_if(contacts.begin(), contacts.end(), [&](const auto& c) { return equal(*c->x, *asked.x); });
       if (known != contacts.end()) {
-        *contact = known->get();
+        *asked.contact = known->get();
         continue;
       }
-      *contact = contacts.emplace_back(make(true, edges[i], x)).get();
-      (*contact)->generation = -1;
+      *asked.contact = contacts.emplace_back(make(true, edges[i], asked.x)).get();
+      (*asked.contact)->generation = -1;
     }
   });
 }

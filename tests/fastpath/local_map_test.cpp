@@ -190,11 +190,15 @@ void compare_areas(const scene::TriangleMesh& mesh, const exact::ConvexCell& cel
   const auto exact = reference_map(mesh, cell, solid);
   const LocalMap fast = fast_map(mesh, cell, solid);
   ++tally.scenes;
+  if (exact.statistics.conservative_fallbacks == 0) {
+    EXPECT_EQ(missing_from(exact.visible, fast.visible()), Ids{});
+  }
   // What one of them has not decided counts as visible there.
   if (exact.statistics.conservative_fallbacks + fast.counts().conservative_fallbacks > 0) {
     ++tally.fallbacks;
     return;
   }
+  EXPECT_EQ(exact.visible, fast.visible());
   std::map<std::pair<std::uint32_t, bool>, std::array<double, 2>> visible, all;  // reference, fast
   for (const reference::Region& r : exact.regions) {
     const auto& c = exact.complex.pieces[r.piece].corners;
