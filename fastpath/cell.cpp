@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact/convex_cell.h"
 #include "fastpath/exact_cell.h"
 #include "scene/error.h"
 

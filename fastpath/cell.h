@@ -4,8 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "exact/convex_cell.h"
 #include "fastpath/filter.h"
+
+namespace clues::exact {
+class ConvexCell;
+}
 
 namespace clues::fastpath {
 

@@ -204,10 +204,7 @@ class LocalMap::Parts {
     for (const Radial& r : on.radials) {
       const int after = on.turn(piece.ray0, r.w), before = on.turn(r.w, piece.ray1);
       if (after < 0 || before < 0 || runs_along_an_edge(*on.plane, r.piece)) continue;
-      if (piece.blocker >= 0) {
-        const Blocker& b = on.blockers[static_cast<std::size_t>(piece.blocker)];
-        if (on.turn(b.u, b.w, r.u) < 0 || on.turn(b.u, b.w, r.w) < 0) continue;
-      }
+      if (!on.reaches(piece.blocker, r.u) || !on.reaches(piece.blocker, r.w)) continue;
       const bool front_is_ccw = decide([&]<class NT>() {
         const Vec3<NT> ccw = cross(normal_of<NT>(*on.plane), coordinates<NT>(*r.w) - coordinates<NT>(*on.center));
         return sign_of(NT(dot(normal_of<NT>(scene.planes[r.piece]), ccw))) > 0;

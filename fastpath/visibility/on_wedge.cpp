@@ -77,9 +77,9 @@ int OnWedge::turn(const ExactPoint* a, const ExactPoint* b, const ExactPoint* c)
   return s != kUnsure ? s : exact_turn(*plane, *a, *b, *c);
 }
 
-bool OnWedge::reaches(const Strip& strip, const ExactPoint* q) const {
-  if (strip.blocker < 0) return true;
-  const Blocker& b = blockers[static_cast<std::size_t>(strip.blocker)];
+bool OnWedge::reaches(int blocker, const ExactPoint* q) const {
+  if (blocker < 0) return true;
+  const Blocker& b = blockers[static_cast<std::size_t>(blocker)];
   return turn(b.u, b.w, q) >= 0;
 }
 
@@ -379,7 +379,7 @@ void OnWedgeMaker::Work::add_meeting(bool at_vertex, std::uint32_t id, int spot)
   for (const Strip& s : out.strips) {
     if (out.turn(s.ray0, p) < 0) break;
     if (out.turn(p, s.ray1) < 0) continue;
-    if (out.reaches(s, p)) {
+    if (out.reaches(s.blocker, p)) {
       reached = true;
       break;
     }

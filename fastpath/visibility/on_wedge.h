@@ -64,8 +64,8 @@ struct OnWedge {
   // The turn of w against u seen from the centre; and of the path a, b, c. Counter-clockwise about the plane's normal: positive.
   int turn(const ExactPoint* u, const ExactPoint* w) const;
   int turn(const ExactPoint* a, const ExactPoint* b, const ExactPoint* c) const;
-  // Whether q, at an angle of the strip, is not beyond the strip's blocker.
-  bool reaches(const Strip& strip, const ExactPoint* q) const;
+  // Whether q, at an angle of a strip, is not beyond the strip's blocker, if it has one.
+  bool reaches(int blocker, const ExactPoint* q) const;
 };
 
 // Makes the envelopes of one scene; keeps its memory from one to the next. The result's points are kept in the pool.

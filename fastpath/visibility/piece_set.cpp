@@ -12,26 +12,39 @@ const NT& component(const Vec3<NT>& b, int axis) {
   return axis == 0 ? b.x : axis == 1 ? b.y : b.z;
 }
 
+const Blocker& blocker_of(const ValidPiece& piece) {
+  return piece.on->blockers[static_cast<std::size_t>(piece.blocker)];
+}
+
+// Where the ray crosses the blocker: 0 at u, 1 at w.
+template <class NT>
+NT crossing(const ValidPiece& piece, const ExactPoint* on_ray) {
+  const Blocker& b = blocker_of(piece);
+  const auto& axes = piece.on->plane->axes();
+  const auto flat = [&](const ExactPoint& x, const ExactPoint& from) {
+    const Vec3<NT>&p = coordinates<NT>(x), &q = coordinates<NT>(from);
+    return std::pair<NT, NT>(component(p, axes[0]) - component(q, axes[0]),
+                             component(p, axes[1]) - component(q, axes[1]));
+  };
+  const auto det = [](const auto& x, const auto& y) { return NT(x.first * y.second - x.second * y.first); };
+  const ExactPoint& c = *piece.on->center;
+  const auto ray = flat(*on_ray, c);
+  return NT(-det(ray, flat(*b.u, c)) / det(ray, flat(*b.w, *b.u)));
+}
+
 }  // namespace
 
 IntervalBox far_end(const ValidPiece& piece, const ExactPoint* on_ray) {
-  const Blocker& b = piece.on->blockers[static_cast<std::size_t>(piece.blocker)];
+  const Blocker& b = blocker_of(piece);
   if (on_ray == b.u || on_ray == b.w) return on_ray->approximate();
-  const auto& axes = piece.on->plane->axes();
-  const IntervalBox &c = piece.on->center->approximate(), &u = b.u->approximate(), &w = b.w->approximate();
-  const auto flat = [&](const IntervalBox& x, const IntervalBox& from) {
-    return std::pair<Interval, Interval>(component(x, axes[0]) - component(from, axes[0]),
-                                         component(x, axes[1]) - component(from, axes[1]));
-  };
-  const auto det = [](const auto& x, const auto& y) { return x.first * y.second - x.second * y.first; };
-  const auto ray = flat(on_ray->approximate(), c);
-  const Interval t = -det(ray, flat(u, c)) / det(ray, flat(w, u));
+  const IntervalBox &u = b.u->approximate(), &w = b.w->approximate();
+  const auto t = crossing<Interval>(piece, on_ray);
   const double low = t.inf() >= 0 ? std::min(t.inf(), 1.0) : 0, high = t.sup() <= 1 ? std::max(t.sup(), 0.0) : 1;
   return u + Interval(std::min(low, high), std::max(low, high)) * (w - u);
 }
 
 Point far_end_estimate(const ValidPiece& piece, const ExactPoint* on_ray) {
-  const Blocker& b = piece.on->blockers[static_cast<std::size_t>(piece.blocker)];
+  const Blocker& b = blocker_of(piece);
   const IntervalBox near = far_end(piece, on_ray), all = hull(b.u->approximate(), b.w->approximate());
   Point middle{};
   bool narrow = true;
@@ -42,13 +55,8 @@ Point far_end_estimate(const ValidPiece& piece, const ExactPoint* on_ray) {
   }
   if (narrow) return middle;
   // Where the ray's point is next to the centre intervals know little of its direction.
-  const auto& axes = piece.on->plane->axes();
-  const Exact3 &c = piece.on->center->exact(), &u = b.u->exact();
-  const Exact3 along = b.w->exact() - u, ray = on_ray->exact() - c, to_u = u - c;
-  const auto det = [&](const Exact3& x, const Exact3& y) {
-    return Rational(component(x, axes[0]) * component(y, axes[1]) - component(x, axes[1]) * component(y, axes[0]));
-  };
-  return ExactPoint(u + Rational(-det(ray, to_u) / det(ray, along)) * along).estimate();
+  const Exact3& u = b.u->exact();
+  return ExactPoint(u + crossing<Rational>(piece, on_ray) * (b.w->exact() - u)).estimate();
 }
 
 void set_box(ValidPiece& piece, const IntervalBox& bounds) {
@@ -81,7 +89,7 @@ Crossing PieceSet::passes(const ValidPiece& piece, const ExactPoint& a, const Ex
   if (!left_of(c, *piece.ray0) || !left_of(*piece.ray1, c)) return Crossing::no;
   if (piece.near0 && !left_of(*piece.near1, *piece.near0)) return Crossing::no;
   if (piece.blocker >= 0) {
-    const Blocker& blocker = piece.on->blockers[static_cast<std::size_t>(piece.blocker)];
+    const Blocker& blocker = blocker_of(piece);
     if (!left_of(*blocker.u, *blocker.w)) return Crossing::no;
   }
   return result;

@@ -267,11 +267,7 @@ class Search::Work {
       const int after = on.turn(piece.ray0, m.at);
       if (after < 0) continue;
       const int before = on.turn(m.at, piece.ray1);
-      if (before < 0) continue;
-      if (piece.blocker >= 0) {
-        const Blocker& b = on.blockers[static_cast<std::size_t>(piece.blocker)];
-        if (on.turn(b.u, b.w, m.at) < 0) continue;
-      }
+      if (before < 0 || !on.reaches(piece.blocker, m.at)) continue;
       met.push_back({&m, after > 0, before > 0});
     }
     return met;

@@ -1,9 +1,9 @@
 #include "reference/visibility/backprojection.h"
-#include "reference/visibility/contour.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "reference/visibility/contour.h"
 #include "reference/visibility/exactness.h"
 #include "scene/error.h"
 

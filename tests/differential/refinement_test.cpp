@@ -23,8 +23,6 @@ struct Tally {
   std::uint64_t scenes = 0, less = 0, less_area = 0, same_area = 0, fallbacks = 0;
 };
 
-// A triangle that both kernels have no sight line to is asked about in all parts that may see it, by both; one that either has a sight line to is listed by both.
-// So the lists are equal, where no map has a fallback.
 // Of the reference's bounds, triangle by triangle: a surface that two triangles share counts for both, as in the fast path.
 struct Areas {
   Areas(const reference::Bounds& bounds, const scene::TriangleMesh& mesh) {
@@ -48,6 +46,8 @@ struct Areas {
   double first_order = 0, upper = 0, lower = 0, rounding = 0;
 };
 
+// A triangle that both kernels have no sight line to is asked about in all parts that may see it, by both; one that either has a sight line to is listed by both.
+// So the lists are equal, where no map has a fallback.
 void compare(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell, int depth, Tally& tally) {
   reference::Options options;
   options.threads = 1;

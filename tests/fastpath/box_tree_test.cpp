@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -69,7 +70,6 @@ TEST(LocalBoxTree, ASegmentIsNeverSaidToMissABoxThatHoldsAPointOfIt) {
     };
     const ExactPoint a(point()), b(point());
     const ExactPoint on = ExactPoint::between(a, b, std::fabs(unit(random)));
-    // Its corner is the point, within half a rounding.
     EXPECT_TRUE(SegmentTest(a, b)(on.approximate()));
     missed += SegmentTest(a, b)(box_at(far + scale * unit(random), scale * unit(random), far, scale / 8)) ? 0 : 1;
   }
