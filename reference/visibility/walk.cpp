@@ -274,16 +274,17 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     Point3 v;
     int attempt = 0;
     do {
-      if (attempt == kAttempts) {
+      if (attempt == (cell.dimension() == 0 ? 1 : kAttempts)) {
         // A flat cell, or a point, in a plane with what is before it: every sight line runs in that plane, along the edges that lie in it.
-        walk.unresolved = true;
+        walk.unresolved = walk.special = true;
         return walk;
       }
       if (depth == 0 && start.from) {
         v = *start.from;
         answer = scene_->crossings(v, p);
-        if (answer.degenerate) return walk;
-        break;
+        if (!answer.degenerate) break;
+        walk.unresolved = true;
+        return walk;
       }
       if (along && attempt == 0) {
         v = *along;

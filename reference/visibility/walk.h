@@ -37,7 +37,8 @@ struct Leg {
 struct Walk {
   bool ends_at_cell = false;
   bool unresolved = false;  // never ends: the label is visible, as a counted fallback
-  std::vector<Leg> legs;    // from p towards the cell
+  bool special = false;   // for want of a sight line in general position to where it starts; another start may have one
+  std::vector<Leg> legs;  // from p towards the cell
 };
 
 // The side of a piece on which a point is asked for.
