@@ -8,7 +8,7 @@
 
 namespace clues::fuzz {
 
-// Each a pure function of seed and index: 1 to 12 triangles, coordinates in multiples of 1/16, and no triangle without area. The dial is the kind of the cell
+// Each a pure function of seed and index: 1 to 10 triangles, small dyadic coordinates, and no triangle without area. The dial is the kind of the cell
 // (cell_shapes.h).
 const std::vector<DegenerateGenerator>& touching_generators();
 

@@ -48,12 +48,12 @@ TEST(TouchingScenes, ArePureAndWithinBounds) {
       EXPECT_EQ(scene.cell, again.cell);
       EXPECT_EQ(scene.mesh.triangles.size(), scene.mesh.face_of.size());
       EXPECT_GE(scene.mesh.triangles.size(), 1U);
-      EXPECT_LE(scene.mesh.triangles.size(), 12U);
+      EXPECT_LE(scene.mesh.triangles.size(), 10U);
       EXPECT_TRUE(scene::degenerate_triangles(scene.mesh).empty());
       for (const auto& p : scene.mesh.points) {
         for (const double x : p) {
-          EXPECT_EQ(x * 32, std::floor(x * 32));
-          EXPECT_LE(std::abs(x), 64);
+          EXPECT_EQ(x * 1024, std::floor(x * 1024));
+          EXPECT_LE(std::abs(x), 128);
         }
       }
     }
