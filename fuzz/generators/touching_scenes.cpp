@@ -15,8 +15,8 @@ class Builder {
  public:
   Builder(std::uint64_t seed, std::uint64_t index, std::uint64_t salt)
       : random_(random_of(seed, index, salt)), cell_(cell_shape(dial_of(index) % cell_kinds, random_)) {
-    // Few triangles are the normal case: 1 to 10, half of the scenes at most 4.
-    triangles_ = static_cast<std::size_t>(1 + random_.between(0, random_.between(1, 9)));
+    // Few triangles are the normal case, one alone is not: 1 to 10, half of the scenes at most 4.
+    if (!random_.one_in(12)) triangles_ = static_cast<std::size_t>(2 + random_.between(0, random_.between(1, 8)));
   }
 
   Random& random() { return random_; }
