@@ -6,6 +6,7 @@
 #include "fuzz/generators/degenerate_scenes.h"
 #include "fuzz/generators/parts.h"
 #include "fuzz/generators/random_scenes.h"
+#include "fuzz/generators/touching_scenes.h"
 #include "scene/error.h"
 
 namespace clues::fuzz {
@@ -58,7 +59,7 @@ std::vector<NamedGenerator> all_generators(const GivenScenes& given) {
     add(name_of(kind), degeneracy_of(kind),
         [kind](std::uint64_t seed, std::uint64_t index) { return generate(kind, seed, index); });
   }
-  for (const auto* list : {&degenerate_generators(), &built_generators()}) {
+  for (const auto* list : {&degenerate_generators(), &built_generators(), &touching_generators()}) {
     for (const DegenerateGenerator& g : *list) add(g.name, g.what, g.make);
   }
   add("mutations", "the small scenes of --scenes, or random ones, after 1 to 8 changes (dial)",

@@ -1,0 +1,199 @@
+// D3, D6, D10, D12, D17 with view cells of every dimension, in small scenes whose geometry meets the cell: what both kernels call hidden is seen from nowhere.
+// As many scenes as one has time for:
+//   CLUES_LONG=1 CLUES_SCENES=50000 CLUES_FROM=0 clues_differential_tests --gtest_filter='CellsOfEveryDimensionLong.NothingHiddenIsSeen'
+// CLUES_SEED, CLUES_THREADS; CLUES_FINDINGS=FILE takes the findings, shrunk. Scene n is the same in every run; two processes may take halves.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include <tbb/task_arena.h>
+
+#include "exact/convex_cell.h"
+#include "fuzz/generators/touching_scenes.h"
+#include "tests/differential/scene_judge.h"
+
+namespace clues::tests {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+// Scene n: the generators by turns.
+fuzz::Case scene_number(std::uint64_t seed, std::uint64_t n) {
+  const auto& generators = fuzz::touching_generators();
+  const fuzz::DegenerateGenerator& g = generators[n % generators.size()];
+  const std::uint64_t index = n / generators.size();
+  fuzz::GeneratedScene scene = g.make(seed, index);
+  return {g.name, seed, index, std::move(scene.mesh), std::move(scene.cell), false};
+}
+
+using SettingsOf = std::function<JudgeSettings(std::uint64_t n)>;
+
+struct Slow {
+  double seconds = 0;
+  std::uint64_t n = 0;
+  bool operator<(const Slow& other) const { return seconds > other.seconds; }
+};
+
+class Campaign {
+ public:
+  Campaign(std::uint64_t seed, SettingsOf settings) : seed_(seed), settings_(std::move(settings)) {
+    if (const char* path = std::getenv("CLUES_FINDINGS")) findings_.open(path);
+  }
+
+  void run(std::uint64_t from, std::uint64_t count) {
+    begin_ = Clock::now();
+    std::atomic<std::uint64_t> next{from};
+    std::vector<std::thread> threads;
+    const std::uint64_t width = number_from("CLUES_THREADS", std::max(1U, std::thread::hardware_concurrency()));
+    for (std::uint64_t i = 0; i < width; ++i) {
+      threads.emplace_back([&] {
+        tbb::task_arena alone(1);  // one scene by one thread, the fast path's tasks too
+        for (std::uint64_t n = next++; n < from + count; n = next++) alone.execute([&] { judge(n); });
+      });
+    }
+    for (std::thread& t : threads) t.join();
+    print(from, count);
+  }
+
+  // Scenes by category of their flaws.
+  const std::map<std::string, std::uint64_t>& flaws() const { return flaws_; }
+  const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
+
+ private:
+  static constexpr std::uint64_t kShrunkOfEach = 12;  // of each category and dimension
+
+  void judge(std::uint64_t n) {
+    const fuzz::Case scene = scene_number(seed_, n);
+    const JudgeSettings settings = settings_(n);
+    const auto begin = Clock::now();
+    const int dimension = exact::ConvexCell::from_doubles(scene.cell).dimension();
+    const Judgement j = judge_scene(scene, settings);
+    const Slow slow{seconds_since(begin), n};
+    const std::lock_guard lock(mutex_);
+    for (const auto& [what, times] : j.counts) counts_[what] += times;
+    ++counts_["scenes"];
+    ++counts_["scenes of cells of dimension " + std::to_string(dimension)];
+    ++counts_["scenes of " + scene.generator];
+    slowest_.insert(std::upper_bound(slowest_.begin(), slowest_.end(), slow), slow);
+    if (slowest_.size() > 10) slowest_.pop_back();
+    for (const Flaw& f : j.flaws) {
+      ++flaws_[f.category];
+      const std::uint64_t same = ++flaws_by_dimension_[f.category + ", dimension " + std::to_string(dimension)];
+      tell(n, dimension, scene, settings, f, same <= kShrunkOfEach);
+    }
+    if (++done_ % 1000 == 0) {
+      std::cerr << done_ << " scenes, " << std::fixed << std::setprecision(0) << seconds_since(begin_) << " s, "
+                << total(flaws_) << " flaws\n";
+    }
+  }
+
+  void tell(std::uint64_t n, int dimension, const fuzz::Case& scene, const JudgeSettings& settings, const Flaw& flaw,
+            bool in_full) {
+    std::ostringstream text;
+    text << "FLAW " << flaw.category << "\n  scene " << n << " of seed " << seed_ << " (" << scene.generator << ' '
+         << scene.index << "), cell of dimension " << dimension << '\n';
+    if (in_full) {
+      const fuzz::Case small = shrunk(scene, settings, flaw.category);
+      const Judgement again = judge_scene(small, settings);
+      for (const Flaw& f : again.flaws)
+        text << "  " << f.category << (f.detail.empty() ? "" : ": ") << f.detail << '\n';
+      if (settings.generation_limit) text << "  generation_limit " << *settings.generation_limit << '\n';
+      if (settings.csv_limit) text << "  csv_limit " << *settings.csv_limit << '\n';
+      text << to_obj_text(small) << '\n';
+    }
+    (findings_.is_open() ? static_cast<std::ostream&>(findings_) : std::cout) << text.str() << std::flush;
+  }
+
+  static std::uint64_t total(const std::map<std::string, std::uint64_t>& of) {
+    std::uint64_t sum = 0;
+    for (const auto& [what, times] : of) sum += times;
+    return sum;
+  }
+
+  void print(std::uint64_t from, std::uint64_t count) const {
+    std::ostringstream text;
+    text << "seed " << seed_ << ", scenes " << from << " to " << from + count - 1 << ", " << std::fixed
+         << std::setprecision(1) << seconds_since(begin_) << " s\n";
+    for (const auto& [what, times] : counts_) text << std::setw(12) << times << "  " << what << '\n';
+    text << "slowest:";
+    for (const Slow& s : slowest_) text << ' ' << s.n << " (" << std::setprecision(2) << s.seconds << " s)";
+    text << '\n' << total(flaws_) << " flaws\n";
+    for (const auto& [what, times] : flaws_by_dimension_) text << std::setw(12) << times << "  FLAW " << what << '\n';
+    std::cout << text.str();
+  }
+
+  std::uint64_t seed_;
+  SettingsOf settings_;
+  std::mutex mutex_;
+  Clock::time_point begin_;
+  std::ofstream findings_;
+  std::uint64_t done_ = 0;
+  std::map<std::string, std::uint64_t> counts_, flaws_, flaws_by_dimension_;
+  std::vector<Slow> slowest_;
+};
+
+constexpr std::uint64_t kSeed = 20261122;
+
+std::map<std::string, std::uint64_t> judge_usual(std::uint64_t from, std::uint64_t scenes) {
+  Campaign campaign(number_from("CLUES_SEED", kSeed), [](std::uint64_t n) {
+    JudgeSettings settings;
+    settings.visible_set = n % 10 == 0;
+    return settings;
+  });
+  campaign.run(from, scenes);
+  for (const char* what : {"hidden points put to the oracle", "sight lines to triangles that are not listed",
+                           "scenes whose areas were compared"})
+    EXPECT_GT(campaign.counts().count(what), 0U) << what;
+  return campaign.flaws();
+}
+
+// D17: whatever the limits are, nothing that is seen gets lost, in no kernel, map or refinement.
+std::map<std::string, std::uint64_t> judge_limited(std::uint64_t from, std::uint64_t scenes) {
+  Campaign campaign(number_from("CLUES_SEED", kSeed + 1), [](std::uint64_t n) {
+    constexpr std::array<std::size_t, 5> csv_limits{0, 1, 2, 5, 20};
+    JudgeSettings settings;
+    // Numbers that the round of generators and of cells (7 x 8) does not divide.
+    const std::uint64_t turn = n / 56 + n;
+    if (turn % 3 != 0) settings.generation_limit = static_cast<int>(turn / 3 % 3);
+    if (turn % 3 != 1) settings.csv_limit = csv_limits[turn / 9 % csv_limits.size()];
+    settings.refined = turn % 4 == 0;
+    settings.points_per_region = 2;
+    return settings;
+  });
+  campaign.run(from, scenes);
+  return campaign.flaws();
+}
+
+const std::map<std::string, std::uint64_t> none;
+
+TEST(CellsOfEveryDimension, NothingHiddenIsSeen) { EXPECT_EQ(judge_usual(0, 112), none); }
+
+TEST(CellsOfEveryDimensionLong, NothingHiddenIsSeen) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  EXPECT_EQ(judge_usual(number_from("CLUES_FROM", 0), number_from("CLUES_SCENES", 5000)), none);
+}
+
+TEST(CellsOfEveryDimension, LimitsHideNothing) { EXPECT_EQ(judge_limited(0, 56), none); }
+
+TEST(CellsOfEveryDimensionLong, LimitsHideNothing) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  EXPECT_EQ(judge_limited(number_from("CLUES_FROM", 0), number_from("CLUES_SCENES", 2000)), none);
+}
+
+}  // namespace
+}  // namespace clues::tests
