@@ -1,12 +1,13 @@
 // D3, D6, D10, D12, D17 with view cells of every dimension, in small scenes whose geometry meets the cell: what both kernels call hidden is seen from nowhere.
 // As many scenes as one has time for:
 //   CLUES_LONG=1 CLUES_SCENES=50000 CLUES_FROM=0 clues_differential_tests --gtest_filter='CellsOfEveryDimensionLong.NothingHiddenIsSeen'
-// CLUES_SEED, CLUES_THREADS; CLUES_FINDINGS=FILE takes the findings, shrunk. Scene n is the same in every run; two processes may take halves.
+// CLUES_SEED, CLUES_THREADS, CLUES_SHRUNK (how many of a kind are made smaller); CLUES_FINDINGS=FILE takes the findings, shrunk. Scene n is the same in every run; two processes may take halves.
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -57,6 +58,7 @@ class Campaign {
 
   void run(std::uint64_t from, std::uint64_t count) {
     begin_ = Clock::now();
+    clock_ = std::clock();
     std::atomic<std::uint64_t> next{from};
     std::vector<std::thread> threads;
     const std::uint64_t width = number_from("CLUES_THREADS", std::max(1U, std::thread::hardware_concurrency()));
@@ -75,7 +77,7 @@ class Campaign {
   const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
 
  private:
-  static constexpr std::uint64_t kShrunkOfEach = 12;  // of each category and dimension
+  const std::uint64_t shrunk_of_each_ = number_from("CLUES_SHRUNK", 12);  // of each category and dimension
 
   void judge(std::uint64_t n) {
     const fuzz::Case scene = scene_number(seed_, n);
@@ -94,7 +96,7 @@ class Campaign {
     for (const Flaw& f : j.flaws) {
       ++flaws_[f.category];
       const std::uint64_t same = ++flaws_by_dimension_[f.category + ", dimension " + std::to_string(dimension)];
-      tell(n, dimension, scene, settings, f, same <= kShrunkOfEach);
+      tell(n, dimension, scene, settings, f, same <= shrunk_of_each_);
     }
     if (++done_ % 1000 == 0) {
       std::cerr << done_ << " scenes, " << std::fixed << std::setprecision(0) << seconds_since(begin_) << " s, "
@@ -128,7 +130,8 @@ class Campaign {
   void print(std::uint64_t from, std::uint64_t count) const {
     std::ostringstream text;
     text << "seed " << seed_ << ", scenes " << from << " to " << from + count - 1 << ", " << std::fixed
-         << std::setprecision(1) << seconds_since(begin_) << " s\n";
+         << std::setprecision(1) << seconds_since(begin_) << " s, "
+         << static_cast<double>(std::clock() - clock_) / CLOCKS_PER_SEC << " s of processor time\n";
     for (const auto& [what, times] : counts_) text << std::setw(12) << times << "  " << what << '\n';
     text << "slowest:";
     for (const Slow& s : slowest_) text << ' ' << s.n << " (" << std::setprecision(2) << s.seconds << " s)";
@@ -141,6 +144,7 @@ class Campaign {
   SettingsOf settings_;
   std::mutex mutex_;
   Clock::time_point begin_;
+  std::clock_t clock_ = 0;
   std::ofstream findings_;
   std::uint64_t done_ = 0;
   std::map<std::string, std::uint64_t> counts_, flaws_, flaws_by_dimension_;
