@@ -121,6 +121,7 @@ class Search {
   void light_vertex(VertexSource& s) {
     s.lit = true;
     Apex* apex = corner(s.point);
+    s.probe.doubtful = s.walk.unresolved;
     apex->add_probe(s.probe);
     touched_.insert(apex);
   }
@@ -161,7 +162,9 @@ class Search {
         if (s.lo != x && s.hi != x) continue;
         Apex* apex = corner(end);
         const Vector3 along = complex_.points[other] - x;
-        apex->add_probe(apex->probe(along, CGAL::NULL_VECTOR, c.plane.orthogonal_vector()));
+        Probe probe = apex->probe(along, CGAL::NULL_VECTOR, c.plane.orthogonal_vector());
+        probe.doubtful = s.walk.unresolved;
+        apex->add_probe(probe);
         touched_.insert(apex);
       }
     }
