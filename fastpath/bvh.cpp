@@ -83,7 +83,7 @@ void set_lane(TriangleBlock& block, std::size_t lane, const LocalFrame& frame, c
 
 // Every child has the box of all.
 void let_cull_nothing(std::vector<BoxLanes>& nodes) {
-  Box all;
+  LocalBox all;
   const auto each_child = [&](const auto& visit) {
     for (BoxLanes& node : nodes) {
       for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane) {
