@@ -32,6 +32,8 @@ struct JudgeSettings {
   bool visible_set = false;  // decide the scene completely
   std::size_t points_per_region = 3;
   int sight_lines = 6;                               // to each triangle that somebody does not list
+  std::vector<std::string> kernels{};                // only these; empty: all
+  bool truth = true;                                 // else only the kernels, against each other
   std::function<void(KernelAnswer&)> planted_bug{};  // spoils an answer, or throws; for the tests of the tests
 };
 
