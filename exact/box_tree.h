@@ -11,6 +11,7 @@
 #include <numeric>
 #include <vector>
 
+#include "exact/dials.h"
 #include "exact/kernel.h"
 
 namespace clues::exact {
@@ -28,6 +29,7 @@ class SegmentBoxTest {
     }
   }
   bool operator()(const CGAL::Bbox_3& box) const {
+    if (process_dials::is_on(process_dials::unsure_intervals)) return true;
     if (!CGAL::do_overlap(box_, box)) return false;
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3;
@@ -58,9 +60,11 @@ class PlaneBoxTest {
   }
   bool operator()(const CGAL::Bbox_3& box) const {
     const Interval v = value(box);
-    return v.inf() <= 0 && v.sup() >= 0;
+    return (v.inf() <= 0 && v.sup() >= 0) || process_dials::is_on(process_dials::unsure_intervals);
   }
-  bool may_be_positive(const CGAL::Bbox_3& box) const { return value(box).sup() >= 0; }
+  bool may_be_positive(const CGAL::Bbox_3& box) const {
+    return value(box).sup() >= 0 || process_dials::is_on(process_dials::unsure_intervals);
+  }
 
  private:
   Interval n_[3], d_;
@@ -104,7 +108,7 @@ class BoxTree {
     nodes_[id].box = box;
     nodes_[id].begin = begin;
     nodes_[id].end = end;
-    if (end - begin <= kLeafSize) return id;
+    if (end - begin <= kLeafSize || process_dials::is_on(process_dials::flat_trees)) return id;
     int axis = 0;
     for (int i = 1; i < 3; ++i) {
       if (box.max(i) - box.min(i) > box.max(axis) - box.min(axis)) axis = i;

@@ -12,4 +12,10 @@ auto by_threads(int threads, const Work& work) {
   return arena.execute(work);
 }
 
+// The same on a dial (dials.h): 0 leaves the work to the threads of the caller.
+template <class Work>
+auto by_dialed_threads(int threads, const Work& work) {
+  return threads > 0 ? by_threads(threads, work) : work();
+}
+
 }  // namespace clues::exact

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "exact/dials.h"
 #include "fastpath/bvh_build.h"
 #include "fastpath/exact_segment.h"
 #include "scene/error.h"
@@ -80,6 +81,30 @@ void set_lane(TriangleBlock& block, std::size_t lane, const LocalFrame& frame, c
   block.id[lane] = id;
 }
 
+// Every child has the box of all.
+void let_cull_nothing(std::vector<BoxLanes>& nodes) {
+  Box all;
+  const auto each_child = [&](const auto& visit) {
+    for (BoxLanes& node : nodes) {
+      for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane) {
+        if (node.child[lane] != BoxLanes::kEmpty) visit(node, lane);
+      }
+    }
+  };
+  each_child([&](const BoxLanes& node, std::size_t lane) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      all.low[i] = std::min(all.low[i], node.side[i][lane]);
+      all.high[i] = std::max(all.high[i], node.side[i + 3][lane]);
+    }
+  });
+  each_child([&](BoxLanes& node, std::size_t lane) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      node.side[i][lane] = all.low[i];
+      node.side[i + 3][lane] = all.high[i];
+    }
+  });
+}
+
 }  // namespace
 
 Bvh::Bvh(const scene::TriangleMesh& mesh) : mesh_(&mesh) {
@@ -117,6 +142,7 @@ Bvh::Bvh(const scene::TriangleMesh& mesh) : mesh_(&mesh) {
   });
   Tree tree = build_tree(items);
   nodes_ = std::move(tree.nodes);
+  if (exact::process_dials::is_on(exact::process_dials::flat_trees)) let_cull_nothing(nodes_);
   blocks_.resize(tree.leaves.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks_.size(), kGrain), [&](const auto& range) {
     for (std::size_t i = range.begin(); i != range.end(); ++i) {

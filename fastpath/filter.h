@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "exact/dials.h"
 #include "fastpath/float_rules.h"
 #include "scene/mesh.h"
 
@@ -32,7 +33,7 @@ struct Filtered {
   bool in_range = false;
 
   FilteredSign sign() const {
-    if (!in_range) return {};
+    if (!in_range || exact::process_dials::is_on(exact::process_dials::unsure_doubles)) return {};
     if (value > bound) return {true, Sign::positive};
     if (value < -bound) return {true, Sign::negative};
     return {bound == 0, Sign::zero};  // a bound of 0 means that every term is a true zero

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "exact/dials.h"
 #include "fastpath/exact_segment.h"
 #include "fastpath/traverse.h"
 #include "scene/error.h"
@@ -74,7 +75,9 @@ template <class Found>
 bool SegmentQueries::hits_of_block(const Query& query, const BlockTest& test, const TriangleBlock& block,
                                    const Found& found) {
   ++counts_.blocks;
-  const BlockAnswer answer = test(block);
+  BlockAnswer answer = test(block);
+  if (exact::process_dials::is_on(exact::process_dials::unsure_doubles)) [[unlikely]]
+    answer = {0, 0xF};
   for (unsigned lanes = answer.hit | answer.unsure; lanes != 0; lanes &= lanes - 1) {
     const int lane = __builtin_ctz(lanes);
     if (query.ignores(block.id[lane])) continue;

@@ -131,11 +131,12 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
     Beside<NT> beside;
     std::vector<int> face;
     const ExactPoint *to, *lit_end;
+    bool doubtful;
   };
   const V nothing{NT(0), NT(0), NT(0)};
   std::vector<Lit> lit;
   for (const Probe& p : probes) {
-    Lit l{{star.to(*p.to), nothing, nothing, p.at}, {}, p.to, p.lit_end};
+    Lit l{{star.to(*p.to), nothing, nothing, p.at}, {}, p.to, p.lit_end, p.doubtful};
     if (p.plane) {
       const V n = normal_direction<NT>(*p.plane);
       l.beside.aside = n;
@@ -160,7 +161,7 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
     bool bounds_nothing = false;
     for (const Lit& l : lit) {
       // Visible space strictly in H+ that surely reaches the points just off `middle` in H+.
-      if (s.plane->side(*l.to) < 0 && star.free_between(l.beside, middle)) {
+      if (!l.doubtful && s.plane->side(*l.to) < 0 && star.free_between(l.beside, middle)) {
         bounds_nothing = true;
         break;
       }

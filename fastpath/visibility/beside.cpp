@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fastpath/visibility/near_enough.h"
 #include "scene/error.h"
 
 namespace clues::fastpath {
@@ -29,30 +30,28 @@ std::optional<ExactPoint> beside_edge(const LocalScene& scene, const PieceSet& s
   const double size = std::min(length(to), length(minus(part.hi->estimate(), part.lo->estimate())));
   constexpr int kDoubles = 4;
   if (!(length(to) > 0 && length(up) > 0)) level = std::max(level, kDoubles);
-  for (; level < 2 * kDoubles; ++level) {
-    const ExactPoint beside = [&] {
-      if (level >= kDoubles) {  // features smaller than the spacing of doubles
-        const double step = std::ldexp(1.0, -5 - 24 * (level - kDoubles + 1));
-        const Exact3 across = touching.exact() + Rational(std::isfinite(shift) ? shift : 0) * (b.exact() - a.exact());
-        return ExactPoint::lifted(*part.y, ExactPoint(across), step, *c.plane, 0x1p-5);
-      }
-      const double step = std::ldexp(size, -5 - 7 * level);
-      Point p;
-      for (std::size_t k = 0; k < 3; ++k)
-        p[k] = y[k] + step * (to[k] / length(to)) + step * 0x1p-5 * (up[k] / length(up));
-      return ExactPoint(p);
-    }();
+  const auto place = [&](int at) {
+    if (at >= kDoubles) {  // features smaller than the spacing of doubles
+      const double step = std::ldexp(1.0, -5 - 24 * (at - kDoubles + 1));
+      const Exact3 across = touching.exact() + Rational(std::isfinite(shift) ? shift : 0) * (b.exact() - a.exact());
+      return ExactPoint::lifted(*part.y, ExactPoint(across), step, *c.plane, 0x1p-5);
+    }
+    const double step = std::ldexp(size, -5 - 7 * at);
+    Point p;
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = y[k] + step * (to[k] / length(to)) + step * 0x1p-5 * (up[k] / length(up));
+    return ExactPoint(p);
+  };
+  return near_enough(level, 2 * kDoubles, place, [&](const ExactPoint& beside) {
     // Between H- and the event surface of the other supporting plane there is one label.
-    if (c.plane->side(beside) <= 0 || (c.other && c.other->side(beside) >= 0)) continue;
+    if (c.plane->side(beside) <= 0 || (c.other && c.other->side(beside) >= 0)) return false;
     const bool blocked = scene.tree.any(SegmentTest(beside, *part.y), [&](std::uint32_t i) {
       const std::uint32_t t = scene.occluders[i];
       if (std::find(edge.pieces.begin(), edge.pieces.end(), t) != edge.pieces.end()) return false;
       return scene.crosses(*part.y, beside, t) != Crossing::no;
     });
-    if (blocked || set.may_meet(beside, *part.y, 0, holds_edge(scene, c.edge))) continue;
-    return beside;
-  }
-  return std::nullopt;
+    return !blocked && !set.may_meet(beside, *part.y, 0, holds_edge(scene, c.edge));
+  });
 }
 
 }  // namespace clues::fastpath

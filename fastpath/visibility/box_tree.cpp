@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "exact/dials.h"
+
 namespace clues::fastpath {
 
 // Flattened: half of the time of a walk is spent here, and whether interval products are inlined must not hang on what else is compiled.
@@ -31,8 +33,10 @@ BoxTree::BoxTree(std::vector<IntervalBox> boxes) : boxes_(std::move(boxes)) {
 std::uint32_t BoxTree::build(std::vector<Item>& items, std::uint32_t begin, std::uint32_t end) {
   const auto id = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
-  if (end - begin <= 2) {
-    nodes_[id].box = hull(boxes_[items[begin].id], boxes_[items[end - 1].id]);
+  if (end - begin <= 2 || exact::process_dials::is_on(exact::process_dials::flat_trees)) {
+    IntervalBox box = boxes_[items[begin].id];
+    for (std::uint32_t i = begin + 1; i < end; ++i) box = hull(box, boxes_[items[i].id]);
+    nodes_[id].box = box;
     nodes_[id].first = begin;
     nodes_[id].count = end - begin;
     return id;

@@ -50,15 +50,15 @@ Box child_box(const LocalFrame& frame, const BoxLanes& node, std::size_t lane) {
   return box;
 }
 
-// A point inside the triangle, rounded, and a box that contains it and a point of the triangle's inside. The weights sum to 1 but for roundings, each
-// coordinate is off by less than 8 units in the last place of the largest corner coordinate.
-Box about_inside(const Corners& t, const std::array<double, 3>& weight, Point& p) {
+// A box that contains a point of the triangle's inside. The weights sum to 1 but for roundings, each coordinate is off by less than 8 units in the last place of
+// the largest corner coordinate.
+Box about_inside(const Corners& t, const std::array<double, 3>& weight) {
   Box box;
   for (std::size_t i = 0; i < 3; ++i) {
-    p[i] = weight[0] * t[0][i] + weight[1] * t[1][i] + weight[2] * t[2][i];
+    const double x = weight[0] * t[0][i] + weight[1] * t[1][i] + weight[2] * t[2][i];
     const double off = 0x1p-50 * std::max({std::fabs(t[0][i]), std::fabs(t[1][i]), std::fabs(t[2][i])});
-    box.low[i] = p[i] - 2 * off;
-    box.high[i] = p[i] + 2 * off;
+    box.low[i] = x - 2 * off;
+    box.high[i] = x + 2 * off;
   }
   return box;
 }
@@ -114,8 +114,12 @@ class LitTriangles {
 
 class Closer {
  public:
-  Closer(const Bvh& bvh, const Cell& cell)
-      : bvh_(bvh), cell_(cell), rays_(bvh, cell), in_part_(bvh.mesh().triangles.size(), 0) {}
+  Closer(const Bvh& bvh, const Cell& cell, const exact::Dials& dials)
+      : bvh_(bvh),
+        cell_(cell),
+        failures_(dials.batch > 0 ? dials.batch : kFailures),
+        rays_(bvh, cell, dials.sight_rays),
+        in_part_(bvh.mesh().triangles.size(), 0) {}
 
   // False if it was there.
   bool add(std::uint32_t triangle) {
@@ -146,6 +150,7 @@ class Closer {
 
   const Bvh& bvh_;
   const Cell& cell_;
+  std::size_t failures_;
   SightRays rays_;
   std::vector<std::uint8_t> in_part_;
   std::vector<std::uint32_t> part_;
@@ -216,21 +221,19 @@ scene::TriangleMesh Closer::part_mesh() {
   return mesh;
 }
 
-// Nothing that bounds lit space touches the box: its points have one label.
 bool Closer::dark(const Box& box, const PartialMap& map, const LitTriangles& lit) const {
-  Point middle{};
-  for (std::size_t i = 0; i < 3; ++i) middle[i] = box.low[i] / 2 + box.high[i] / 2;
-  return !map.wedge_may_touch(box) && !lit.may_touch(box) && map.certainly_hidden(middle);
+  return !lit.may_touch(box) && map.label(box) == SetLabel::hidden;
 }
 
-// The same for the inside of a triangle, with a point beside it.
+// The inside of a triangle, by a place about one of its points.
 bool Closer::dark(const Corners& t, const PartialMap& map, const LitTriangles& lit) const {
-  if (map.wedge_may_touch(t) || lit.may_meet_inside(t)) return false;
+  if (lit.may_meet_inside(t)) return false;
   for (const std::array<double, 3>& weight :
        {std::array{0.3125, 0.375, 0.3125}, {0.25, 0.25, 0.5}, {0.5, 0.1875, 0.3125}}) {
-    Point p{};
-    const Box about = about_inside(t, weight, p);
-    if (!map.wedge_may_touch(about) && !lit.may_touch(about)) return map.certainly_hidden(p);
+    const Box about = about_inside(t, weight);
+    if (lit.may_touch(about)) continue;
+    const SetLabel label = map.label_of_inside(t, about);
+    if (label != SetLabel::elsewhere) return label == SetLabel::hidden;
   }
   return false;
 }
@@ -254,7 +257,7 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   std::vector<std::uint32_t> failed;
   // One level of the tree after the other, each in parallel, answers in order: the same for any number of threads.
   std::vector<std::uint32_t> level{0};
-  while (!level.empty() && failed.size() < kFailures) {
+  while (!level.empty() && failed.size() < failures_) {
     struct Answer {
       std::vector<std::uint32_t> open, failed;
       std::uint64_t boxes_dark = 0, triangles_dark = 0;
@@ -293,19 +296,23 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
       counts.triangles_dark += a.triangles_dark;
     }
   }
+  if (failures_ < kFailures) failed.resize(std::min(failed.size(), failures_));
   add_front_of(failed);
   return !failed.empty();
 }
 
 }  // namespace
 
-Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map, std::size_t whole) {
-  Closer closer(bvh, cell);
-  if (bvh.mesh().triangles.size() <= whole) {
+Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map, std::size_t whole,
+                           const exact::Dials& dials) {
+  using FirstGuess = exact::Dials::FirstGuess;
+  Closer closer(bvh, cell, dials);
+  const bool small = dials.first_guess == FirstGuess::seen && bvh.mesh().triangles.size() <= whole;
+  if (small || dials.first_guess == FirstGuess::everything) {
     closer.add_all();
   } else if (!bvh.nodes().empty()) {
     closer.add_triangles_by_the_cell();
-    closer.add_seen_by_rays();
+    if (dials.first_guess == FirstGuess::seen) closer.add_seen_by_rays();
   }
   Closure result;
   do {

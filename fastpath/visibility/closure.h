@@ -16,9 +16,11 @@
 #include <memory>
 #include <vector>
 
+#include "exact/dials.h"
 #include "fastpath/bvh.h"
 #include "fastpath/cell.h"
 #include "fastpath/visibility/box.h"
+#include "fastpath/visibility/set_label.h"
 
 namespace clues::fastpath {
 
@@ -32,11 +34,10 @@ class PartialMap {
 
   // Triangles of the small scene with a visible region, or meeting the cell; ascending.
   virtual std::vector<std::uint32_t> visible() const = 0;
-  // True only if p, a point of no triangle, is outside Omega.
-  virtual bool certainly_hidden(const Point& p) const = 0;
-  // False only if no valid wedge piece has a point in common with the box / the triangle.
-  virtual bool wedge_may_touch(const Box& box) const = 0;
-  virtual bool wedge_may_touch(const Corners& triangle) const = 0;
+  // hidden only if all of the closed box is outside Omega, where no visible triangle touches it.
+  virtual SetLabel label(const Box& box) const = 0;
+  // The same for the inside of a triangle that no visible one meets. It is asked in `about`, which holds a point of the inside, and which no visible triangle touches.
+  virtual SetLabel label_of_inside(const Corners& triangle, const Box& about) const = 0;
 };
 
 // Makes the map of a part of the scene, for the same cell.
@@ -59,8 +60,11 @@ struct Closure {
   ClosureCounts counts;
 };
 
-// Deterministic for any number of threads of the current arena. Scenes of up to `whole` triangles are mapped as they are.
+inline constexpr std::size_t kMappedWhole = 64;
+
+// Deterministic for any number of threads of the current arena. Scenes of up to `whole` triangles are mapped as they are, unless the first guess is on a dial.
 // O(passes * (map of K + boxes next to lit space)).
-Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map, std::size_t whole = 64);
+Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map,
+                           std::size_t whole = kMappedWhole, const exact::Dials& dials = {});
 
 }  // namespace clues::fastpath

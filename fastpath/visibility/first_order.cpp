@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "exact/complex.h"
+#include "exact/threads.h"
 
 namespace clues::fastpath {
 namespace {
@@ -16,9 +17,10 @@ class EnginePart : public PartialMap {
 
   // What light meets, on either side: the closure asks for that in solid mode too.
   std::vector<std::uint32_t> visible() const override { return map_.lit(); }
-  bool certainly_hidden(const Point& p) const override { return map_.label(p) == LocalMap::Label::hidden; }
-  bool wedge_may_touch(const Box& box) const override { return map_.piece_may_touch(box); }
-  bool wedge_may_touch(const Corners& triangle) const override { return map_.piece_may_touch(triangle); }
+  SetLabel label(const Box& box) const override { return map_.label(box); }
+  SetLabel label_of_inside(const Corners& triangle, const Box& about) const override {
+    return map_.label_of_inside(triangle, about);
+  }
 
   const LocalMap& map() const { return map_; }
 
@@ -37,15 +39,13 @@ Box outside_of(const Bvh& bvh) {
   return box;
 }
 
-}  // namespace
-
-FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
-                                  bool regions) {
+FirstOrder by_closure(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options, bool regions) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   const Box outside = outside_of(bvh);
-  Closure closure = close_over_visible(bvh, Cell(exact_cell), [&](const scene::TriangleMesh& part) {
+  const auto make_map = [&](const scene::TriangleMesh& part) {
     return std::make_shared<const EnginePart>(make_local_map(part, exact_cell, options, &outside));
-  });
+  };
+  Closure closure = close_over_visible(bvh, Cell(exact_cell), make_map, kMappedWhole, options.dials);
   const LocalMap& map = static_cast<const EnginePart&>(*closure.map).map();
 
   FirstOrder result;
@@ -57,6 +57,13 @@ FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell
   result.conservative_fallbacks = map.counts().conservative_fallbacks + map.conservative_labels();
   result.part = std::move(closure.part);
   return result;
+}
+
+}  // namespace
+
+FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
+                                  bool regions) {
+  return exact::by_dialed_threads(options.dials.threads, [&] { return by_closure(bvh, cell, options, regions); });
 }
 
 void require_solid(const scene::TriangleMesh& mesh) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <string>
+#include <optional>
 
+#include "fastpath/visibility/near_enough.h"
+#include "fastpath/visibility/one_label.h"
 #include "fastpath/visibility/regions.h"
 #include "fastpath/visibility/search.h"
 #include "fastpath/visibility/workers.h"
@@ -14,41 +16,12 @@ namespace clues::fastpath {
 
 namespace {
 
-constexpr std::uint64_t kSideSeed = 0x1d, kLabelSeed = 0x7a3;
-
 IntervalBox to_box(const Box& b) {
   return {Interval(b.low[0], b.high[0]), Interval(b.low[1], b.high[1]), Interval(b.low[2], b.high[2])};
 }
 
 IntervalBox bounds_of(const LocalScene& scene, const Box* outside) {
   return outside ? hull(scene.bounds, to_box(*outside)) : scene.bounds;
-}
-
-// The planes that bound a piece within its own plane, as inward normals at a point; enclosures.
-struct Bound {
-  IntervalBox normal, base;
-};
-
-struct PieceBounds {
-  Bound plane;
-  std::vector<Bound> inward;
-};
-
-PieceBounds bounds_of(const ValidPiece& piece) {
-  PieceBounds out;
-  const IntervalBox n = piece.on->plane->normal_approximate(), c = piece.on->center->approximate();
-  out.plane = {n, c};
-  const auto left_of = [&](const ExactPoint& a, const ExactPoint& b) {
-    out.inward.push_back({cross(n, b.approximate() - a.approximate()), a.approximate()});
-  };
-  left_of(*piece.on->center, *piece.ray0);
-  left_of(*piece.ray1, *piece.on->center);
-  if (piece.near0) left_of(*piece.near1, *piece.near0);
-  if (piece.blocker >= 0) {
-    const Blocker& b = piece.on->blockers[static_cast<std::size_t>(piece.blocker)];
-    left_of(*b.u, *b.w);
-  }
-  return out;
 }
 
 }  // namespace
@@ -81,37 +54,12 @@ class LocalMap::Parts {
     counts.pieces = scene.pieces.size();
     counts.refined_triangles = scene.refined_triangles;
     search.run();
+    one_label.emplace(search.walker(), search.pieces(), search.left_out());
     find_visible();
-    for (const ValidPiece& p : search.pieces().pieces()) piece_bounds.push_back(fastpath::bounds_of(p));
     counts.walks += side_walks;
-    counts.conservative_fallbacks += side_fallbacks;
+    labels_of_sides = one_label->unresolved();
+    counts.conservative_fallbacks += side_fallbacks + labels_of_sides;
     counts.exact_decisions = exact_decisions() - before;
-  }
-
-  // D17: what the wedges left out by the generation limit could show lies in the anti-cones of their apexes. p in A(x) when x is in the hull of V and p.
-  bool beyond_limit(const ExactPoint& p) const {
-    for (const ExactPoint* x : search.beyond_limit()) {
-      // Surely outside A(x) when V and p are on one side of a plane through x: the one normal to the way to V's centre.
-      const IntervalBox at = x->approximate();
-      IntervalBox towards = scene.cell.vertices.front().approximate() - at;
-      for (const ExactPoint& s : scene.cell.vertices) towards = towards + (s.approximate() - at);
-      bool outside = dot(towards, p.approximate() - at).inf() > 0;
-      for (const ExactPoint& s : scene.cell.vertices) outside &= dot(towards, s.approximate() - at).inf() > 0;
-      if (!outside) return true;
-    }
-    return false;
-  }
-
-  Walker::Label label(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
-    const Walker::Label l = search.walker().label(p, pool, seed);
-    return l == Walker::Label::hidden && beyond_limit(*p) ? Walker::Label::unresolved : l;
-  }
-
-  Label counted_label(const ExactPoint& p) const {
-    Pool pool;
-    const Walker::Label l = label(&p, pool, kLabelSeed);
-    if (l == Walker::Label::unresolved) ++conservative_labels;
-    return l == Walker::Label::hidden ? Label::hidden : Label::visible;
   }
 
   static WedgePiece estimated(const ValidPiece& p) {
@@ -135,9 +83,9 @@ class LocalMap::Parts {
   Workers workers;
   Search search;
   std::vector<std::uint32_t> visible, lit;
-  std::vector<PieceBounds> piece_bounds;
+  std::optional<OneLabel> one_label;
+  std::uint64_t labels_of_sides = 0;  // that are visible because nothing is known
   std::atomic<std::uint64_t> side_walks{0}, side_fallbacks{0};
-  mutable std::atomic<std::uint64_t> conservative_labels{0};
 
  private:
   // A triangle that light meets; whether the side that it meets counts.
@@ -239,29 +187,31 @@ class LocalMap::Parts {
                                        {0.5625, 0.25, 0.1875}};
     for (const auto& w : kWeights) {
       constexpr int kDoubles = 3;
-      for (int level = up_size > 0 ? 0 : kDoubles; level < 2 * kDoubles; ++level) {
-        // On either side of the piece, with nothing but the piece between.
-        const auto beside = [&](int way) {
-          if (level >= kDoubles)
-            return ExactPoint::lifted(ExactPoint(inner_point(t, w)), scene.corner(t, 0),
-                                      std::ldexp(1.0, -24 * (level - kDoubles + 1)), h, way);
-          const double step = std::ldexp(extent, -4 - 8 * level) * way;
-          Point x;
-          for (std::size_t k = 0; k < 3; ++k) x[k] = w[0] * a[k] + w[1] * b[k] + w[2] * c[k] + step * (up[k] / up_size);
-          return ExactPoint(x);
-        };
-        const ExactPoint p = beside(side), q = beside(-side);
-        if (h.side(p) != side || h.side(q) != -side || scene.crosses(p, q, t) != Crossing::yes) continue;
-        const bool blocked = scene.tree.any(SegmentTest(p, q), [&](std::uint32_t i) {
-          return scene.occluders[i] != t && scene.crosses(p, q, scene.occluders[i]) != Crossing::no;
+      // On either side of the piece, with nothing but the piece between.
+      const auto beside = [&](int way, int level) {
+        if (level >= kDoubles)
+          return ExactPoint::lifted(ExactPoint(inner_point(t, w)), scene.corner(t, 0),
+                                    std::ldexp(1.0, -24 * (level - kDoubles + 1)), h, way);
+        const double step = std::ldexp(extent, -4 - 8 * level) * way;
+        Point x;
+        for (std::size_t k = 0; k < 3; ++k) x[k] = w[0] * a[k] + w[1] * b[k] + w[2] * c[k] + step * (up[k] / up_size);
+        return ExactPoint(x);
+      };
+      int level = up_size > 0 ? 0 : kDoubles;
+      const auto place = [&](int at) { return beside(side, at); };
+      const auto p = near_enough(level, 2 * kDoubles, place, [&](const ExactPoint& x) {
+        const ExactPoint q = beside(-side, level);
+        if (h.side(x) != side || h.side(q) != -side || scene.crosses(x, q, t) != Crossing::yes) return false;
+        const bool blocked = scene.tree.any(SegmentTest(x, q), [&](std::uint32_t i) {
+          return scene.occluders[i] != t && scene.crosses(x, q, scene.occluders[i]) != Crossing::no;
         });
-        if (blocked || search.pieces().may_meet(p, q, 0, behind_the_piece)) continue;
-        Pool pool;
-        ++side_walks;
-        const Walker::Label l = label(&p, pool, kSideSeed);
-        if (l == Walker::Label::unresolved) break;
-        return l == Walker::Label::visible;
-      }
+        return !blocked && !search.pieces().may_meet(x, q, 0, behind_the_piece);
+      });
+      if (!p) continue;
+      ++side_walks;
+      const std::array<IntervalBox, 3> corners{scene.corner(t, 0).approximate(), scene.corner(t, 1).approximate(),
+                                               scene.corner(t, 2).approximate()};
+      return one_label->of_uncut(corners, *p) != SetLabel::hidden;
     }
     ++side_fallbacks;
     return true;
@@ -329,56 +279,42 @@ std::vector<WedgePiece> LocalMap::pieces() const {
 }
 const std::vector<std::uint32_t>& LocalMap::lit() const { return parts_->lit; }
 const LocalMapCounts& LocalMap::counts() const { return parts_->counts; }
-std::uint64_t LocalMap::conservative_labels() const { return parts_->conservative_labels; }
+std::uint64_t LocalMap::conservative_labels() const {
+  return parts_->one_label->unresolved() - parts_->labels_of_sides;
+}
 
 std::vector<LocalRegion> LocalMap::regions() const {
   const RoundedUp rounded_up;
   return make_regions(parts_->scene, parts_->search.pieces(), parts_->options.mode, parts_->wanted,
-                      [&](const ExactPoint& p) { return parts_->counted_label(p) == Label::visible; });
+                      [&](std::span<const IntervalBox> region, const ExactPoint& p) {
+                        return parts_->one_label->of_uncut(region, p) != Label::hidden;
+                      });
 }
 
 LocalMap::Label LocalMap::label(const Point& p) const {
   const RoundedUp rounded_up;
-  return parts_->counted_label(ExactPoint(p));
+  const ExactPoint at(p);
+  return parts_->one_label->of_uncut({&at.approximate(), 1}, at);
 }
 
-bool LocalMap::piece_may_touch(const Box& given) const {
+LocalMap::Label LocalMap::label(const Box& box) const {
   const RoundedUp rounded_up;
-  const IntervalBox box = to_box(given);
-  return parts_->search.pieces().any([&](const IntervalBox& b) { return overlap(b, box); },
-                                     [&](std::size_t i) {
-                                       const PieceBounds& piece = parts_->piece_bounds[i];
-                                       if (!may_be_zero(dot(piece.plane.normal, box - piece.plane.base))) return false;
-                                       return std::all_of(
-                                           piece.inward.begin(), piece.inward.end(),
-                                           [&](const Bound& b) { return dot(b.normal, box - b.base).sup() >= 0; });
-                                     });
+  return parts_->one_label->of_box(box);
+}
+
+LocalMap::Label LocalMap::label_of_inside(const Corners& triangle, const Box& about) const {
+  const RoundedUp rounded_up;
+  return parts_->one_label->of_inside(triangle, about);
+}
+
+bool LocalMap::piece_may_touch(const Box& box) const {
+  const RoundedUp rounded_up;
+  return parts_->one_label->piece_may_touch(to_box(box));
 }
 
 bool LocalMap::piece_may_touch(const Corners& triangle) const {
   const RoundedUp rounded_up;
-  IntervalBox corner[3];
-  for (std::size_t i = 0; i < 3; ++i)
-    corner[i] = {Interval(triangle[i][0]), Interval(triangle[i][1]), Interval(triangle[i][2])};
-  const IntervalBox box = hull(hull(corner[0], corner[1]), corner[2]);
-  const IntervalBox normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
-  return parts_->search.pieces().any(
-      [&](const IntervalBox& b) { return overlap(b, box) && may_be_zero(dot(normal, b - corner[0])); },
-      [&](std::size_t i) {
-        const PieceBounds& piece = parts_->piece_bounds[i];
-        // Apart if all corners are strictly on one side of the piece's plane, or strictly outside one of its bounds.
-        bool above = true, below = true;
-        for (const IntervalBox& c : corner) {
-          const Interval x = dot(piece.plane.normal, c - piece.plane.base);
-          above &= x.inf() > 0;
-          below &= x.sup() < 0;
-        }
-        if (above || below) return false;
-        return std::none_of(piece.inward.begin(), piece.inward.end(), [&](const Bound& b) {
-          return std::all_of(std::begin(corner), std::end(corner),
-                             [&](const IntervalBox& c) { return dot(b.normal, c - b.base).sup() < 0; });
-        });
-      });
+  return parts_->one_label->piece_may_touch(triangle);
 }
 
 LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& options,

@@ -11,8 +11,10 @@
 
 #include "exact/complex.h"
 #include "exact/convex_cell.h"
+#include "exact/dials.h"
 #include "fastpath/filter.h"
 #include "fastpath/visibility/box.h"
+#include "fastpath/visibility/set_label.h"
 #include "scene/mesh.h"
 
 namespace clues::fastpath {
@@ -21,8 +23,7 @@ enum class SideMode : std::uint8_t { sheet, solid };  // D4
 
 struct LocalMapOptions {
   SideMode mode = SideMode::sheet;  // solid: only fronts count. That the mesh is closed is for the caller to know.
-  int generation_limit = 16;        // D17
-  std::size_t csv_limit = 1000;     // D17: and by number, for each edge of the complex one more
+  exact::Dials dials;               // the limits of D17, and what else only tests turn
 };
 
 enum class PieceKind : std::uint8_t { sv_me, se_me, se_mv };  // D10, D11, D12
@@ -57,7 +58,7 @@ struct LocalMapCounts {
 
 class LocalMap {
  public:
-  enum class Label : std::uint8_t { hidden, visible };
+  using Label = SetLabel;
 
   // Triangles with a point in Omega or in V (D3, D15): ids of the mesh given, ascending.
   const std::vector<std::uint32_t>& visible() const;
@@ -68,9 +69,12 @@ class LocalMap {
   // The regions of all sides that count, made anew at each call. O(k^2) labels for k pieces that cross a triangle.
   std::vector<LocalRegion> regions() const;
 
-  // D14. p finite, in free space: not on a surface. `hidden` is a proof; a case that stays undecided is called visible and counted in
-  // conservative_labels(). Any number of threads may ask.
+  // Of a point in free space, not on a surface; of a closed box; of the inside of a triangle asked at the middle of a box about one of its points. No surface that light meets may touch the
+  // boxes or meet the inside (one_label.h). `hidden` is a proof; a case that stays undecided is called visible and counted in conservative_labels(). Any number of threads may
+  // ask.
   Label label(const Point& p) const;
+  Label label(const Box& box) const;
+  Label label_of_inside(const Corners& triangle, const Box& about) const;
   std::uint64_t conservative_labels() const;
 
   // False only if no valid piece meets the closed box (the closed triangle).

@@ -11,6 +11,8 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstdint>
 
+#include "exact/dials.h"
+
 namespace clues::fastpath {
 
 using Interval = CGAL::Interval_nt<false>;
@@ -29,6 +31,8 @@ inline constexpr int kUnsure = 2;
 
 // -1, 0, 1, or kUnsure; exact numbers are never unsure.
 inline int filtered_sign(const Interval& x) {
+  if (exact::process_dials::is_on(exact::process_dials::unsure_intervals)) [[unlikely]]
+    return kUnsure;
   if (x.inf() > 0) return 1;
   if (x.sup() < 0) return -1;
   return x.inf() == 0 && x.sup() == 0 ? 0 : kUnsure;

@@ -9,6 +9,7 @@
 
 #include "exact/cell_cut.h"
 #include "exact/scene_query.h"
+#include "exact/threads.h"
 #include "fastpath/segment_queries.h"
 #include "fastpath/visibility/adjusted_cut.h"
 #include "fastpath/visibility/area_bounds.h"
@@ -48,6 +49,12 @@ scene::TriangleMesh part_of(const scene::TriangleMesh& mesh, const std::vector<s
   return part;
 }
 
+// Sight lines to each triangle, unless they are on a dial.
+int sight_tries(const LocalMapOptions& options, const RefinementOptions& refinement) {
+  if (options.dials.sight_rays == exact::Dials::kOwn) return refinement.sight_lines;
+  return static_cast<int>(std::min<std::int64_t>(refinement.sight_lines, options.dials.sight_rays));
+}
+
 class Refiner {
  public:
   Refiner(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
@@ -55,6 +62,7 @@ class Refiner {
       : bvh_(bvh),
         options_(options),
         refinement_(refinement),
+        sight_tries_(sight_tries(options, refinement)),
         with_areas_(refinement.regions || refinement.tolerance_area > 0),
         whole_(ConvexCell::from_doubles(cell)),
         viewpoints_to_ask_(whole_),
@@ -88,7 +96,7 @@ class Refiner {
   }
 
   RefinedVisibility run() {
-    find_witnesses({{whole_, listed_, {}, {}}}, refinement_.sight_lines);
+    find_witnesses({{whole_, listed_, {}, {}}}, sight_tries_);
     if (refinement_.by != RefineBy::cells) refine(true);
     if (refinement_.by != RefineBy::backprojection) refine(false);
     result_.visible.clear();
@@ -120,7 +128,7 @@ class Refiner {
         for (const Part& part : parts) regions.push_back(&part.regions);
         areas_->restrict_to(regions, open);
       }
-      find_witnesses(parts, refinement_.sight_lines / 4);
+      find_witnesses(parts, sight_tries_ / 4);
       look_around(depth);
       note(backprojection, depth, parts.size());
     }
@@ -265,7 +273,7 @@ class Refiner {
 
   // Maps of single points of V (exact::Viewpoints), for which first order is exact: for the lower bound of the areas, and for triangles that no sight line has met.
   void look_around(int depth) {
-    if (!areas_ && refinement_.sight_lines == 0) return;
+    if (!areas_ && sight_tries_ == 0) return;
     for (const auto& points : viewpoints_to_ask_.up_to(depth)) add_viewpoints(points);
   }
 
@@ -288,7 +296,7 @@ class Refiner {
       if (!view) continue;
       ++viewpoints_;
       if (areas_) areas_->witness(view->regions);
-      if (refinement_.sight_lines == 0) continue;
+      if (sight_tries_ == 0) continue;
       for (const std::uint32_t t : view->visible) known_[t] = true;
     }
   }
@@ -325,6 +333,7 @@ class Refiner {
   const Bvh& bvh_;
   LocalMapOptions options_;
   RefinementOptions refinement_;
+  int sight_tries_;
   bool with_areas_;
   ConvexCell whole_;
   exact::Viewpoints viewpoints_to_ask_;
@@ -343,7 +352,7 @@ class Refiner {
 
 RefinedVisibility refined_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
                                      const RefinementOptions& refinement) {
-  return Refiner(bvh, cell, options, refinement).run();
+  return exact::by_dialed_threads(options.dials.threads, [&] { return Refiner(bvh, cell, options, refinement).run(); });
 }
 
 }  // namespace clues::fastpath

@@ -13,6 +13,9 @@ Point cross_estimate(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+// How far off its side, to its extent, a region is asked for its label; its corners are estimates, less far off.
+constexpr double kStep = 0x1p-34;
+
 struct Trace {
   Point a, b;
 };
@@ -80,7 +83,6 @@ std::vector<std::vector<Point>> cut_along(const std::vector<std::vector<Point>>&
 // Just off a point inside piece t, on that side: in doubles where they are fine enough, so not far from the origin; else exactly.
 ExactPoint beside(const LocalScene& scene, std::uint32_t t, int side, const Point& inner,
                   const std::vector<Point>& corners, const Point& n) {
-  constexpr double kStep = 0x1p-34;
   const double size = length_estimate(n), extent = std::sqrt(size);
   Point off{};
   double largest = 0;
@@ -107,9 +109,21 @@ ExactPoint beside(const LocalScene& scene, std::uint32_t t, int side, const Poin
   return ExactPoint::lifted(ExactPoint(Rational(1 / all) * sum), scene.corner(t, 0), kStep, plane, side);
 }
 
+// Around the corners of a region and what is right beside them.
+std::vector<IntervalBox> enclosures(const std::vector<Point>& corners, double extent) {
+  std::vector<IntervalBox> boxes;
+  for (const Point& p : corners) {
+    const auto about = [&](double x) {
+      const double off = extent * kStep + std::abs(x) * 0x1p-50;
+      return Interval(x - off, x + off);
+    };
+    boxes.push_back({about(p[0]), about(p[1]), about(p[2])});
+  }
+  return boxes;
+}
+
 void map_side(const LocalScene& scene, std::uint32_t t, bool front, const LocalOrigin& origin,
-              const std::vector<Trace>& traces, const std::function<bool(const ExactPoint&)>& visible,
-              std::vector<LocalRegion>& regions) {
+              const std::vector<Trace>& traces, const RegionIsVisible& visible, std::vector<LocalRegion>& regions) {
   const int side = front ? 1 : -1;
   const auto& s = scene.cell.vertices;
   const bool in_cell = scene.pieces[t].in_cell;
@@ -137,7 +151,7 @@ void map_side(const LocalScene& scene, std::uint32_t t, bool front, const LocalO
       for (std::size_t k = 0; k < 3; ++k) center[k] += part[i][k] / static_cast<double>(part.size());
     }
     region.area_estimate = length_estimate(sum);
-    region.visible = in_cell || (faced && visible(beside(scene, t, side, center, whole, n)));
+    region.visible = in_cell || (faced && visible(enclosures(part, extent), beside(scene, t, side, center, whole, n)));
     region.outline_estimate = std::move(part);
     regions.push_back(std::move(region));
   }
@@ -150,8 +164,7 @@ bool counts_for(SideMode mode, const LocalOrigin& o, bool front) {
 }
 
 std::vector<LocalRegion> make_regions(const LocalScene& scene, const PieceSet& pieces, SideMode mode,
-                                      const std::vector<bool>& wanted,
-                                      const std::function<bool(const ExactPoint&)>& visible) {
+                                      const std::vector<bool>& wanted, const RegionIsVisible& visible) {
   std::vector<LocalRegion> regions;
   const auto traces = traces_of_sides(scene, pieces);
   for (std::uint32_t t = 0; t < scene.pieces.size(); ++t) {

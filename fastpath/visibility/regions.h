@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "fastpath/visibility/local_map.h"
@@ -13,9 +14,10 @@ namespace clues::fastpath {
 // Whether the front (back) of a piece is a side of this triangle that the mode counts (D4).
 bool counts_for(SideMode mode, const LocalOrigin& o, bool front);
 
-// Of the wanted triangles. `visible` labels a point beside a region. O(k^2) parts on a side that k valid pieces cross.
+using RegionIsVisible = std::function<bool(std::span<const IntervalBox>, const ExactPoint&)>;
+
+// Of the wanted triangles. `visible` is asked about enclosures of a region's corners and a point beside it. O(k^2) parts on a side that k valid pieces cross.
 std::vector<LocalRegion> make_regions(const LocalScene& scene, const PieceSet& pieces, SideMode mode,
-                                      const std::vector<bool>& wanted,
-                                      const std::function<bool(const ExactPoint&)>& visible);
+                                      const std::vector<bool>& wanted, const RegionIsVisible& visible);
 
 }  // namespace clues::fastpath

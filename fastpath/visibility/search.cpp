@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "fastpath/visibility/contacts.h"
 #include "fastpath/visibility/sources.h"
@@ -19,7 +20,7 @@ class Search::Work {
         counts(c),
         workers(w),
         contours(contour_edges(s, w)),
-        walker(s, set),
+        walker(s, set, o.dials.longest_walk),
         contacts(s, workers),
         sources(s, contours, set, walker, contacts, workers),
         edge_wedges(contours.size()),
@@ -49,17 +50,19 @@ class Search::Work {
 
   // Whether another one is needed. If not, the set holds what is valid.
   bool round() {
-    beyond.clear();
+    left_out.clear();
+    left_out_contacts.clear();
     csvs_met.clear();
     contacts.start_round();
     sources.start_round(cuts);
     counts.sources = std::max<std::uint64_t>(counts.sources, sources.of_edges().size());
     new_cuts.assign(scene.edges.size(), {});
-    for (std::vector<Job> jobs = light(0); !jobs.empty();) {
+    for (std::vector<Job> waiting = light(0); !waiting.empty();) {
       const std::size_t first = set.pieces().size();
-      set.add(build(jobs));
+      set.add(build(next_batch(waiting)));
       meet_edges(first);
-      jobs = light(first);
+      const std::vector<Job> jobs = light(first);
+      waiting.insert(waiting.end(), jobs.begin(), jobs.end());
     }
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     std::vector<ValidPiece> merged = build(merged_jobs());
@@ -73,6 +76,17 @@ class Search::Work {
     set.clear();
     if (!changed) set.add(std::move(merged));
     return changed;
+  }
+
+  // Takes what is built before the next look at what it lights: all, but for a dial.
+  std::vector<Job> next_batch(std::vector<Job>& waiting) const {
+    const std::size_t most = options.dials.batch == 0 ? waiting.size() : options.dials.batch;
+    std::vector<Job> rest;
+    if (most < waiting.size()) {
+      rest.assign(waiting.begin() + static_cast<std::ptrdiff_t>(most), waiting.end());
+      waiting.resize(most);
+    }
+    return std::exchange(waiting, std::move(rest));
   }
 
   // Keeps the cuts of an edge in order from a to b; false if there was one at this point.
@@ -97,9 +111,10 @@ class Search::Work {
   // The wedges that sources make which the pieces from number `first` on light: their own (D10, D11), and those at the contour vertices they light (D12).
   std::vector<Job> light(std::size_t first) {
     const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first);
+    const auto is_doubtful = [](const auto& source) { return source.walk.end == Walk::End::unresolved; };
     for (const std::size_t i : newly_lit_vertices) {
       const Sources::OfVertex& v = sources.of_vertices()[i];
-      contacts.add(contacts.corner(v.point), {Probe::Kind::sight, v.beside, {}, nullptr, 0, nullptr});
+      contacts.add(contacts.corner(v.point), {Probe::Kind::sight, v.beside, {}, nullptr, 0, nullptr, is_doubtful(v)});
     }
     std::vector<Job> jobs;
     for (const std::size_t i : newly_lit_edges) {
@@ -108,22 +123,22 @@ class Search::Work {
       for (int k = 0; k < static_cast<int>(c.touching.size()); ++k)
         jobs.push_back({s.contour, k, s.part.lo, s.part.hi, nullptr, 0});
       const LocalEdge& e = scene.edges[c.edge];
-      const ExactPoint *a = &scene.points[e.a], *b = &scene.points[e.b];
-      if (s.part.lo == a)
-        contacts.add(contacts.corner(e.a),
-                     {Probe::Kind::contour, b, {SpotName::Kind::vertex, e.b}, c.plane, 0, nullptr});
-      if (s.part.hi == b)
-        contacts.add(contacts.corner(e.b),
-                     {Probe::Kind::contour, a, {SpotName::Kind::vertex, e.a}, c.plane, 0, nullptr});
+      const auto probe_along = [&](std::uint32_t to) {
+        return Probe{Probe::Kind::contour, &scene.points[to], {SpotName::Kind::vertex, to}, c.plane, 0, nullptr,
+                     is_doubtful(s)};
+      };
+      if (s.part.lo == &scene.points[e.a]) contacts.add(contacts.corner(e.a), probe_along(e.b));
+      if (s.part.hi == &scene.points[e.b]) contacts.add(contacts.corner(e.b), probe_along(e.a));
     }
     std::vector<Contact*> lit = contacts.lit();
     for (const Contact* c : lit) {
       if (c->on_edge) csvs_met.insert(c);
     }
-    const bool too_many = csvs_met.size() > options.csv_limit + scene.edges.size();
+    const exact::Dials& dials = options.dials;
+    const bool too_many = csvs_met.size() > dials.csv_limit + dials.csv_limit_per_edge * scene.edges.size();
     std::erase_if(lit, [&](const Contact* c) {
-      const bool out = c->generation > options.generation_limit || (too_many && c->on_edge);
-      if (out) beyond.push_back(c->x);
+      const bool out = c->generation > dials.generation_limit || (too_many && c->on_edge);
+      if (out && left_out_contacts.insert(c).second) left_out.push_back(c->apex.get());
       return out;
     });
     contacts.find_sectors(lit);
@@ -276,7 +291,7 @@ class Search::Work {
   void meet(const ValidPiece& piece, const Meeting& m, bool after, bool before) {
     const OnWedge& on = *piece.on;
     Contact* c = m.at_vertex ? contacts.corner(m.id) : contacts.csv(m.at);
-    Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr};
+    Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr, false};
     if (!m.at_vertex) {
       new_cuts[m.id].push_back(c->x);
       const int generation = piece.generation + 1;
@@ -351,7 +366,7 @@ class Search::Work {
       counts.csv += c.on_edge && std::find(c.built.begin(), c.built.end(), true) != c.built.end() ? 1 : 0;
     });
     counts.walks += sources.walks();
-    counts.conservative_fallbacks += contacts.conservative_fallbacks() + beyond.size() + sources.unresolved();
+    counts.conservative_fallbacks += contacts.conservative_fallbacks() + left_out.size() + sources.unresolved();
   }
 
   const LocalScene& scene;
@@ -369,7 +384,8 @@ class Search::Work {
   std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
   std::map<std::tuple<const OnWedge*, const ExactPoint*, std::uint32_t>, const ExactPoint*> coplanar_cuts;
   std::set<const Contact*> csvs_met;  // in this round
-  std::vector<const ExactPoint*> beyond;
+  std::set<const Contact*> left_out_contacts;
+  std::vector<const Apex*> left_out;
 };
 
 Search::Search(const LocalScene& scene, const IntervalBox& bounds, const LocalMapOptions& options,
@@ -382,6 +398,6 @@ void Search::run() {
 }
 const PieceSet& Search::pieces() const { return work_->set; }
 const Walker& Search::walker() const { return work_->walker; }
-const std::vector<const ExactPoint*>& Search::beyond_limit() const { return work_->beyond; }
+const std::vector<const Apex*>& Search::left_out() const { return work_->left_out; }
 
 }  // namespace clues::fastpath

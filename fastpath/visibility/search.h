@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "fastpath/visibility/apex.h"
 #include "fastpath/visibility/local_map.h"
 #include "fastpath/visibility/piece_set.h"
 #include "fastpath/visibility/walker.h"
@@ -20,13 +21,13 @@ class Search {
   Search(const LocalScene& scene, const IntervalBox& bounds, const LocalMapOptions& options, LocalMapCounts& counts,
          Workers& workers);
   ~Search();
-  // On all threads of the arena; the result is the same for any number. Afterwards pieces() is complete. Points x outside A(x) of all of beyond_limit() have right labels.
+  // On all threads of the arena; the result is the same for any number. Afterwards pieces() is complete, but for what left_out() says.
   void run();
 
   const PieceSet& pieces() const;
   const Walker& walker() const;
-  // D17: apexes whose wedges the generation limit left out.
-  const std::vector<const ExactPoint*>& beyond_limit() const;
+  // Apexes at which a limit of D17 left out wedges; what that means for labels is in one_label.h.
+  const std::vector<const Apex*>& left_out() const;
 
  private:
   class Work;

@@ -53,8 +53,9 @@ Point point_of_cell(const Cell& cell, Numbers& random) {
 
 template <class RayOf>
 std::vector<std::uint32_t> SightRays::first_hits(std::size_t count, const RayOf& ray_of) {
-  count_ += count;
   std::vector<std::uint32_t> met(count, kNothing);
+  if (budget_ != exact::Dials::kOwn) count = std::min<std::size_t>(count, static_cast<std::uint64_t>(budget_) - count_);
+  count_ += count;
   const Except except{{}, cell_is_empty_ ? nullptr : &cell_};
   tbb::enumerable_thread_specific<SegmentQueries> queries(std::cref(bvh_));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 64), [&](const tbb::blocked_range<std::size_t>& range) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "exact/dials.h"
 #include "fastpath/bvh.h"
 #include "fastpath/cell.h"
 
@@ -14,8 +15,9 @@ namespace clues::fastpath {
 
 class SightRays {
  public:
-  // Keeps references. The same answers in every run and for any number of threads.
-  SightRays(const Bvh& bvh, const Cell& cell) : bvh_(bvh), cell_(cell) {}
+  // Keeps references. The same answers in every run and for any number of threads. `budget`: no more rays than this in all (Dials); those left out hit nothing.
+  SightRays(const Bvh& bvh, const Cell& cell, std::int64_t budget = exact::Dials::kOwn)
+      : bvh_(bvh), cell_(cell), budget_(budget) {}
   // No triangle is near the cell: so none needs to be asked which part of it is in int V (D3).
   void cell_is_empty() { cell_is_empty_ = true; }
 
@@ -36,6 +38,7 @@ class SightRays {
 
   const Bvh& bvh_;
   const Cell& cell_;
+  std::int64_t budget_;
   bool cell_is_empty_ = false;
   std::uint64_t count_ = 0;
 };

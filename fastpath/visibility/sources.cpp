@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "fastpath/visibility/near_enough.h"
 #include "scene/error.h"
 
 namespace clues::fastpath {
@@ -56,16 +57,14 @@ template <class Good>
 std::optional<Sources::OfVertex> Sources::towards(std::uint32_t v, const ExactPoint& view, const Good& good,
                                                   Pool& pool) {
   const ExactPoint& x = scene_.points[v];
-  for (int level = 0; level < 7; ++level) {
-    const ExactPoint beside = point_near(x, view, level);
-    if (equal(beside, x) || scene_.may_meet(beside, x) || !good(beside)) continue;
-    OfVertex s;
-    s.point = v;
-    s.beside = pool.keep(beside);
-    s.walk = walk(s.beside, s.seed, pool);
-    return s;
-  }
-  return std::nullopt;
+  const auto beside =
+      near_enough(x, view, [&](const ExactPoint& p) { return !equal(p, x) && !scene_.may_meet(p, x) && good(p); });
+  if (!beside) return std::nullopt;
+  OfVertex s;
+  s.point = v;
+  s.beside = pool.keep(*beside);
+  s.walk = walk(s.beside, s.seed, pool);
+  return s;
 }
 
 // It counts as visible.

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "fastpath/visibility/near_enough.h"
+
 namespace clues::fastpath {
 
 namespace {
 
-constexpr int kLongestWalk = 48;  // legs
-constexpr int kAttempts = 40;     // sight lines in special position in a row
+constexpr std::int64_t kLongestWalk = 48;  // legs
+constexpr int kAttempts = 40;              // sight lines in special position in a row
 
 std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
   x += 0x9e3779b97f4a7c15ULL;
@@ -20,7 +22,8 @@ constexpr auto kNothing = [](const Plane&) { return false; };
 
 }  // namespace
 
-Walker::Walker(const LocalScene& scene, const PieceSet& pieces) : scene_(&scene), pieces_(&pieces) {
+Walker::Walker(const LocalScene& scene, const PieceSet& pieces, std::int64_t longest)
+    : scene_(&scene), pieces_(&pieces), longest_(longest == exact::Dials::kOwn ? kLongestWalk : longest) {
   const RoundedUp rounded_up;
   const std::size_t n = scene.cell.vertices.size();
   const std::size_t count = n == 1 ? 1 : 61;
@@ -44,16 +47,17 @@ const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::
   const auto& s = scene_->cell.vertices;
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (!good(s[i])) continue;
-    // Closer and closer to the vertex; where doubles are too coarse for that, exactly.
-    for (int k = 2; k < 1000; k += k < 60 ? 3 : k) {
+    // Closer and closer to the vertex, by 2^-k; where doubles are too coarse for that, exactly.
+    constexpr int kSteady = 20, kLevels = kSteady + 5;
+    const auto place = [&](int level) {
+      const int k = level < kSteady ? 2 + 3 * level : 62 << (level - kSteady);
       std::vector<double> weights(s.size());
       for (std::size_t j = 0; j < s.size(); ++j)
         weights[j] = std::ldexp(static_cast<double>(1 + mix(seed * 31 + j) % 61), j == i ? 0 : -k);
       weights[i] = 61;
-      const ExactPoint* v =
-          pool.keep(k < 40 ? scene_->cell.interior_point(weights) : scene_->cell.combination(weights));
-      if (good(*v)) return v;
-    }
+      return k < 40 ? scene_->cell.interior_point(weights) : scene_->cell.combination(weights);
+    };
+    if (const auto v = near_enough(kLevels, place, good)) return pool.keep(*v);
   }
   if (!also) return nullptr;
   // An edge or a diagonal of V may cross the space between the planes.
@@ -160,7 +164,7 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
     return walk;
   }
   std::optional<Surface> on, before;
-  for (int depth = 0; depth < kLongestWalk; ++depth) {
+  for (std::int64_t depth = 0; depth < longest_; ++depth) {
     bool both = false;
     if (before) {
       const Both how = in_front_of_both(*on, *before);
@@ -202,12 +206,11 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
         return walk;
       }
       if (crossed == Crossing::touch) continue;
-      for (int level = 0; level < 7 && !found; ++level) {
-        const ExactPoint next = point_near(*m, *p, level);
-        if (h.side(next) != side || scene_->may_meet(next, *p) || pieces_->may_meet(next, *p, 0, kNothing)) continue;
-        found = true;
-        walk.legs.push_back({m, p, pool.keep(next), *last.piece, side, false});
-      }
+      const auto next = near_enough(*m, *p, [&](const ExactPoint& x) {
+        return h.side(x) == side && !scene_->may_meet(x, *p) && !pieces_->may_meet(x, *p, 0, kNothing);
+      });
+      found = next.has_value();
+      if (found) walk.legs.push_back({m, p, pool.keep(*next), *last.piece, side, false});
     }
     if (!found) break;
     before = on;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "exact/dials.h"
 #include "fastpath/visibility/piece_set.h"
 
 namespace clues::fastpath {
@@ -29,7 +30,8 @@ struct Walk {
 
 class Walker {
  public:
-  Walker(const LocalScene& scene, const PieceSet& pieces);
+  // `longest`: legs after which a walk is given up (Dials).
+  Walker(const LocalScene& scene, const PieceSet& pieces, std::int64_t longest = exact::Dials::kOwn);
 
   enum class Label : std::uint8_t { hidden, visible, unresolved };
 
@@ -63,6 +65,7 @@ class Walker {
 
   const LocalScene* scene_;
   const PieceSet* pieces_;
+  std::int64_t longest_;
   Pool own_;
   std::vector<const ExactPoint*> viewpoints_;
 };

@@ -44,8 +44,8 @@ bool hidden_regions_are_hidden(const reference::VisibilityMap& map) {
 // The default limits of D17 allow a scene of bytes whose coordinates are 1000 bits long minutes of work under sanitizers.
 template <class Options>
 void limit(Options& options) {
-  options.generation_limit = 4;
-  options.csv_limit = 64;
+  options.dials.generation_limit = 4;
+  options.dials.csv_limit = 64;
 }
 
 void fast_path_loses_nothing(const Case& scene, const reference::VisibilityMap& map) {

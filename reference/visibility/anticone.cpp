@@ -78,11 +78,18 @@ std::vector<AnticoneFacet> anticone_facets(const Point3& x, const exact::ConvexC
   return facets;
 }
 
-bool may_reach(const Point3& x, const exact::ConvexCell& cell, const std::vector<Point3>& corners) {
-  const std::vector<AnticoneFacet> facets = anticone_facets(x, cell);
-  return std::none_of(facets.begin(), facets.end(), [&](const AnticoneFacet& f) {
+void LeftOut::add(const Point3& x, const exact::ConvexCell& cell) {
+  std::vector<exact::Plane3>& planes = anticones_.emplace_back();
+  for (const AnticoneFacet& f : anticone_facets(x, cell)) planes.push_back(f.plane);
+}
+
+bool LeftOut::may_reach(const std::vector<Point3>& corners) const {
+  const auto keeps_out = [&](const exact::Plane3& h) {
     return std::all_of(corners.begin(), corners.end(),
-                       [&](const Point3& q) { return f.plane.oriented_side(q) == CGAL::ON_NEGATIVE_SIDE; });
+                       [&](const Point3& q) { return h.oriented_side(q) == CGAL::ON_NEGATIVE_SIDE; });
+  };
+  return std::any_of(anticones_.begin(), anticones_.end(), [&](const std::vector<exact::Plane3>& facets) {
+    return std::none_of(facets.begin(), facets.end(), keeps_out);
   });
 }
 

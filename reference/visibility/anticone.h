@@ -21,7 +21,19 @@ struct AnticoneFacet {
 // a flat V, or V is a point. O(cell edges * cell vertices).
 std::vector<AnticoneFacet> anticone_facets(const exact::Point3& x, const exact::ConvexCell& cell);
 
-// Whether the anti-cone of x may reach a convex figure with these corners: false only if a facet's plane keeps it out.
-bool may_reach(const exact::Point3& x, const exact::ConvexCell& cell, const std::vector<exact::Point3>& corners);
+// D17: the anti-cones of the apexes whose wedges a limit left out. What those wedges could show, and all that follows from it, lies in the closed anti-cones: if y is in A(x), A(y) is. So a
+// label that a walk finds is right for a whole figure only if no anti-cone reaches the figure; one sample outside says nothing about the rest.
+class LeftOut {
+ public:
+  void add(const exact::Point3& x, const exact::ConvexCell& cell);
+  void clear() { anticones_.clear(); }
+  std::size_t size() const { return anticones_.size(); }
+  bool empty() const { return anticones_.empty(); }
+  // Whether one may reach the hull of these points: false only if each has a facet's plane that keeps it out. O(apexes * facets * corners).
+  bool may_reach(const std::vector<exact::Point3>& corners) const;
+
+ private:
+  std::vector<std::vector<exact::Plane3>> anticones_;  // by their facets
+};
 
 }  // namespace clues::reference

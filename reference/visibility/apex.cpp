@@ -51,7 +51,7 @@ Apex::Apex(const exact::ConvexCell& cell, const Point3& x, LocalStar star) : x_(
 
 Probe Apex::probe(const Vector3& limit, const Vector3& aside, const Vector3& off) const {
   const Vector3 actual = aside == CGAL::NULL_VECTOR ? star_.nudged(limit, off) : star_.nudged(limit, aside, off);
-  return {{limit, aside == CGAL::NULL_VECTOR ? off : aside, off}, actual, CGAL::NULL_VECTOR};
+  return {{limit, aside == CGAL::NULL_VECTOR ? off : aside, off}, actual, CGAL::NULL_VECTOR, false};
 }
 
 bool Apex::spreads(const Probe& p, const ApexSector& s) const {
@@ -102,8 +102,9 @@ std::vector<std::size_t> Apex::new_sectors() {
       exists |= spreads_here;
       // Visible space strictly in H+ that surely reaches the points just off `middle` in H+ too. A point of the visible part of a
       // crossed edge reaches whatever its own face allows.
-      bounds_nothing |= (p.lit_edge != CGAL::NULL_VECTOR && spreads_here && CGAL::is_negative(n * p.lit_edge)) ||
-                        (CGAL::is_negative(n * p.beside.limit) && star_.free_between(p.beside, s.middle));
+      bounds_nothing |=
+          (p.lit_edge != CGAL::NULL_VECTOR && spreads_here && CGAL::is_negative(n * p.lit_edge)) ||
+          (!p.doubtful && CGAL::is_negative(n * p.beside.limit) && star_.free_between(p.beside, s.middle));
     }
     if (!exists) continue;
     if (bounds_nothing) continue;

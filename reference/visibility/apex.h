@@ -22,6 +22,8 @@ struct Probe {
   Beside beside;
   exact::Vector3 actual;
   exact::Vector3 lit_edge = CGAL::NULL_VECTOR;  // at a CSV: the direction of the visible part of the crossed edge
+  // Visible only because its source's walk does not end: walks from elsewhere may call the same space hidden. So it makes sectors, and leaves none out.
+  bool doubtful = false;
 };
 
 // A sector of the anti-cone's boundary between two neighbouring traces of incident pieces, its middle, and its local face.

@@ -17,8 +17,10 @@ namespace clues::reference {
 
 namespace {
 
+int threads_of(const Options& options) { return options.dials.threads > 0 ? options.dials.threads : options.threads; }
+
 exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options) {
-  exact::Complex complex = exact::by_threads(options.threads, [&] { return exact::build_complex(mesh, &cell); });
+  exact::Complex complex = exact::by_threads(threads_of(options), [&] { return exact::build_complex(mesh, &cell); });
   if (options.mode == Mode::solid) exact::require_solid(complex);
   return complex;
 }
@@ -36,7 +38,7 @@ Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Option
   map.statistics.refined_triangles = map.complex.refined_triangles;
 
   scene_ = std::make_unique<exact::SceneQuery>(map.complex, map.cell);
-  exact::by_threads(options.threads, [&] {
+  exact::by_threads(threads_of(options), [&] {
     std::vector<bool> visited;
     if (options.formulation == Formulation::traversal) {
       Traversal t = traverse(*scene_, options, map.statistics);

@@ -10,6 +10,7 @@
 
 #include "exact/complex.h"
 #include "exact/convex_cell.h"
+#include "exact/dials.h"
 #include "exact/kernel.h"
 #include "exact/scene_query.h"
 #include "reference/visibility/wedge.h"
@@ -34,15 +35,12 @@ enum class PlantedBug { none, wrong_wedge_side, retested_csv, no_rule_3, rounded
 struct Options {
   Mode mode = Mode::sheet;
   Formulation formulation = Formulation::plain;
-  int generation_limit =
-      16;  // D17: wedges of a later generation are not built; what they could show is labelled visible
-  std::size_t csv_limit =
-      1000;         // D17: nor are those of more CSVs than this and one for each edge; they are left out by whole waves
   int threads = 0;  // 0: as many as the machine has; the result does not depend on it
   bool check_two_walks =
       true;  // D14: walk twice, from two independent v, and count disagreements (a debug build stops at one)
   Progress progress;
   PlantedBug planted_bug = PlantedBug::none;
+  exact::Dials dials;  // the limits of D17, and what else only tests turn
 };
 
 // One face of the arrangement of DM segments on one side of one piece of the complex (D15).

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "reference/visibility/apex.h"
 #include "reference/visibility/contour.h"
@@ -30,7 +31,7 @@ class Search {
         complex_(scene.complex()),
         options_(options),
         statistics_(statistics),
-        walker_(scene, options.planted_bug != PlantedBug::no_rule_3),
+        walker_(scene, options.planted_bug != PlantedBug::no_rule_3, options.dials.longest_walk),
         contours_(contour_edges(complex_, scene.cell())),
         maker_(scene, contours_, options.planted_bug),
         cuts_(complex_.edges.size()),
@@ -49,7 +50,8 @@ class Search {
       changed = round();
     }
     count();
-    Fixpoint out{std::move(wedges_), std::move(beyond_limit_), {}, {}};
+    Fixpoint out{std::move(wedges_), {}, {}, {}};
+    for (const Apex* apex : left_out_) out.left_out.add(apex->x(), scene_.cell());
     find_lit(out);
     return out;
   }
@@ -59,7 +61,7 @@ class Search {
 
   bool round() {
     wedges_ = WedgeSet(scene_);
-    beyond_limit_.clear();
+    left_out_.clear();
     csvs_met_.clear();
     for (auto& [key, apex] : csvs_) apex->start_round();
     for (auto& [key, apex] : corners_) apex->start_round();
@@ -74,17 +76,17 @@ class Search {
       s.lit = false;
       if (s.walk.ends_at_cell || s.walk.unresolved) light_vertex(s);
     }
-    std::vector<Job> jobs = light(lit);
-    while (!jobs.empty()) {
+    std::vector<Job> waiting = light(lit);
+    while (!waiting.empty()) {
       report();
       const std::size_t first = wedges_.pieces().size();
-      std::vector<ValidPiece> batch = maker_.build(jobs);
-      wedges_.add(std::move(batch));
+      wedges_.add(maker_.build(next_batch(waiting)));
       for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
       for (VertexSource& s : vertex_sources_) {
         if (!s.lit && walker_.visible(start_of(s), s.walk, wedges_, first) == Meets::yes) light_vertex(s);
       }
-      jobs = light(newly_lit(first));
+      const std::vector<Job> jobs = light(newly_lit(first));
+      waiting.insert(waiting.end(), jobs.begin(), jobs.end());
     }
 
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
@@ -105,9 +107,21 @@ class Search {
     return changed;
   }
 
+  // Takes what is built before the next look at what it lights: all, but for a dial.
+  std::vector<Job> next_batch(std::vector<Job>& waiting) const {
+    const std::size_t most = options_.dials.batch == 0 ? waiting.size() : options_.dials.batch;
+    std::vector<Job> rest;
+    if (most < waiting.size()) {
+      rest.assign(waiting.begin() + static_cast<std::ptrdiff_t>(most), waiting.end());
+      waiting.resize(most);
+    }
+    return std::exchange(waiting, std::move(rest));
+  }
+
   void light_vertex(VertexSource& s) {
     s.lit = true;
     Apex* apex = corner(s.point);
+    s.probe.doubtful = s.walk.unresolved;
     apex->add_probe(s.probe);
     touched_.insert(apex);
   }
@@ -148,7 +162,9 @@ class Search {
         if (s.lo != x && s.hi != x) continue;
         Apex* apex = corner(end);
         const Vector3 along = complex_.points[other] - x;
-        apex->add_probe(apex->probe(along, CGAL::NULL_VECTOR, c.plane.orthogonal_vector()));
+        Probe probe = apex->probe(along, CGAL::NULL_VECTOR, c.plane.orthogonal_vector());
+        probe.doubtful = s.walk.unresolved;
+        apex->add_probe(probe);
         touched_.insert(apex);
       }
     }
@@ -162,10 +178,12 @@ class Search {
     for (Apex* apex : order) {
       if (apex->on_edge()) csvs_met_.insert(apex);
     }
-    const bool too_many = csvs_met_.size() > options_.csv_limit + complex_.edges.size();
+    const exact::Dials& dials = options_.dials;
+    const bool too_many = csvs_met_.size() > dials.csv_limit + dials.csv_limit_per_edge * complex_.edges.size();
     for (Apex* apex : order) {
-      if (apex->generation > options_.generation_limit || (too_many && apex->on_edge())) {
-        beyond_limit_.push_back(apex->x());
+      if (apex->sectors().empty()) continue;
+      if (apex->generation > dials.generation_limit || (too_many && apex->on_edge())) {
+        left_out_.insert(apex);
         continue;
       }
       for (const std::size_t k : apex->new_sectors()) PieceMaker::add_job(*apex, k, jobs);
@@ -284,7 +302,7 @@ class Search {
       statistics_.csv +=
           std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
     for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
-    statistics_.conservative_fallbacks += beyond_limit_.size();
+    statistics_.conservative_fallbacks += left_out_.size();
     for (const Source& s : sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
     for (const VertexSource& s : vertex_sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
   }
@@ -325,7 +343,7 @@ class Search {
   std::map<std::uint32_t, std::unique_ptr<Apex>> corners_;
   std::set<Apex*> touched_;
   std::set<const Apex*> csvs_met_;  // in this round
-  std::vector<Point3> beyond_limit_;
+  std::set<const Apex*> left_out_;  // by a limit, in this round
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "exact/scene_query.h"
+#include "reference/visibility/anticone.h"
 #include "reference/visibility/first_order.h"
 #include "reference/visibility/wedge_set.h"
 
@@ -17,7 +18,7 @@ namespace clues::reference {
 
 struct Fixpoint {
   WedgeSet wedges;
-  std::vector<exact::Point3> beyond_limit;  // apexes whose wedges the generation limit left out (D17)
+  LeftOut left_out;  // by the limits of D17
   // Edges and points of the complex at which a visible source lies or a valid wedge piece arrives.
   std::vector<std::uint32_t> lit_edges, lit_points;
 };

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "reference/visibility/anticone.h"
-
 namespace clues::reference {
 
 using exact::Point3;
@@ -13,7 +11,9 @@ SpaceLabels::SpaceLabels(const Omega& omega, const CGAL::Bbox_3& bounds)
   wedges_.add(omega.fixpoint().wedges.pieces());
 }
 
-Walker::Label SpaceLabels::operator()(const Point3& p) const {
+Walker::Label SpaceLabels::operator()(const Point3& p) const { return (*this)(p, {p}); }
+
+Walker::Label SpaceLabels::operator()(const Point3& p, const std::vector<Point3>& corners) const {
   constexpr std::uint64_t kSpaceSeed = 0x2f;
   const auto holds = [&](const ValidPiece& piece) {
     return piece.wedge.plane.oriented_side(p) == CGAL::ON_ORIENTED_BOUNDARY && covers(piece, p) != Meets::no;
@@ -21,14 +21,8 @@ Walker::Label SpaceLabels::operator()(const Point3& p) const {
   if (std::any_of(wedges_.pieces().begin(), wedges_.pieces().end(), holds)) return {true, false};
   const Walker::Label label = walker_.label({p, std::nullopt, nullptr}, wedges_, kSpaceSeed);
   if (label.visible) return label;
-  // D17: what the wedges left out by the generation limit could show lies in the anti-cones of their apexes.
-  const std::vector<Point3>& left_out = omega_->fixpoint().beyond_limit;
-  const bool beyond = std::any_of(left_out.begin(), left_out.end(), [&](const Point3& x) {
-    const std::vector<AnticoneFacet> facets = anticone_facets(x, omega_->map().cell);
-    return std::none_of(facets.begin(), facets.end(),
-                        [&](const AnticoneFacet& f) { return f.plane.oriented_side(p) == CGAL::ON_NEGATIVE_SIDE; });
-  });
-  return {beyond, beyond};
+  const bool limited = omega_->fixpoint().left_out.may_reach(corners);
+  return {limited, limited};
 }
 
 }  // namespace clues::reference

@@ -9,7 +9,6 @@
 #include <map>
 #include <mutex>
 
-#include "reference/visibility/anticone.h"
 #include "reference/visibility/flat_faces.h"
 #include "reference/visibility/side_faces.h"
 #include "reference/visibility/sides.h"
@@ -69,7 +68,7 @@ class SideMapper {
         fixpoint_(fixpoint),
         visited_(visited),
         options_(options),
-        walker_(scene, options.planted_bug != PlantedBug::no_rule_3) {
+        walker_(scene, options.planted_bug != PlantedBug::no_rule_3, options.dials.longest_walk) {
     for (const ValidPiece& piece : fixpoint.wedges.pieces()) {
       const Wedge& w = piece.wedge;
       if (!w.unbounded) {
@@ -208,6 +207,11 @@ class SideMapper {
       r.sample = lift(inner_point(rings, 0));
       return;
     }
+    if (fixpoint_.left_out.may_reach(r.rings[0])) {
+      r.visible = true;
+      r.sample = lift(inner_point(rings, 0));
+      return;
+    }
     for (std::size_t which = 0;; ++which) {
       r.sample = lift(inner_point(rings, which));
       const Start start{r.sample, SurfaceSide{r.piece, r.front}, nullptr};
@@ -228,13 +232,6 @@ class SideMapper {
       }
       break;
     }
-    if (!r.visible) r.visible = beyond_limit(r);
-  }
-
-  // D17: what the wedges left out by the generation limit could show lies in the anti-cones of their apexes.
-  bool beyond_limit(const Region& r) const {
-    return std::any_of(fixpoint_.beyond_limit.begin(), fixpoint_.beyond_limit.end(),
-                       [&](const Point3& x) { return may_reach(x, scene_.cell(), r.rings[0]); });
   }
 
   const exact::SceneQuery& scene_;

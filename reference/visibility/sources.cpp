@@ -28,7 +28,7 @@ VertexSource vertex_source(const exact::SceneQuery& scene, std::uint32_t point, 
     pull = pull / exact::FT(8);
     s.v = exact::collapsed(x + d + pull * (scene.cell().interior_point(weights) - (x + d)));
   }
-  s.probe = {{s.v - x, CGAL::NULL_VECTOR, CGAL::NULL_VECTOR}, s.v - x, CGAL::NULL_VECTOR};
+  s.probe = {{s.v - x, CGAL::NULL_VECTOR, CGAL::NULL_VECTOR}, s.v - x, CGAL::NULL_VECTOR, false};
   return s;
 }
 

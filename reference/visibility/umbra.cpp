@@ -219,8 +219,9 @@ class Builder {
     throw scene::Error(scene::ErrorCode::internal, "umbra: no free point beside a part of a plane");
   }
 
-  bool is_hidden(const Point3& p, Part& out) const {
-    const Walker::Label label = labels_(p);
+  // Of a part of one of these sheets, beside which p is.
+  bool is_hidden(const Point3& p, const std::vector<Point3>& sheet, Part& out) const {
+    const Walker::Label label = labels_(p, sheet);
     out.fallbacks += label.fallback;
     return !label.visible;
   }
@@ -268,7 +269,7 @@ class Builder {
         const bool nowhere = std::any_of(sides_.begin(), sides_.end(), [&](const Plane3& side) {
           return side.has_on(c.inner) && CGAL::is_positive(side.orthogonal_vector() * off);
         });
-        if (!nowhere) hidden[front] = is_hidden(beside(c.inner, plane, off, own), out);
+        if (!nowhere) hidden[front] = is_hidden(beside(c.inner, plane, off, own), best->corners, out);
       }
       if (hidden[0] == hidden[1]) continue;
       // Sheets of one kind and triangle are one: the seams between them bound nothing.

@@ -12,7 +12,7 @@ using exact::Point3;
 
 namespace {
 
-constexpr int kLongestWalk = 64;  // legs; what is longer has lost its way in a corner of several walls
+constexpr std::int64_t kLongestWalk = 64;  // legs; what is longer has lost its way in a corner of several walls
 constexpr int kAttempts = 200;  // sight lines in special position come from coincidences; this many in a row mean a bug
 
 std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
@@ -25,6 +25,9 @@ std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
 CGAL::Oriented_side strict_side(bool front) { return front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE; }
 
 }  // namespace
+
+Walker::Walker(const exact::SceneQuery& scene, bool rule_3, std::int64_t longest)
+    : scene_(&scene), rule_3_(rule_3), longest_(longest == exact::Dials::kOwn ? kLongestWalk : longest) {}
 
 Point3 Walker::choose(std::uint64_t seed, const std::optional<Point3>& anchor, const Good& good) const {
   const exact::ConvexCell& cell = scene_->cell();
@@ -222,7 +225,7 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   if (contour && contour->cover)
     return walk;  // only a wedge piece upon the covering surface can light this edge (D14, rule 2)
   for (int depth = 0;; ++depth) {
-    if (depth == kLongestWalk) {
+    if (depth == longest_) {
       walk.unresolved = true;
       return walk;
     }

@@ -21,6 +21,7 @@
 #include <optional>
 #include <vector>
 
+#include "exact/dials.h"
 #include "exact/scene_query.h"
 #include "reference/visibility/contour.h"
 #include "reference/visibility/wedge_set.h"
@@ -58,7 +59,8 @@ struct Start {
 
 class Walker {
  public:
-  Walker(const exact::SceneQuery& scene, bool rule_3) : scene_(&scene), rule_3_(rule_3) {}
+  // `longest`: legs after which a walk is given up (Dials).
+  Walker(const exact::SceneQuery& scene, bool rule_3, std::int64_t longest = exact::Dials::kOwn);
 
   // Different seeds use different sight lines; the label must not depend on the seed (D14). Deterministic.
   Walk walk(const Start& start, std::uint64_t seed) const;
@@ -98,6 +100,7 @@ class Walker {
                               const Good& good) const;
   const exact::SceneQuery* scene_;
   bool rule_3_;
+  std::int64_t longest_;
 };
 
 }  // namespace clues::reference

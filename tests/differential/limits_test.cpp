@@ -55,8 +55,8 @@ Scene scene_of_many_csvs() {
 TEST(Limits, ManyCsvsAreLeftOutAndCountAsVisible) {
   const Scene s = scene_of_many_csvs();
   fastpath::LocalMapOptions without_limit, low;
-  without_limit.csv_limit = 1000000;
-  low.csv_limit = 0;
+  without_limit.dials.csv_limit = 1000000;
+  low.dials.csv_limit = 0;
   const Answer all = fast_answer(s, without_limit), usual = fast_answer(s, {}), few = fast_answer(s, low);
   EXPECT_GT(all.csvs, 5000U);
   EXPECT_LT(usual.csvs, 2000U);
@@ -66,7 +66,7 @@ TEST(Limits, ManyCsvsAreLeftOutAndCountAsVisible) {
   EXPECT_TRUE(contains(usual, all));
   EXPECT_TRUE(contains(few, usual));
   reference::Options options;
-  options.csv_limit = 0;
+  options.dials.csv_limit = 0;
   const Answer exact = exact_answer(s, options);
   EXPECT_LT(exact.csvs, 200U);
   EXPECT_GT(exact.fallbacks, 0U);
@@ -82,12 +82,12 @@ TEST(Limits, WithoutWedgesOfCsvsNothingGetsLost) {
       const Scene s{generated.mesh, exact::ConvexCell::from_doubles(generated.cell)};
       reference::Options options;
       const Answer exact = exact_answer(s, options);
-      options.generation_limit = 0;
+      options.dials.generation_limit = 0;
       const Answer exact_limited = exact_answer(s, options);
       EXPECT_TRUE(contains(exact_limited, exact));
       limited[0] += exact_limited.fallbacks;
       fastpath::LocalMapOptions fast;
-      fast.generation_limit = 0;
+      fast.dials.generation_limit = 0;
       const Answer fast_limited = fast_answer(s, fast);
       EXPECT_TRUE(contains(fast_limited, exact));
       limited[1] += fast_limited.fallbacks;

@@ -11,6 +11,7 @@ namespace clues::tests {
 namespace {
 
 using exact::Point3;
+using fastpath::SetLabel;
 using Triangle3 = exact::Kernel::Triangle_3;
 
 CGAL::Bbox_3 to_bbox(const fastpath::Box& b) { return {b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]}; }
@@ -41,19 +42,33 @@ class ReferencePart : public fastpath::PartialMap {
   }
 
   std::vector<std::uint32_t> visible() const override { return map_.visible; }
-  bool certainly_hidden(const fastpath::Point& p) const override {
-    return bug_ == PartBug::dark_everywhere ||
-           !walker_.label({.p = exact::to_exact(p), .surface = std::nullopt}, fixpoint_.wedges, 1).visible;
+  SetLabel label(const fastpath::Box& box) const override {
+    if (wedge_may_touch(box)) return SetLabel::visible;
+    std::vector<Point3> corners;
+    for (unsigned i = 0; i < 8; ++i) {
+      corners.push_back(exact::to_exact(
+          {(i & 1U ? box.high : box.low)[0], (i & 2U ? box.high : box.low)[1], (i & 4U ? box.high : box.low)[2]}));
+    }
+    return label_at(box, corners);
   }
-  bool wedge_may_touch(const fastpath::Box& box) const override {
-    return touches(to_bbox(box), exact::Kernel::Iso_cuboid_3(exact::to_exact(box.low), exact::to_exact(box.high)));
-  }
-  bool wedge_may_touch(const fastpath::Corners& t) const override {
-    const Triangle3 exact(exact::to_exact(t[0]), exact::to_exact(t[1]), exact::to_exact(t[2]));
-    return touches(exact.bbox(), exact);
+  SetLabel label_of_inside(const fastpath::Corners& t, const fastpath::Box& about) const override {
+    const std::vector<Point3> corners{exact::to_exact(t[0]), exact::to_exact(t[1]), exact::to_exact(t[2])};
+    const Triangle3 triangle(corners[0], corners[1], corners[2]);
+    if (touches(triangle.bbox(), triangle)) return SetLabel::visible;
+    return wedge_may_touch(about) ? SetLabel::elsewhere : label_at(about, corners);
   }
 
  private:
+  // In the middle of the box, for all of the corners' hull.
+  SetLabel label_at(const fastpath::Box& box, const std::vector<Point3>& corners) const {
+    if (bug_ == PartBug::dark_everywhere) return SetLabel::hidden;
+    const Point3 p = CGAL::midpoint(exact::to_exact(box.low), exact::to_exact(box.high));
+    if (walker_.label({.p = p, .surface = std::nullopt}, fixpoint_.wedges, 1).visible) return SetLabel::visible;
+    return fixpoint_.left_out.may_reach(corners) ? SetLabel::visible : SetLabel::hidden;
+  }
+  bool wedge_may_touch(const fastpath::Box& box) const {
+    return touches(to_bbox(box), exact::Kernel::Iso_cuboid_3(exact::to_exact(box.low), exact::to_exact(box.high)));
+  }
   template <class Shape>
   bool touches(const CGAL::Bbox_3& box, const Shape& shape) const {
     if (bug_ == PartBug::wedges_touch_nothing) return false;

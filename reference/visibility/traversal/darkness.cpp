@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "exact/dials.h"
 #include "exact/direction_cone.h"
-#include "reference/visibility/anticone.h"
 #include "scene/error.h"
 
 namespace clues::reference {
@@ -107,7 +107,7 @@ class DarknessQuery {
   void ask(std::uint32_t id) {
     const Darkness::Node& node = tree_.nodes_[id];
     if (before_[node.end] == before_[node.begin]) return;  // all visited
-    if (before_[node.end] - before_[node.begin] > 1 && fixpoint_.beyond_limit.empty() && is_one_part(node.box)) {
+    if (before_[node.end] - before_[node.begin] > 1 && fixpoint_.left_out.empty() && is_one_part(node.box)) {
       const std::optional<bool> lit = label(point_in(node.box));
       if (lit) {
         if (*lit) add_all(node);
@@ -176,9 +176,7 @@ class DarknessQuery {
       if (shape(i).may_meet(box) && shape(i).meets_inside(corners)) return false;
     }
     const std::vector<Point3> ring(corners.begin(), corners.end());
-    for (const Point3& x : fixpoint_.beyond_limit) {  // D17
-      if (may_reach(x, part_.cell(), ring)) return false;
-    }
+    if (fixpoint_.left_out.may_reach(ring)) return false;
     return !label(exact::collapsed(CGAL::barycenter(corners[0], FT(5), corners[1], FT(6), corners[2], FT(7))))
                 .value_or(true);
   }
@@ -208,7 +206,7 @@ std::uint32_t Darkness::build(std::uint32_t begin, std::uint32_t end) {
   CGAL::Bbox_3 box;
   for (std::uint32_t i = begin; i < end; ++i) box += boxes_[order_[i]];
   nodes_.push_back({box, begin, end, 0});
-  if (end - begin <= kLeafSize) return id;
+  if (end - begin <= kLeafSize || exact::process_dials::is_on(exact::process_dials::flat_trees)) return id;
   int axis = 0;
   for (int i = 1; i < 3; ++i) {
     if (box.max(i) - box.min(i) > box.max(axis) - box.min(axis)) axis = i;

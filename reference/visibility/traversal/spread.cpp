@@ -5,9 +5,10 @@ namespace clues::reference {
 using exact::FT;
 using exact::Point3;
 
-Spread::Spread(const exact::SceneQuery& scene, Statistics& statistics)
+Spread::Spread(const exact::SceneQuery& scene, Statistics& statistics, std::int64_t sight_rays)
     : scene_(scene),
       statistics_(statistics),
+      sight_rays_(sight_rays),
       visited_(scene.complex().in_cell),
       seen_(visited_.size(), false),
       tried_(visited_.size(), false) {
@@ -30,6 +31,7 @@ void Spread::see(std::uint32_t piece) {
 }
 
 void Spread::sight(const Point3& v, const Point3& p, const std::uint32_t* target) {
+  if (sight_rays_ != exact::Dials::kOwn && statistics_.sight_lines >= static_cast<std::uint64_t>(sight_rays_)) return;
   ++statistics_.sight_lines;
   const exact::SegmentAnswer answer = scene_.crossings(v, p);
   if (answer.degenerate) return;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "exact/dials.h"
 #include "exact/scene_query.h"
 #include "reference/visibility/first_order.h"
 
@@ -12,7 +13,8 @@ namespace clues::reference {
 
 class Spread {
  public:
-  Spread(const exact::SceneQuery& scene, Statistics& statistics);
+  // `sight_rays`: no more sight lines than this in all (Dials).
+  Spread(const exact::SceneQuery& scene, Statistics& statistics, std::int64_t sight_rays = exact::Dials::kOwn);
 
   // Sight lines from the cell's centre in 26 directions, and on from there.
   void look_around();
@@ -34,6 +36,7 @@ class Spread {
 
   const exact::SceneQuery& scene_;
   Statistics& statistics_;
+  std::int64_t sight_rays_;
   std::vector<exact::Point3> eyes_;  // in int V
   std::vector<bool> visited_, seen_, tried_;
   std::vector<std::uint32_t> queue_;

@@ -10,6 +10,19 @@ namespace clues::reference {
 
 namespace {
 
+// What is mapped first.
+void look_first(Spread& spread, const exact::Complex& complex, exact::Dials::FirstGuess guess,
+                const std::vector<std::uint32_t>& seeds) {
+  switch (guess) {
+    case exact::Dials::FirstGuess::seen:
+      return seeds.empty() ? spread.look_around() : spread.look_at(seeds);
+    case exact::Dials::FirstGuess::nothing:
+      return;
+    case exact::Dials::FirstGuess::everything:
+      for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) spread.visit(t);
+  }
+}
+
 // Nothing has been seen yet: the surfaces nearest to the cell, one by one, until a sight line meets something.
 void look_for_the_first(Spread& spread, const exact::SceneQuery& whole, std::vector<std::uint32_t> pieces) {
   const exact::Complex& complex = whole.complex();
@@ -72,12 +85,8 @@ Traversal traverse(const exact::SceneQuery& whole, const Options& options, Stati
                    const std::vector<std::uint32_t>& seeds) {
   const exact::Complex& complex = whole.complex();
   const Darkness darkness(complex);
-  Spread spread(whole, statistics);
-  if (seeds.empty()) {
-    spread.look_around();
-  } else {
-    spread.look_at(seeds);
-  }
+  Spread spread(whole, statistics, options.dials.sight_rays);
+  look_first(spread, complex, options.dials.first_guess, seeds);
   for (;;) {
     ++statistics.passes;
     const std::vector<bool> visited = spread.visited();
@@ -88,9 +97,10 @@ Traversal traverse(const exact::SceneQuery& whole, const Options& options, Stati
     carry_over(statistics, of_pass);
 
     visit_around(spread, complex, fixpoint);
-    const Walker walker(*scene, options.planted_bug != PlantedBug::no_rule_3);
-    const std::vector<std::uint32_t> lit =
+    const Walker walker(*scene, options.planted_bug != PlantedBug::no_rule_3, options.dials.longest_walk);
+    std::vector<std::uint32_t> lit =
         darkness.not_dark(*scene, walker, fixpoint, spread.visited(), statistics.shaft_tests);
+    if (options.dials.batch > 0) lit.resize(std::min(lit.size(), options.dials.batch));
     if (lit.empty() && spread.visited() == visited) {
       statistics.surfaces_visited = static_cast<std::uint64_t>(std::count(visited.begin(), visited.end(), true));
       statistics.surfaces_seen = spread.seen_count();

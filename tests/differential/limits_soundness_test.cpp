@@ -1,0 +1,182 @@
+// D7 under the limits of D17: whatever is left out, nothing visible is missing and no hidden region is seen. Both kernels, lists and regions, first order and refined; against the exact visible
+// set, point occlusion and sight lines. The decision by a single sample, which the fast path had, is planted and caught.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <set>
+
+#include "fastpath/bvh.h"
+#include "fastpath/visibility/first_order.h"
+#include "fastpath/visibility/local_map.h"
+#include "scene/cell_spec.h"
+#include "scene/mesh_io.h"
+#include "tests/differential/answers.h"
+#include "tests/reference/judges.h"
+
+namespace clues::tests {
+namespace {
+
+using Ids = std::vector<std::uint32_t>;
+
+// As they bite in small scenes: without a CSV for each edge.
+std::vector<Setting> limits() {
+  std::vector<Setting> settings;
+  for (const std::size_t csvs : {0U, 1U, 2U, 5U, 20U}) {
+    settings.push_back({std::to_string(csvs) + " CSVs", {}});
+    settings.back().dials.csv_limit = csvs;
+    settings.back().dials.csv_limit_per_edge = 0;
+  }
+  for (const int generations : {0, 1, 2}) {
+    settings.push_back({std::to_string(generations) + " generations", {}});
+    settings.back().dials.generation_limit = generations;
+  }
+  return settings;
+}
+
+fastpath::LocalMap fast_map(const fuzz::Case& scene, const exact::Dials& dials) {
+  fastpath::LocalMapOptions options;
+  options.dials = dials;
+  return fastpath::make_local_map(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
+}
+
+std::string name_of(const fuzz::Case& scene) {
+  return scene.generator + "-" + std::to_string(scene.seed) + "-" + std::to_string(scene.index);
+}
+
+// The planted decision: a side that no wedge piece cuts has the label of a point beside its middle, and only that point is asked whether it is in an anti-cone of what was left out.
+Ids listed_by_single_samples(const fuzz::Case& scene, const fastpath::LocalMap& map) {
+  std::vector<std::set<bool>> sides(scene.mesh.triangles.size());  // labels, of both
+  std::map<std::pair<std::uint32_t, bool>, std::vector<fastpath::LocalRegion>> regions;
+  for (const auto& r : map.regions()) regions[{r.triangle, r.front}].push_back(r);
+  for (const auto& [side, parts] : regions) {
+    const auto& [t, front] = side;
+    bool visible = std::any_of(parts.begin(), parts.end(), [](const auto& r) { return r.visible; });
+    if (visible && parts.size() == 1) {
+      const auto& c = parts.front().outline_estimate;
+      scene::Point u{}, w{}, p{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        u[k] = c[1][k] - c[0][k];
+        w[k] = c[2][k] - c[0][k];
+        p[k] = 0.3671875 * c[0][k] + 0.3359375 * c[1][k] + 0.296875 * c[2][k];
+      }
+      const scene::Point n{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0]};
+      const double size = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+      for (std::size_t k = 0; k < 3; ++k) p[k] += (front ? 0x1p-20 : -0x1p-20) * n[k] / std::sqrt(size);
+      visible = map.label(p) != fastpath::SetLabel::hidden;
+    }
+    sides[t].insert(visible);
+  }
+  Ids listed;
+  for (std::uint32_t t = 0; t < sides.size(); ++t) {
+    if (sides[t].contains(true)) listed.push_back(t);
+  }
+  return listed;
+}
+
+fuzz::Case tip() {
+  return {"limit-hides-a-tip", 0, 0, scene::read_mesh(CLUES_TEST_DATA "/limit-hides-a-tip.obj"),
+          scene::parse_cell("box:-1,-1,-1,1,1,0").points};
+}
+
+// More CSVs than the limit. The middle of triangle 2 is outside all anti-cones of what was left out, its tip is in one, and is seen; the fast path called all of it hidden.
+TEST(LimitsSoundness, ATipThatOnlyWedgesLeftOutShowIsListed) {
+  const fuzz::Case scene = tip();
+  const PointJudge judge(scene);
+  const auto map = fast_map(scene, {});
+  EXPECT_GT(map.counts().conservative_fallbacks, 0U);
+  EXPECT_TRUE(std::binary_search(map.visible().begin(), map.visible().end(), 2U));
+  const Answer closed = fast_answer(scene, {});
+  EXPECT_TRUE(std::binary_search(closed.visible.begin(), closed.visible.end(), 2U));
+  const Judged regions = judge_regions(judge, map.regions());
+  EXPECT_EQ(regions.seen, 0U);
+  exact::Dials from_nothing;
+  from_nothing.first_guess = exact::Dials::FirstGuess::nothing;
+  const Answer grown = fast_answer(scene, from_nothing);
+  EXPECT_TRUE(std::binary_search(grown.visible.begin(), grown.visible.end(), 2U));
+  for (const bool backprojection : {false, true}) {
+    const Answer refined = refined_fast_answer(scene, {}, backprojection, 1);
+    EXPECT_TRUE(std::binary_search(refined.visible.begin(), refined.visible.end(), 2U)) << refined.by;
+  }
+  // Planted: one sample of each side.
+  const Ids planted = listed_by_single_samples(scene, map);
+  EXPECT_FALSE(std::binary_search(planted.begin(), planted.end(), 2U));
+}
+
+struct Tally {
+  std::uint64_t scenes = 0, answers = 0, limited = 0, points = 0, planted_missing = 0;
+};
+
+void judge_first_order(const fuzz::Case& scene, const Setting& setting, const Ids& visible, const Ids& omega,
+                       const PointJudge& judge, Tally& tally) {
+  const auto expect_sound = [&](const Answer& answer) {
+    EXPECT_EQ(missing_from(visible, answer.visible), Ids{}) << answer.by;
+    EXPECT_EQ(missing_from(omega, answer.visible), Ids{}) << answer.by;  // nor anything that is visible to first order
+    ++tally.answers;
+    tally.limited += answer.fallbacks > 0;
+  };
+  expect_sound(reference_answer(scene, setting.dials));
+  expect_sound(reference_answer(scene, setting.dials, reference::Formulation::traversal));
+  expect_sound(fast_answer(scene, setting.dials));
+  Setting grown = setting;
+  grown.dials.first_guess = exact::Dials::FirstGuess::nothing;
+  expect_sound(fast_answer(scene, grown.dials));
+
+  reference::Options options;
+  options.threads = 1;
+  options.dials = setting.dials;
+  const auto contradictions =
+      test::contradictions(reference::first_order_visibility(scene.mesh, judge.cell(), options), 3, scene.index);
+  EXPECT_EQ(contradictions.total(), 0U);
+  const auto map = fast_map(scene, setting.dials);
+  const Judged regions = judge_regions(judge, map.regions());
+  EXPECT_EQ(regions.seen, 0U);
+  tally.points += contradictions.points + regions.points;
+  tally.planted_missing += missing_from(omega, listed_by_single_samples(scene, map)).size();
+}
+
+TEST(LimitsSoundness, NothingVisibleIsMissingWhateverIsLeftOut) {
+  Tally tally;
+  for (const fuzz::Case& scene : small_scenes(4, 30)) {
+    SCOPED_TRACE(name_of(scene));
+    const Ids visible = truly_visible(scene), omega = reference_answer(scene, {}).visible;
+    const PointJudge judge(scene);
+    ++tally.scenes;
+    for (const Setting& setting : limits()) {
+      SCOPED_TRACE(setting.name);
+      judge_first_order(scene, setting, visible, omega, judge, tally);
+    }
+  }
+  std::cout << tally.scenes << " scenes, " << tally.answers << " lists, " << tally.limited
+            << " of them with fallbacks, " << tally.points << " points of hidden regions; single samples miss "
+            << tally.planted_missing << " triangles of Omega\n";
+  EXPECT_GT(tally.limited, 0U);
+  EXPECT_GT(tally.points, 0U);
+}
+
+TEST(LimitsSoundness, NothingVisibleIsMissingFromRefinedLists) {
+  Tally tally;
+  for (const fuzz::Case& scene : small_scenes(2, 20)) {
+    SCOPED_TRACE(name_of(scene));
+    const Ids visible = truly_visible(scene);
+    ++tally.scenes;
+    for (const Setting& setting : limits()) {
+      SCOPED_TRACE(setting.name);
+      for (const bool backprojection : {false, true}) {
+        for (const Answer& answer : {refined_fast_answer(scene, setting.dials, backprojection, 2),
+                                     refined_reference_answer(scene, setting.dials, backprojection, 1)}) {
+          EXPECT_EQ(missing_from(visible, answer.visible), Ids{}) << answer.by;
+          ++tally.answers;
+          tally.limited += answer.fallbacks > 0;
+        }
+      }
+    }
+  }
+  std::cout << tally.scenes << " scenes, " << tally.answers << " lists, " << tally.limited
+            << " of them with fallbacks\n";
+  EXPECT_GT(tally.limited, 0U);
+}
+
+}  // namespace
+}  // namespace clues::tests
