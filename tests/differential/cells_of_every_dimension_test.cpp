@@ -3,23 +3,20 @@
 //   CLUES_LONG=1 CLUES_SCENES=50000 CLUES_FROM=0 clues_differential_tests --gtest_filter='CellsOfEveryDimensionLong.NothingHiddenIsSeen'
 // CLUES_SEED, CLUES_THREADS, CLUES_SHRUNK (how many of a kind are made smaller); CLUES_FINDINGS=FILE takes the findings, shrunk. Scene n is the same in every run; two processes may take halves.
 #include <gtest/gtest.h>
+#include <tbb/task_arena.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
-#include <ctime>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
-#include <mutex>
 #include <sstream>
 #include <thread>
-
-#include <tbb/task_arena.h>
 
 #include "exact/convex_cell.h"
 #include "fuzz/generators/touching_scenes.h"
 #include "tests/differential/scene_judge.h"
+#include "validate/workers.h"
 
 namespace clues::tests {
 namespace {
@@ -50,6 +47,7 @@ struct Slow {
   bool operator<(const Slow& other) const { return seconds > other.seconds; }
 };
 
+// Scenes are judged and shrunk in processes of their own: a crash, or a scene without end, is a flaw like any other.
 class Campaign {
  public:
   Campaign(std::uint64_t seed, SettingsOf settings) : seed_(seed), settings_(std::move(settings)) {
@@ -58,17 +56,21 @@ class Campaign {
 
   void run(std::uint64_t from, std::uint64_t count) {
     begin_ = Clock::now();
-    clock_ = std::clock();
-    std::atomic<std::uint64_t> next{from};
-    std::vector<std::thread> threads;
-    const std::uint64_t width = number_from("CLUES_THREADS", std::max(1U, std::thread::hardware_concurrency()));
-    for (std::uint64_t i = 0; i < width; ++i) {
-      threads.emplace_back([&] {
-        tbb::task_arena alone(1);  // one scene by one thread, the fast path's tasks too
-        for (std::uint64_t n = next++; n < from + count; n = next++) alone.execute([&] { judge(n); });
-      });
+    const auto width =
+        static_cast<int>(number_from("CLUES_THREADS", std::max(1U, std::thread::hardware_concurrency())));
+    validate::Workers workers(
+        width, [this](std::uint64_t task) { return worked(task); }, kTimeForOne);
+    for (std::uint64_t next = from; next < from + count || !to_shrink_.empty() || !workers.empty();) {
+      while (workers.idle() && (next < from + count || !to_shrink_.empty())) {
+        if (to_shrink_.empty()) {
+          workers.start(next++ * kTasks);
+        } else {
+          workers.start(to_shrink_.begin()->first);
+          shrinking_.insert(to_shrink_.extract(to_shrink_.begin()));
+        }
+      }
+      if (const auto reply = workers.wait(std::chrono::seconds(1))) take(*reply);
     }
-    for (std::thread& t : threads) t.join();
     print(from, count);
   }
 
@@ -77,26 +79,58 @@ class Campaign {
   const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
 
  private:
+  static constexpr std::uint64_t kTasks = 64;  // of each scene: 0 judges it, i + 1 shrinks its flaw i
+  static constexpr std::chrono::seconds kTimeForOne{60};
   const std::uint64_t shrunk_of_each_ = number_from("CLUES_SHRUNK", 12);  // of each category and dimension
 
-  void judge(std::uint64_t n) {
+  static int dimension_of(const fuzz::Case& scene) { return exact::ConvexCell::from_doubles(scene.cell).dimension(); }
+
+  // In a child: lines of kind, name and value; or the shrunk scene.
+  std::string worked(std::uint64_t task) const {
+    const fuzz::Case scene = scene_number(seed_, task / kTasks);
+    const JudgeSettings settings = settings_(task / kTasks);
+    std::ostringstream text;
+    tbb::task_arena alone(1);  // the fast path's tasks too
+    alone.execute([&] {
+      const Judgement j = judge_scene(scene, settings);
+      if (task % kTasks > 0) {
+        const std::string category = j.flaws.at(task % kTasks - 1).category;
+        const fuzz::Case small = shrunk(scene, settings, category);
+        for (const Flaw& f : judge_scene(small, settings).flaws)
+          text << "  " << f.category << (f.detail.empty() ? "" : ": ") << f.detail << '\n';
+        text << to_obj_text(small);
+        return;
+      }
+      text << "seconds\t-\t" << j.seconds << '\n';
+      for (const auto& [what, times] : j.counts) text << "count\t" << what << '\t' << times << '\n';
+      for (const Flaw& f : j.flaws) text << "flaw\t" << f.category << '\t' << f.detail << '\n';
+    });
+    return text.str();
+  }
+
+  void take(const validate::WorkerReply& reply) {
+    const std::uint64_t n = reply.task / kTasks;
+    if (const auto shrinking = shrinking_.extract(reply.task)) {
+      return tell(
+          n, shrinking.mapped(),
+          reply.finished ? reply.text : "  not shrunk: " + reply.text + '\n' + to_obj_text(scene_number(seed_, n)));
+    }
     const fuzz::Case scene = scene_number(seed_, n);
-    const JudgeSettings settings = settings_(n);
-    const auto begin = Clock::now();
-    const int dimension = exact::ConvexCell::from_doubles(scene.cell).dimension();
-    const Judgement j = judge_scene(scene, settings);
-    const Slow slow{seconds_since(begin), n};
-    const std::lock_guard lock(mutex_);
-    for (const auto& [what, times] : j.counts) counts_[what] += times;
     ++counts_["scenes"];
-    ++counts_["scenes of cells of dimension " + std::to_string(dimension)];
+    ++counts_["scenes of cells of dimension " + std::to_string(dimension_of(scene))];
     ++counts_["scenes of " + scene.generator];
-    slowest_.insert(std::upper_bound(slowest_.begin(), slowest_.end(), slow), slow);
-    if (slowest_.size() > 10) slowest_.pop_back();
-    for (const Flaw& f : j.flaws) {
-      ++flaws_[f.category];
-      const std::uint64_t same = ++flaws_by_dimension_[f.category + ", dimension " + std::to_string(dimension)];
-      tell(n, dimension, scene, settings, f, same <= shrunk_of_each_);
+    if (!reply.finished) note(n, scene, "the process of a scene: " + reply.text, std::nullopt);
+    std::uint64_t flaw = 0;
+    std::istringstream lines(reply.finished ? reply.text : "");
+    for (std::string kind, name, value; std::getline(lines, kind, '\t');) {
+      std::getline(lines, name, '\t');
+      std::getline(lines, value);
+      if (kind == "count") counts_[name] += std::strtoull(value.c_str(), nullptr, 10);
+      if (kind == "flaw") note(n, scene, name, n * kTasks + ++flaw);
+      if (kind != "seconds") continue;
+      const Slow slow{std::strtod(value.c_str(), nullptr), n};
+      slowest_.insert(std::upper_bound(slowest_.begin(), slowest_.end(), slow), slow);
+      if (slowest_.size() > 10) slowest_.pop_back();
     }
     if (++done_ % 1000 == 0) {
       std::cerr << done_ << " scenes, " << std::fixed << std::setprecision(0) << seconds_since(begin_) << " s, "
@@ -104,20 +138,24 @@ class Campaign {
     }
   }
 
-  void tell(std::uint64_t n, int dimension, const fuzz::Case& scene, const JudgeSettings& settings, const Flaw& flaw,
-            bool in_full) {
+  void note(std::uint64_t n, const fuzz::Case& scene, const std::string& category,
+            std::optional<std::uint64_t> shrink) {
+    ++flaws_[category];
+    const std::uint64_t same = ++flaws_by_dimension_[category + ", dimension " + std::to_string(dimension_of(scene))];
+    if (same > shrunk_of_each_) return tell(n, category, "");
+    if (!shrink) return tell(n, category, to_obj_text(scene));
+    to_shrink_[*shrink] = category;
+  }
+
+  void tell(std::uint64_t n, const std::string& category, const std::string& rest) {
+    const fuzz::Case scene = scene_number(seed_, n);
+    const JudgeSettings settings = settings_(n);
     std::ostringstream text;
-    text << "FLAW " << flaw.category << "\n  scene " << n << " of seed " << seed_ << " (" << scene.generator << ' '
-         << scene.index << "), cell of dimension " << dimension << '\n';
-    if (in_full) {
-      const fuzz::Case small = shrunk(scene, settings, flaw.category);
-      const Judgement again = judge_scene(small, settings);
-      for (const Flaw& f : again.flaws)
-        text << "  " << f.category << (f.detail.empty() ? "" : ": ") << f.detail << '\n';
-      if (settings.generation_limit) text << "  generation_limit " << *settings.generation_limit << '\n';
-      if (settings.csv_limit) text << "  csv_limit " << *settings.csv_limit << '\n';
-      text << to_obj_text(small) << '\n';
-    }
+    text << "FLAW " << category << "\n  scene " << n << " of seed " << seed_ << " (" << scene.generator << ' '
+         << scene.index << "), cell of dimension " << dimension_of(scene) << '\n';
+    if (settings.generation_limit) text << "  generation_limit " << *settings.generation_limit << '\n';
+    if (settings.csv_limit) text << "  csv_limit " << *settings.csv_limit << '\n';
+    text << rest << '\n';
     (findings_.is_open() ? static_cast<std::ostream&>(findings_) : std::cout) << text.str() << std::flush;
   }
 
@@ -130,11 +168,10 @@ class Campaign {
   void print(std::uint64_t from, std::uint64_t count) const {
     std::ostringstream text;
     text << "seed " << seed_ << ", scenes " << from << " to " << from + count - 1 << ", " << std::fixed
-         << std::setprecision(1) << seconds_since(begin_) << " s, "
-         << static_cast<double>(std::clock() - clock_) / CLOCKS_PER_SEC << " s of processor time\n";
+         << std::setprecision(1) << seconds_since(begin_) << " s\n";
     for (const auto& [what, times] : counts_) text << std::setw(12) << times << "  " << what << '\n';
-    text << "slowest:";
-    for (const Slow& s : slowest_) text << ' ' << s.n << " (" << std::setprecision(2) << s.seconds << " s)";
+    text << "slowest, in s of processor time:";
+    for (const Slow& s : slowest_) text << ' ' << s.n << " (" << std::setprecision(2) << s.seconds << ")";
     text << '\n' << total(flaws_) << " flaws\n";
     for (const auto& [what, times] : flaws_by_dimension_) text << std::setw(12) << times << "  FLAW " << what << '\n';
     std::cout << text.str();
@@ -142,12 +179,11 @@ class Campaign {
 
   std::uint64_t seed_;
   SettingsOf settings_;
-  std::mutex mutex_;
   Clock::time_point begin_;
-  std::clock_t clock_ = 0;
   std::ofstream findings_;
   std::uint64_t done_ = 0;
   std::map<std::string, std::uint64_t> counts_, flaws_, flaws_by_dimension_;
+  std::map<std::uint64_t, std::string> to_shrink_, shrinking_;  // tasks and the categories they are about
   std::vector<Slow> slowest_;
 };
 
