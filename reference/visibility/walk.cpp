@@ -238,6 +238,8 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   const exact::Complex& complex = scene_->complex();
   const exact::ConvexCell& cell = scene_->cell();
   Walk walk;
+  // Only a wedge piece upon the covering surface can light this edge (D14, rule 2), also where it lies on V: the surface may be one on V's border, and is meant from outside.
+  if (start.contour && start.contour->cover) return walk;
   if (cell.contains(start.p)) {
     walk.ends_at_cell = true;
     return walk;
@@ -245,8 +247,6 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   Point3 p = start.p;
   std::optional<SurfaceSide> surface = start.surface;
   const ContourEdge* contour = start.contour;
-  if (contour && contour->cover)
-    return walk;  // only a wedge piece upon the covering surface can light this edge (D14, rule 2)
   for (int depth = 0;; ++depth) {
     if (depth == longest_) {
       walk.unresolved = true;
