@@ -94,9 +94,16 @@ class LocalMap::Parts {
     bool counts = false;
   };
 
-  // D15. A side with a DM segment has a visible region: beside the segment, in H-. Any other has one label.
+  // What cuts a side: a DM segment, beside which it is visible; else planes of wedges that are in doubt, and only separate (T10).
+  struct Cut {
+    bool lit = false;
+    std::vector<const Plane*> planes;
+  };
+  using Cuts = std::vector<std::array<Cut, 2>>;  // by piece: front, back
+
+  // D15. A side with a DM segment has a visible region: beside the segment, in H-. Any other has one label, or one on every part between the planes.
   void find_visible() {
-    std::vector<std::array<bool, 2>> cut(scene.pieces.size(), {false, false});  // front, back
+    Cuts cut(scene.pieces.size());
     for (const ValidPiece& piece : search.pieces().pieces()) mark_traces(piece, cut);
     std::vector<std::vector<std::uint32_t>> pieces_of(scene.triangles);
     for (std::uint32_t t = 0; t < scene.pieces.size(); ++t)
@@ -117,7 +124,7 @@ class LocalMap::Parts {
   }
 
   // By these pieces, one after the other, until nothing more can be learnt from them.
-  std::vector<Lit> lit_of(const std::vector<std::uint32_t>& ids, const std::vector<std::array<bool, 2>>& cut) {
+  std::vector<Lit> lit_of(const std::vector<std::uint32_t>& ids, const Cuts& cut) {
     std::vector<Lit> found;
     const auto is_known = [&](const LocalOrigin& o) {
       return !wanted[o.triangle] || std::any_of(found.begin(), found.end(),
@@ -142,11 +149,19 @@ class LocalMap::Parts {
     return corners >= 2;
   }
 
-  void mark_traces(const ValidPiece& piece, std::vector<std::array<bool, 2>>& cut) const {
+  void mark_traces(const ValidPiece& piece, Cuts& cut) const {
     const OnWedge& on = *piece.on;
+    const auto mark = [&](std::uint32_t t, bool front) {
+      Cut& c = cut[t][front ? 0 : 1];
+      if (piece.in_doubt) {
+        c.planes.push_back(on.plane);
+      } else {
+        c.lit = true;
+      }
+    };
     if (piece.blocker >= 0) {
       const std::uint32_t t = on.blockers[static_cast<std::size_t>(piece.blocker)].piece;
-      if (!runs_along_an_edge(*on.plane, t)) cut[t][scene.planes[t].side(*on.center) > 0 ? 0 : 1] = true;
+      if (!runs_along_an_edge(*on.plane, t)) mark(t, scene.planes[t].side(*on.center) > 0);
     }
     // A piece seen edge-on is cut on the side, or sides, on which the strip runs along it.
     for (const Radial& r : on.radials) {
@@ -157,18 +172,22 @@ class LocalMap::Parts {
         const Vec3<NT> ccw = cross(normal_of<NT>(*on.plane), coordinates<NT>(*r.w) - coordinates<NT>(*on.center));
         return sign_of(NT(dot(normal_of<NT>(scene.planes[r.piece]), ccw))) > 0;
       });
-      if (before > 0) cut[r.piece][front_is_ccw ? 0 : 1] = true;
-      if (after > 0) cut[r.piece][front_is_ccw ? 1 : 0] = true;
+      if (before > 0) mark(r.piece, front_is_ccw);
+      if (after > 0) mark(r.piece, !front_is_ccw);
     }
   }
 
-  bool side_visible(std::uint32_t t, bool front, bool is_cut) {
+  bool side_visible(std::uint32_t t, bool front, const Cut& cut) {
     const Plane& h = scene.planes[t];
     const int side = front ? 1 : -1;
     // A side that no point of V is strictly in front of is reached by no sight line and no continuation (D8).
     const auto& s = scene.cell.vertices;
     if (std::none_of(s.begin(), s.end(), [&](const ExactPoint& v) { return h.side(v) == side; })) return false;
-    if (is_cut) return true;
+    if (cut.lit) return true;
+    if (!cut.planes.empty()) {
+      const std::vector<std::vector<Exact3>> parts = parts_between(t, cut.planes);
+      return std::any_of(parts.begin(), parts.end(), [&](const auto& part) { return part_visible(t, side, part); });
+    }
     // A wedge piece in the plane of the piece lies on its back, as V has points in front.
     const auto behind_the_piece = [&](const Plane& wedge) {
       return wedge.side(scene.corner(t, 0)) == 0 && wedge.side(scene.corner(t, 1)) == 0 &&
@@ -200,17 +219,82 @@ class LocalMap::Parts {
       int level = up_size > 0 ? 0 : kDoubles;
       const auto place = [&](int at) { return beside(side, at); };
       const auto p = near_enough(level, 2 * kDoubles, place, [&](const ExactPoint& x) {
-        const ExactPoint q = beside(-side, level);
-        if (h.side(x) != side || h.side(q) != -side || scene.crosses(x, q, t) != Crossing::yes) return false;
-        const bool blocked = scene.tree.any(SegmentTest(x, q), [&](std::uint32_t i) {
-          return scene.occluders[i] != t && scene.crosses(x, q, scene.occluders[i]) != Crossing::no;
-        });
-        return !blocked && !search.pieces().may_meet(x, q, 0, behind_the_piece);
+        return nothing_else_between(x, beside(-side, level), t, side, behind_the_piece);
       });
       if (!p) continue;
       ++side_walks;
       const std::array<IntervalBox, 3> corners{scene.corner(t, 0).approximate(), scene.corner(t, 1).approximate(),
                                                scene.corner(t, 2).approximate()};
+      return one_label->of_uncut(corners, *p) != SetLabel::hidden;
+    }
+    ++side_fallbacks;
+    return true;
+  }
+
+  // Whether piece t, x on the given side of it, is all that divides x from q: no other surface and no wedge piece, but for those in planes that `leaves_out`.
+  template <class LeavesOut>
+  bool nothing_else_between(const ExactPoint& x, const ExactPoint& q, std::uint32_t t, int side,
+                            const LeavesOut& leaves_out) const {
+    const Plane& h = scene.planes[t];
+    if (h.side(x) != side || h.side(q) != -side || scene.crosses(x, q, t) != Crossing::yes) return false;
+    const bool blocked = scene.tree.any(SegmentTest(x, q), [&](std::uint32_t i) {
+      return scene.occluders[i] != t && scene.crosses(x, q, scene.occluders[i]) != Crossing::no;
+    });
+    return !blocked && !search.pieces().may_meet(x, q, 0, leaves_out);
+  }
+
+  // The piece cut along these planes into convex parts.
+  std::vector<std::vector<Exact3>> parts_between(std::uint32_t t, const std::vector<const Plane*>& planes) const {
+    std::vector<std::vector<Exact3>> parts{
+        {scene.corner(t, 0).exact(), scene.corner(t, 1).exact(), scene.corner(t, 2).exact()}};
+    for (const Plane* h : planes) {
+      const auto height = [&](const Exact3& x) { return Rational(dot(h->normal_exact(), x - h->base().exact())); };
+      std::vector<std::vector<Exact3>> cut;
+      for (const std::vector<Exact3>& part : parts) {
+        std::vector<Exact3> above, below;
+        for (std::size_t i = 0; i < part.size(); ++i) {
+          const Exact3 &p = part[i], &q = part[(i + 1) % part.size()];
+          const Rational at_p = height(p), at_q = height(q);
+          if (at_p >= 0) above.push_back(p);
+          if (at_p <= 0) below.push_back(p);
+          if (sign_of(at_p) * sign_of(at_q) >= 0) continue;
+          above.push_back(p + Rational(at_p / (at_p - at_q)) * (q - p));
+          below.push_back(above.back());
+        }
+        for (std::vector<Exact3>& half : {std::ref(above), std::ref(below)}) {
+          if (half.size() >= 3) cut.push_back(std::move(half));
+        }
+      }
+      parts = std::move(cut);
+    }
+    return parts;
+  }
+
+  // Whether a convex part of a side counts as visible, by a point beside it with nothing but the piece between that and the other side.
+  bool part_visible(std::uint32_t t, int side, const std::vector<Exact3>& part) {
+    const Plane& h = scene.planes[t];
+    std::vector<IntervalBox> corners;
+    for (const Exact3& x : part) corners.push_back(ExactPoint(x).approximate());
+    for (int which = 1; which <= 4; ++which) {
+      Exact3 sum = Rational(0) * part[0];
+      Rational all(0);
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        const Rational weight(static_cast<double>(7 + (static_cast<int>(i) * 5 * which + which) % 11));
+        sum = sum + weight * part[i];
+        all += weight;
+      }
+      const ExactPoint inner(Rational(1 / all) * sum);
+      const auto beside = [&](int way, int level) {
+        return ExactPoint::lifted(inner, scene.corner(t, 0), std::ldexp(1.0, -8 - 24 * level), h, way);
+      };
+      int level = 0;
+      const auto p = near_enough(
+          level, 3, [&](int at) { return beside(side, at); },
+          [&](const ExactPoint& x) {
+            return nothing_else_between(x, beside(-side, level), t, side, [](const Plane&) { return false; });
+          });
+      if (!p) continue;
+      ++side_walks;
       return one_label->of_uncut(corners, *p) != SetLabel::hidden;
     }
     ++side_fallbacks;

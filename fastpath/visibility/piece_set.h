@@ -19,7 +19,8 @@ struct ValidPiece {
   const ExactPoint *near0 = nullptr, *near1 = nullptr;  // the whole near edge; none for an apex
   int blocker = -1;                                     // index into on->blockers
   bool holds_cell = false;                              // all of V lies in its plane: no sight line crosses it (T10)
-  IntervalBox box{};                                    // of the part within the bounds
+  bool in_doubt = false;  // and whether it exists was not decided: what it ends at need not be visible there
+  IntervalBox box{};      // of the part within the bounds
 };
 
 // `bounds` must hold every segment that will be asked about. O(1).

@@ -44,6 +44,7 @@ class Search::Work {
     const ExactPoint *lo = nullptr, *hi = nullptr;
     Contact* contact = nullptr;
     std::uint32_t sector = 0;
+    bool in_doubt = false;  // its source counts as visible without a proof
   };
 
   // --- one round ----------------------------------------------------------------------------------------------------------------
@@ -161,8 +162,11 @@ class Search::Work {
       while (j < parts.size() && parts[j].contour == parts[i].contour && parts[j].lit) ++j;
       if (j > i) {
         const std::size_t c = parts[i].contour;
+        const bool in_doubt =
+            std::any_of(parts.begin() + static_cast<std::ptrdiff_t>(i), parts.begin() + static_cast<std::ptrdiff_t>(j),
+                        [](const Sources::OfEdge& s) { return s.walk.end == Walk::End::unresolved; });
         for (int k = 0; k < static_cast<int>(contours[c].touching.size()); ++k)
-          jobs.push_back({c, k, parts[i].part.lo, parts[j - 1].part.hi, nullptr, 0});
+          jobs.push_back({c, k, parts[i].part.lo, parts[j - 1].part.hi, nullptr, 0, in_doubt});
       }
       i = std::max(j, i + 1);
     }
@@ -229,6 +233,7 @@ class Search::Work {
     ValidPiece piece;
     piece.on = &on;
     piece.holds_cell = scene.cell.lies_in(*on.plane);
+    piece.in_doubt = piece.holds_cell && (job.touching < 0 || job.in_doubt);
     const ExactPoint *lo = job.lo, *hi = job.hi;
     if (job.touching < 0) {
       piece.kind = PieceKind::se_mv;

@@ -144,6 +144,19 @@ std::vector<int> LocalStar::face_of(const Vector3& d) const {
   return name;
 }
 
+std::vector<Vector3> LocalStar::border_of(const std::vector<int>& face) const {
+  std::vector<Vector3> ends;
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    const auto is_side = [&](std::size_t side) {
+      return std::find(face.begin(), face.end(), root(static_cast<int>(side))) != face.end();
+    };
+    if (!is_side(2 * i) && !is_side(2 * i + 1)) continue;
+    ends.push_back(nodes_[static_cast<std::size_t>(arcs_[i].a)]);
+    ends.push_back(nodes_[static_cast<std::size_t>(arcs_[i].b)]);
+  }
+  return ends;
+}
+
 std::optional<int> LocalStar::side_met(const Vector3& d, std::size_t aim_arc, int aim) const {
   const Vector3 target = FT(1 + aim) * nodes_[static_cast<std::size_t>(arcs_[aim_arc].a)] +
                          FT(1 + (aim * 7) % 11) * nodes_[static_cast<std::size_t>(arcs_[aim_arc].b)];

@@ -29,6 +29,9 @@ class LocalStar {
   // Names the face of the sphere that contains d (not on an arc): two directions lie in one face exactly when the names are equal.
   std::vector<int> face_of(const exact::Vector3& d) const;
 
+  // The directions in which the arcs that border this face end.
+  std::vector<exact::Vector3> border_of(const std::vector<int>& face) const;
+
   // Whether the great circle arc from d0 (excluded) to d1 (included) surely meets no incident piece. d0 and d1 not opposite.
   bool free_between(const exact::Vector3& d0, const exact::Vector3& d1) const;
 

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "exact/simple_point.h"
+#include "reference/visibility/corner.h"
 #include "scene/error.h"
 
 namespace clues::reference {
@@ -207,7 +208,28 @@ std::optional<Leg> Walker::groove_leg(const Walk& walk) const {
     if (between.degenerate || !between.hits.empty()) return std::nullopt;
     const auto at_edge =
         *std::find_if(e.pieces.begin(), e.pieces.end(), [&](auto i) { return is_wall(i, wall, other); });
-    return Leg{y, q, at_edge, last.front, true};
+    return Leg{y, q, at_edge, last.front, true, false};
+  }
+  return std::nullopt;
+}
+
+std::optional<Leg> Walker::corner_leg(const Walk& walk) const {
+  constexpr std::size_t kTurns = 6;
+  const std::size_t n = walk.legs.size();
+  if (n < kTurns || n % 3 != 0) return std::nullopt;
+  const exact::Complex& complex = scene_->complex();
+  const Leg& last = walk.legs.back();
+  for (const std::uint32_t corner : complex.pieces[last.piece].corners) {
+    const bool of_all = std::all_of(walk.legs.end() - kTurns, walk.legs.end(), [&](const Leg& leg) {
+      const auto& c = complex.pieces[leg.piece].corners;
+      return std::find(c.begin(), c.end(), corner) != c.end();
+    });
+    if (!of_all) continue;
+    const Point3& y = complex.points[corner];
+    const Point3 q = exact::collapsed(CGAL::midpoint(last.m, last.p));
+    const exact::SegmentAnswer between = scene_->crossings(q, y);
+    if (between.degenerate || !between.hits.empty()) continue;
+    if (is_dark_corner(complex, scene_->cell(), corner, q - y)) return Leg{y, q, last.piece, last.front, false, true};
   }
   return std::nullopt;
 }
@@ -248,6 +270,10 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   std::optional<SurfaceSide> surface = start.surface;
   const ContourEdge* contour = start.contour;
   for (int depth = 0;; ++depth) {
+    if (const std::optional<Leg> leg = corner_leg(walk)) {
+      walk.legs.push_back(*leg);
+      return walk;
+    }
     if (depth == longest_) {
       walk.unresolved = true;
       return walk;
@@ -330,7 +356,7 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     const exact::Hit& last = answer.hits.back();
     const Point3 m = last_crossing(v, p, last, good);
     const bool front = complex.planes[last.piece].oriented_side(p) == CGAL::ON_POSITIVE_SIDE;
-    walk.legs.push_back({m, p, last.piece, front, false});
+    walk.legs.push_back({m, p, last.piece, front, false, false});
     if (!rule_3_) return walk;
     p = m;
     surface = SurfaceSide{last.piece, front};
@@ -380,7 +406,8 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
       };
       if (h.oriented_side(leg.m) == CGAL::ON_ORIENTED_BOUNDARY) {
         if (holds_piece(leg.piece)) return true;
-        if (leg.from_edge) {  // a wedge through the edge itself runs outside the groove
+        if (leg.from_corner) return true;  // the leg leaves its plane
+        if (leg.from_edge) {               // a wedge through the edge itself runs outside the groove
           const auto& edges = complex.piece_edges[leg.piece];
           return std::any_of(edges.begin(), edges.end(),
                              [&](auto e) { return on_plane(complex.edges[e].a) && on_plane(complex.edges[e].b); });
@@ -401,7 +428,7 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
         crossed = wedges.crossed(leg.m, leg.p, first, crosses_nothing, h.orthogonal_vector());
     }
     note(crossed);
-    if (result != Meets::yes && !leg.from_edge) upon(leg.piece, leg.front, leg.m);
+    if (result != Meets::yes && !leg.from_edge && !leg.from_corner) upon(leg.piece, leg.front, leg.m);
   }
   return result;
 }

@@ -30,9 +30,10 @@ namespace clues::reference {
 
 struct Leg {
   exact::Point3 m, p;
-  std::uint32_t piece = 0;  // the surface at m
-  bool front = true;        // its side that faces p
-  bool from_edge = false;   // m is on an edge of the piece, and stands for the space beside it (see Walker::walk)
+  std::uint32_t piece = 0;   // the surface at m
+  bool front = true;         // its side that faces p
+  bool from_edge = false;    // m is on an edge of the piece, and stands for the space beside it (see Walker::walk)
+  bool from_corner = false;  // m is a corner of the piece, and stands for the dark space next to it (corner.h)
 };
 
 struct Walk {
@@ -101,6 +102,8 @@ class Walker {
   // v in int V near `end`, strictly in front of `on`, such that the sight line to p does not cross `before`; none was found: nullopt.
   std::optional<exact::Point3> along_groove(const exact::Point3& p, const SurfaceSide& on, const SurfaceSide& before,
                                             const exact::Point3& end) const;
+  // The last leg of a walk that runs into a dark corner for ever.
+  std::optional<Leg> corner_leg(const Walk& walk) const;
   // The last leg of a walk that runs into the groove between two pieces for ever.
   std::optional<Leg> groove_leg(const Walk& walk) const;
   exact::Point3 last_crossing(const exact::Point3& v, const exact::Point3& p, const exact::Hit& hit,
