@@ -222,7 +222,7 @@ Compared compare(int dimension, std::uint64_t seed, const Oracle& oracle, bool c
     const Asked asked{scene, scene.exact_cell(), {half(1), 0, 1}, std::nullopt};
     const std::string flaw = flaw_of(asked, oracle(asked));
     total.wrong += flaw.empty() ? 0 : 1;
-    if (complain) EXPECT_EQ(flaw, "") << scene.words();
+    if (complain && !flaw.empty()) ADD_FAILURE() << flaw << "\n" << scene.words();
   }
   while (total.points < kPoints) {
     const Scene scene(random, dimension, 5);
@@ -317,7 +317,7 @@ Told with_single_points(const Asked& asked) {
   for (const Triangle& t : asked.scene.soup) {
     for (int k = 0; k < 24; ++k) {  // along its edges
       const RVector &a = t[static_cast<std::size_t>(k) % 3], &b = t[static_cast<std::size_t>(k + 1) % 3];
-      const RVector v = sum(a, times(minus(b, a), Rational(k / 3) / 8));
+      const RVector v = sum(a, times(minus(b, a), Rational(Rational(k / 3) / 8)));
       if (!told.occluded || !thin::interior_contains(asked.scene.cell, v)) continue;
       if (asked.side && sgn(dot(*asked.side, minus(v, asked.p))) <= 0) continue;
       const auto& soup = asked.scene.soup;
@@ -431,7 +431,7 @@ TEST(ThinCells, WitnessesAgreeWithThePlainWay) {
     std::cout << "dimension " << dimension << ": " << c.lines << " sight lines, " << c.valid << " accepted, "
               << c.special << " free, but touched at an end\n";
     EXPECT_GT(c.valid, 1000);
-    EXPECT_GT(c.special, 30);
+    EXPECT_GT(c.special, 10);
   }
 }
 
@@ -481,6 +481,18 @@ struct Frustum {
     share.canonicalize();
     return sum(q, times(minus(Scene::on(plate, random, inside), q), share));
   }
+
+  // Behind the plate, in the frustum; or, if it is to be wild, in part anywhere.
+  Triangle triangle(Random& random, const Scene& scene, bool wild) const {
+    Triangle t;
+    do {
+      for (RVector& x : t) {
+        x = at(random, Rational(wild ? random.between(4, 28) : random.between(9, 23), 8), !wild);
+        if (wild && random.one_in(3)) x = random.one_in(2) ? scene.on_cell(random) : Scene::grid(random);
+      }
+    } while (is_zero(thin::normal_of(t)));
+    return t;
+  }
 };
 
 using HiddenProof = std::function<bool(const scene::TriangleMesh&, const ConvexCell&, const UmbraCertificate&, bool)>;
@@ -498,18 +510,8 @@ Proved compare_proofs(int dimension, std::uint64_t seed, const HiddenProof& prov
     scene.cell = frustum.cell;
     const ConvexCell cell = scene.exact_cell();
     for (int k = 0; k < 5; ++k) {
-      Triangle t;
-      bool strictly_inside = true;
-      do {
-        strictly_inside = true;
-        const bool wild = random.one_in(2);
-        for (RVector& x : t) {
-          const int eighths = wild ? random.between(4, 28) : random.between(9, 23);
-          x = frustum.at(random, Rational(eighths, 8), !wild);
-          if (wild && random.one_in(3)) x = random.one_in(2) ? scene.on_cell(random) : Scene::grid(random);
-          strictly_inside = strictly_inside && !wild;
-        }
-      } while (is_zero(thin::normal_of(t)));
+      const bool strictly_inside = random.one_in(2);
+      const Triangle t = frustum.triangle(random, scene, !strictly_inside);
       scene.soup = {frustum.plate, t};
       const scene::TriangleMesh mesh = scene.mesh();
       if (k == 0) {
@@ -578,7 +580,14 @@ TEST(ThinCells, VisibleSetsAgreeWithThePlainWay) {
     Random random(s + 30 + static_cast<std::uint64_t>(dimension));
     int visible = 0, hidden = 0, points = 0;
     for (int round = 0; round < 300; ++round) {
-      const Scene scene(random, dimension, 6);
+      Scene scene(random, dimension, 6);
+      if (round % 3 != 0) {  // most of it behind a plate
+        const Frustum frustum(random, dimension);
+        scene.cell = frustum.cell;
+        scene.soup = {frustum.plate};
+        for (int k = random.between(1, 4); k > 0; --k)
+          scene.soup.push_back(frustum.triangle(random, scene, random.one_in(3)));
+      }
       VisibleSetOptions options;
       options.trust_map = false;
       options.points_first = round % 2 == 0;
