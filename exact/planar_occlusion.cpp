@@ -1,5 +1,6 @@
 // The planar oracle (D18): gather every direction at which a triangle's shadow can begin or end, then try one direction in each
-// gap. What is seen in the directions in between, and in no gap beside them, is no open part of the cell (D6).
+// gap. What is seen in the directions in between, and in no gap beside them, is no open part of the cell
+// (D6).
 #include "exact/planar_occlusion.h"
 
 #include <algorithm>
@@ -86,8 +87,9 @@ bool is_free(const Point3& end, bool closed, const Point3& p, const std::vector<
                       [&](const TriangleCorners& t) { return blocks(t, end, closed, p); });
 }
 
-// Where the line from p enters the cell, and where it leaves it: a point between the two that no triangle holds, nor what lies between it and p. None if a
-// triangle meets the way up to `enter`; else there are such points near `enter`, as triangles are closed.
+// Where the line from p enters the cell, and where it leaves it: a point between the two that no triangle
+// holds, nor what lies between it and p. None if a triangle meets the way up to `enter`; else there are such
+// points near `enter`, as triangles are closed.
 std::optional<Point3> free_point_behind(const Point3& enter, const Point3& leave, const Point3& p,
                                         const std::vector<TriangleCorners>& triangles) {
   if (!is_free(enter, true, p, triangles)) return std::nullopt;
@@ -102,7 +104,8 @@ std::optional<Point3> free_point_behind(const Point3& enter, const Point3& leave
 std::optional<Point3> free_point_of_segment(const Point3& p, const std::optional<Plane3>& side, const Point3& a,
                                             const Point3& b, const std::vector<TriangleCorners>& triangles) {
   Fan fan(p, side, a - p, b - p);
-  // Only what is between p and the line ab blocks, so a shadow may also end where its triangle passes that line.
+  // Only what is between p and the line ab blocks, so a shadow may also end where its triangle passes that
+  // line.
   for (const TriangleCorners& t : triangles) fan.add_section(t, {{a, b}});
   const Vector3 across = CGAL::cross_product(fan.normal(), b - a);
   const FT at_p = CGAL::scalar_product(across, p - a);

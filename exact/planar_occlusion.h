@@ -1,6 +1,7 @@
-// D18 where all sight lines from p to the cell lie in one plane: a segment as cell, or a polygon in whose plane p lies. Directions are then
-// ordered, and what is visible can change only at finitely many. Such a cell has no interior in space, so triangles block in it as elsewhere (D3), and
-// a point v that is found has all points of the cell near it that see p as well (D6).
+// D18 where all sight lines from p to the cell lie in one plane: a segment as cell, or a polygon in whose
+// plane p lies. Directions are then ordered, and what is visible can change only at finitely many. Such a
+// cell has no interior in space, so triangles block in it as elsewhere (D3), and a point v that is found has
+// all points of the cell near it that see p as well (D6).
 #pragma once
 
 #include <optional>
@@ -16,7 +17,8 @@ namespace clues::exact {
 std::optional<Point3> free_point_of_segment(const Point3& p, const std::optional<Plane3>& side, const Point3& a,
                                             const Point3& b, const std::vector<TriangleCorners>& triangles);
 
-// p on the line ab, but not between a and b: the same. Of the segment p sees what lies before the first triangle upon it. O(n).
+// p on the line ab, but not between a and b: the same. Of the segment p sees what lies before the first
+// triangle upon it. O(n).
 std::optional<Point3> free_point_of_segment_end_on(const Point3& p, const Point3& a, const Point3& b,
                                                    const std::vector<TriangleCorners>& triangles);
 

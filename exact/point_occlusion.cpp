@@ -52,7 +52,8 @@ class ConeSearch {
       pieces.pop_back();
       Vector3 direction;
       const DirectionCone* shadow = nullptr;
-      // A triangle whose shadow is flat, or that stands behind a flat cell, can spoil this line, but not the piece: take another line.
+      // A triangle whose shadow is flat, or that stands behind a flat cell, can spoil this line, but not the
+      // piece: take another line.
       for (int t = 1; !shadow; ++t) {
         direction = interior_direction(piece, t);
         bool blocked = false;
@@ -90,7 +91,8 @@ class ConeSearch {
     return best;
   }
 
-  // A point of a flat cell that a triangle of another plane holds may see p without the points beside it (D6).
+  // A point of a flat cell that a triangle of another plane holds may see p without the points beside it
+  // (D6).
   bool stands_at(const TriangleCorners& t, const Point3& v) const {
     return !solid_ && blocks(t, v, true, p_) &&
            !std::all_of(t.begin(), t.end(), [&](const Point3& corner) { return plane_.has_on(corner); });

@@ -21,16 +21,21 @@ struct WitnessVerdict {
       false;  // not valid, but free (D5): v or p is touched by a triangle, and proves nothing of what is beside it
 };
 
-// p must lie in the relative interior of triangle t of the mesh, v in int V, and the open segment (v,p) must miss S (D3, D5: touching blocks): every
-// triangle with area, without what lies inside a solid cell. `front`: p is asked for on the front side (right-hand rule), else on the back; v must
-// lie strictly on that side. A triangle that meets V needs no witness (D3). O(n).
+// p must lie in the relative interior of triangle t of the mesh, v in int V, and the open segment (v,p) must
+// miss S (D3, D5: touching blocks): every triangle with area, without what lies inside a solid cell. `front`:
+// p is asked for on the front side (right-hand rule), else on the back; v must lie strictly on that side. A
+// triangle that meets V needs no witness (D3). O(n).
 //
-// One free segment proves D6, which asks for an open part of int V and for an area of t, by two more conditions:
-//   - no triangle of another plane touches t at p. Then all points of t around p are seen from v, not a line or point between others that stand on t;
-//   - on a flat cell or a segment, no triangle holds v, but as plain_sight.h allows. Then all of int V near v sees p as v does, not a line or
-//     point of V between others that stand on it. In a solid cell v has int V on all sides, and what is in there blocks nothing; a point is all of its V.
-// Together: (v',p') is free for all v' of int V near v and all p' of t near p. For S is closed in every dimension. A solid cell: S is the triangles without the open
-// set int V, and (v,p) leaves int V at one point; (v',p') leaves it near there. Other cells: S is the triangles, and (v,p) is free from v on.
+// One free segment proves D6, which asks for an open part of int V and for an area of t, by two more
+// conditions:
+//   - no triangle of another plane touches t at p. Then all points of t around p are seen from v, not a line
+//     or point between others that stand on t;
+//   - on a flat cell or a segment, no triangle holds v, but as plain_sight.h allows. Then all of int V near v
+//     sees p as v does, not a line or point of V between others that stand on it. In a solid cell v has int V
+//     on all sides, and what is in there blocks nothing; a point is all of its V.
+// Together: (v',p') is free for all v' of int V near v and all p' of t near p. For S is closed in every
+// dimension. A solid cell: S is the triangles without the open set int V, and (v,p) leaves int V at one
+// point; (v',p') leaves it near there. Other cells: S is the triangles, and (v,p) is free from v on.
 WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& cell, std::uint32_t triangle,
                              bool front, const Point3& v, const Point3& p);
 

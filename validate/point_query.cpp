@@ -50,7 +50,8 @@ PointQuery::PointQuery(const scene::TriangleMesh& mesh, const reference::Omega& 
 }
 
 // Only triangles that are known to matter are put to the oracle: it answers with a sight line that misses these, and what stops that line is
-// added, until it is free or there is none. So is a triangle that v lies on: points of int V beside v need not see p then (D6).
+// added, until it is free or there is none. So is a triangle that v lies on: points of int V beside v need
+// not see p then (D6).
 PointAnswer PointQuery::look(const Point3& p, const std::optional<Plane3>& side) const {
   PointAnswer answer;
   const exact::ConvexCell& cell = omega_.map().cell;

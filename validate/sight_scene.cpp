@@ -216,7 +216,8 @@ std::optional<SightQuestion> SightScene::question(std::uint32_t triangle, bool f
   for (std::size_t i = 0; i < 3; ++i) hull_points.push_back(corner(i));
   const CellShape hull{exact::ConvexCell(hull_points)};
   const exact::ConvexCell body({corner(0), corner(1), corner(2)});
-  // What stands on the cell or on the target from outside the hull stops no line, but spoils single points of them for a witness.
+  // What stands on the cell or on the target from outside the hull stops no line, but spoils single points of
+  // them for a witness.
   const auto spoils = [&](const Polygon& t) {
     const exact::TriangleCorners c{to_point(t[0]), to_point(t[1]), to_point(t[2])};
     return shape_.dimension < 3 && (exact::meets_cell(c, cell_) || exact::meets_cell(c, body));

@@ -38,8 +38,9 @@ class SightScene {
   // nullopt: no sight line can reach this side, as no point of int V lies before it.
   std::optional<SightQuestion> question(std::uint32_t triangle, bool front) const;
 
-  // A segment as cell: where the planes of triangles cross it, in parts of its length, ascending. All triangles that hold a point between two of these hold
-  // those beside it too, or end there in a plane with the segment.
+  // A segment as cell: where the planes of triangles cross it, in parts of its length, ascending. All
+  // triangles that hold a point between two of these hold those beside it too, or end there in a plane with
+  // the segment.
   const std::vector<Rational>& stops() const { return stops_; }
 
  private:

@@ -77,7 +77,8 @@ struct CellBounds {
     return polygon;
   }
 
-  // Whether it meets int V. A relatively inner point of what it shares with V is in int V if any point of it is.
+  // Whether it meets int V. A relatively inner point of what it shares with V is in int V if any point of it
+  // is.
   bool interior_meets(const Polygon& given) const {
     const Polygon polygon = shared(given);
     if (polygon.empty()) return false;

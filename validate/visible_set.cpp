@@ -107,7 +107,8 @@ class Search {
     return std::nullopt;
   }
 
-  // A single point as cell: the same from there, the triangle being what is to be seen. All is decided by that.
+  // A single point as cell: the same from there, the triangle being what is to be seen. All is decided by
+  // that.
   std::optional<Witness> ask_viewpoint(const SightQuestion& question) {
     const Point3& v = cell_.center();
     const auto& triangle = question.target.triangle;
@@ -173,8 +174,9 @@ class Search {
     return std::nullopt;
   }
 
-  // Free lines are an open set, so a small enough nudge off the edge leaves one; it is found by halving. Where its ends are touched, which spoils them for
-  // a witness (D6), another direction beside is taken, in another place each time.
+  // Free lines are an open set, so a small enough nudge off the edge leaves one; it is found by halving.
+  // Where its ends are touched, which spoils them for a witness (D6), another direction beside is taken, in
+  // another place each time.
   std::optional<Witness> witness_from(const SightQuestion& question, const Opening& opening, Passage passage) const {
     const RVector d{opening.d[0], opening.d[1], opening.d[2]};
     Rational size(1, 16);

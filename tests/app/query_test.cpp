@@ -96,7 +96,8 @@ TEST_F(ThinCells, AnEmptyUmbraHidesNoTriangleThatTouchesAFlatCell) {
   EXPECT_THAT(ran.out, HasSubstr("hidden triangles: 0 of 1\n"));
 }
 
-// Triangle 2 is seen from the line, or the point, at which the two others stand on the cell, and from nowhere else.
+// Triangle 2 is seen from the line, or the point, at which the two others stand on the cell, and from nowhere
+// else.
 TEST_F(ThinCells, WhatIsSeenFromBetweenTrianglesOnTheCellAloneIsHidden) {
   const auto agree = [&](const char* scene, const std::string& cell) {
     folder_.write("scene.off", scene);

@@ -156,7 +156,8 @@ TEST(PointOcclusion, FlatCellSeenFromOutsideItsPlane) {
   EXPECT_FALSE(occluded(eye, flat, {}));
   EXPECT_TRUE(occluded(eye, flat, screen(0, -half, -half, half, half)));
   EXPECT_FALSE(occluded(eye, flat, screen(0, -half, -half, half, half - FT(1) / FT(1024))));
-  // In the cell's own plane: a sight line to a point off the plane leaves it at once, unlike that of a solid cell.
+  // In the cell's own plane: a sight line to a point off the plane leaves it at once, unlike that of a solid
+  // cell.
   EXPECT_FALSE(occluded(eye, flat, screen(-1, -9, -9, 9, 9)));
 }
 
@@ -238,7 +239,8 @@ TEST(PointOcclusion, AShadowEndsWhereItsTriangleCrossesTheLineOfASegmentCell) {
 
 TEST(PointOcclusion, AFreePointOfASegmentCellIsNoOpenPartOfIt) {
   const ConvexCell segment({Point3(-1, -1, 0), Point3(-1, 1, 0)});
-  // Each triangle stands on the segment and hides one half; sight lines from the point where they meet are free.
+  // Each triangle stands on the segment and hides one half; sight lines from the point where they meet are
+  // free.
   const Soup halves{{Point3(-1, 0, 0), Point3(0, -2, 0), Point3(-1, -2, 0)},
                     {Point3(-1, 0, 0), Point3(0, 2, 0), Point3(-1, 2, 0)}};
   EXPECT_TRUE(occluded(eye, segment, halves));

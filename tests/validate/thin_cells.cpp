@@ -67,7 +67,8 @@ std::optional<Rational> place_on(const Cell& segment, const RVector& x) {
   return Rational(dot(d, to) / dot(d, d));
 }
 
-// p in the plane of the polygon: what lies behind the edge x y of something, or all the way from p if that holds p.
+// p in the plane of the polygon: what lies behind the edge x y of something, or all the way from p if that
+// holds p.
 std::optional<std::vector<Half>> behind(const RVector& p, const RVector& x, const RVector& y, const RVector& up,
                                         bool from_p) {
   const auto beside_x = half_at(p, cross(up, minus(x, p)), y), beside_y = half_at(p, cross(up, minus(y, p)), x);

@@ -1,6 +1,7 @@
-// A second, plain way to what the checkers of certificates (D18) decide for cells without an interior: a point, a segment, a convex polygon. Everything is
-// solved on the cell itself, in rationals: the shadow of a triangle from p is an interval of the segment, or a few half planes of the polygon's plane, and
-// what the shadows leave is computed. No sight line is tried, and nothing of exact/ or validate/ is used but vectors.
+// A second, plain way to what the checkers of certificates (D18) decide for cells without an interior: a
+// point, a segment, a convex polygon. Everything is solved on the cell itself, in rationals: the shadow of a
+// triangle from p is an interval of the segment, or a few half planes of the polygon's plane, and what the
+// shadows leave is computed. No sight line is tried, and nothing of exact/ or validate/ is used but vectors.
 #pragma once
 
 #include <array>
@@ -33,13 +34,15 @@ bool contains(const Cell& cell, const RVector& x);           // the closed V
 bool interior_contains(const Cell& cell, const RVector& x);  // int V
 bool meets(const Cell& cell, const Triangle& t);             // D3: the closed V
 
-// On a segment a b: the closure of the v = a + s (b - a) from which the triangle stops the line to p. An end that is missing is infinite.
+// On a segment a b: the closure of the v = a + s (b - a) from which the triangle stops the line to p. An end
+// that is missing is infinite.
 struct Interval {
   std::optional<Rational> low, high;
 };
 std::optional<Interval> shadow_on_segment(const Cell& segment, const Triangle& t, const RVector& p);
 
-// Where the triangle's section with the plane of p and the segment has its corners: x = p + r (a - p) + u (b - a).
+// Where the triangle's section with the plane of p and the segment has its corners: x = p + r (a - p) + u (b
+// - a).
 struct Place {
   Rational r, u;
 };

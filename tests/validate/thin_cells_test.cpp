@@ -1,5 +1,5 @@
-// D3, D5, D6, D18 for cells without an interior: the checkers against a second, plain way (thin_cells.h), on random points amid coincidences. Each comparison is
-// made with planted defects too, and has to notice them.
+// D3, D5, D6, D18 for cells without an interior: the checkers against a second, plain way (thin_cells.h), on
+// random points amid coincidences. Each comparison is made with planted defects too, and has to notice them.
 #include "tests/validate/thin_cells.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,8 @@ exact::TriangleCorners exact_of(const Triangle& t) { return {to_point(t[0]), to_
 
 std::string text(const RVector& x) { return x[0].get_str() + " " + x[1].get_str() + " " + x[2].get_str(); }
 
-// A cell and a few triangles, with whole and halved coordinates. Many corners lie on the cell, its rim, its line or plane, on other triangles, or between.
+// A cell and a few triangles, with whole and halved coordinates. Many corners lie on the cell, its rim, its
+// line or plane, on other triangles, or between.
 struct Scene {
   thin::Cell cell;
   std::vector<Triangle> soup;
@@ -158,7 +159,8 @@ struct Scene {
   }
 };
 
-// --- the point-occlusion oracle ------------------------------------------------------------------------------------------------------
+// --- the point-occlusion oracle
+// ------------------------------------------------------------------------------------------------------
 
 struct Asked {
   const Scene& scene;
@@ -337,7 +339,8 @@ TEST(ThinCells, PlantedDefectsOfTheOracleAreCaught) {
     EXPECT_GT(compare(dimension, s, with_single_points, false, 1).wrong, 0) << dimension;
 }
 
-// --- witnesses --------------------------------------------------------------------------------------------------------------------------
+// --- witnesses
+// --------------------------------------------------------------------------------------------------------------------------
 
 struct Line {
   const Scene& scene;
@@ -359,7 +362,8 @@ bool is_sight_line(const Line& line) {
                       [&](const Triangle& x) { return thin::blocks(x, line.v, line.p); });
 }
 
-// Moves of both ends by 2^-100, within the cell and the target: far less than lies between anything in these scenes.
+// Moves of both ends by 2^-100, within the cell and the target: far less than lies between anything in these
+// scenes.
 bool neighbours_are_free(const Line& line, Random& random) {
   const Rational little(Integer(1), Integer(1) << 100);
   const auto moved = [&](RVector x, const std::vector<RVector>& corners) {
@@ -440,9 +444,11 @@ TEST(ThinCells, AWitnessCheckerThatBelievesTouchedEndsIsCaught) {
   for (const int dimension : {0, 1, 2}) EXPECT_EQ(check_witnesses(dimension, s, true).wrong, 4) << dimension;
 }
 
-// --- hidden triangles --------------------------------------------------------------------------------------------------------------------
+// --- hidden triangles
+// --------------------------------------------------------------------------------------------------------------------
 
-// Behind a plate, within the pyramid over it from a point q, nothing is seen from what lies in the pyramid before the plate.
+// Behind a plate, within the pyramid over it from a point q, nothing is seen from what lies in the pyramid
+// before the plate.
 struct Frustum {
   RVector q;
   Triangle plate;
@@ -556,7 +562,8 @@ TEST(ThinCells, ProofsThatTrianglesAreHiddenAgreeWithThePlainWay) {
   }
 }
 
-// As it was once: a side that nothing of the cell is before is hidden, and nobody asks whether the triangle touches the cell.
+// As it was once: a side that nothing of the cell is before is hidden, and nobody asks whether the triangle
+// touches the cell.
 TEST(ThinCells, AProofThatDoesNotAskForTheCellIsCaught) {
   const auto faces_away = [](const scene::TriangleMesh& mesh, const ConvexCell& cell, const UmbraCertificate& facets,
                              bool front) {
@@ -571,9 +578,11 @@ TEST(ThinCells, AProofThatDoesNotAskForTheCellIsCaught) {
   for (const int dimension : {0, 1, 2}) EXPECT_EQ(compare_proofs(dimension, s, faces_away, false).wrong, 4);
 }
 
-// --- the exact visible set ----------------------------------------------------------------------------------------------------------------
+// --- the exact visible set
+// ----------------------------------------------------------------------------------------------------------------
 
-// Hidden: no point of a triangle that no other touches is seen. Visible: the witness is one. From a point, the triangle itself is the polygon to be covered.
+// Hidden: no point of a triangle that no other touches is seen. Visible: the witness is one. From a point,
+// the triangle itself is the polygon to be covered.
 TEST(ThinCells, VisibleSetsAgreeWithThePlainWay) {
   const std::uint64_t s = seed();
   for (const int dimension : {0, 1, 2}) {
