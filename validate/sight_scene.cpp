@@ -273,6 +273,25 @@ void SightScene::find_places(SightQuestion& question) const {
     own[p] =
         std::any_of(origins.begin(), origins.end(), [&](const auto& o) { return o.triangle == question.triangle; });
   }
+  // The plane of a polygon as cell parts the lines that come from its two sides: what stands on the plane ends there.
+  const auto& facets = shape_.facets;
+  if (shape_.dimension == 2 && any_on_side(target.triangle, facets[0].normal, facets[0].corners[0], 1) &&
+      any_on_side(target.triangle, facets[0].normal, facets[0].corners[0], -1)) {
+    for (std::uint32_t p = 0; p < complex_.pieces.size(); ++p) {
+      if (!own[p]) continue;
+      Polygon corners;
+      for (const std::uint32_t c : complex_.pieces[p].corners) corners.push_back(points_[c]);
+      for (const RVector& up : {facets[0].normal, negative(facets[0].normal)}) {
+        if (!any_on_side(corners, up, facets[0].corners[0], 1)) continue;
+        const Polygon part = clipped(corners, up, facets[0].corners[0]);
+        RVector middle{};
+        for (const RVector& x : part) middle = sum(middle, x);
+        question.samples.push_back(
+            to_point(times(middle, Rational(Rational(1) / static_cast<unsigned long>(part.size())))));
+      }
+    }
+    return;
+  }
   for (const exact::Edge& e : complex_.edges) {
     std::vector<std::uint32_t> mine;
     std::copy_if(e.pieces.begin(), e.pieces.end(), std::back_inserter(mine), [&](std::uint32_t p) { return own[p]; });
