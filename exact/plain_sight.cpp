@@ -74,6 +74,7 @@ std::string Cell::read_flat(const ConvexCell& cell) {
   for (const Vec& x : vertices_) {
     if (is_zero(up) || sgn(flat_[0].at(x)) != 0) return "the cell is not flat";
   }
+  span_ = {corner(1) - corner(0), corner(2) - corner(0)};
   for (std::size_t i = 0; i < n; ++i) {
     bounds_.push_back(through(cross(corner(i + 1) - corner(i), up), corner(i)));
     if (!supports(bounds_.back(), vertices_)) return "the flat cell is not convex";
@@ -87,8 +88,11 @@ std::string Cell::read_any(const ConvexCell& cell) {
   if (cell.dimension() == 2) return read_flat(cell);
   const Vec& a = vertices_.at(0);
   const Vec along = vertices_.back() - a;
+  if (vertices_.size() != static_cast<std::size_t>(cell.dimension()) + 1) return "the cell has too many vertices";
   if (cell.dimension() == 1) {
+    if (is_zero(along)) return "the segment that is the cell has no length";
     bounds_ = {through({-along[0], -along[1], -along[2]}, a), through(along, vertices_.back())};
+    span_ = {along};
   }
   // x - a is a multiple of `along` (zero for a point) when its cross products with the axes' images vanish.
   for (std::size_t i = 0; i < 3; ++i) {
@@ -110,9 +114,7 @@ bool Cell::interior_contains(const Vec& x) const {
 }
 
 std::optional<Cell::Outside> Cell::outside_of(const Vec& v, const Vec& p) const {
-  if (std::any_of(flat_.begin(), flat_.end(), [&](const Bound& b) { return sgn(b.at(p)) != 0; })) {
-    return Outside{0, false};  // leaves the flat at once: only v is in int V
-  }
+  if (!solid()) return Outside{0, false};
   Outside part{1, true};
   for (const Bound& bound : bounds_) {
     const Rational at_p = bound.at(p), at_v = bound.at(v);
@@ -202,6 +204,29 @@ std::vector<std::uint32_t> Scene::blockers(const Vec& v, const Vec& p, const Cel
     return false;
   });
   return all;
+}
+
+std::optional<std::uint32_t> Scene::spoiler(const Cell& cell, const Vec& v, const Vec& p) const {
+  if (cell.solid()) return std::nullopt;
+  const auto along_cell = [&](const Vec& normal) {
+    return std::all_of(cell.span().begin(), cell.span().end(), [&](const Vec& d) { return sgn(dot(normal, d)) == 0; });
+  };
+  for (std::uint32_t i = 0; i < mesh_->triangles.size(); ++i) {
+    const std::array<Vec, 3> t = corners(i);
+    const Vec n = normal_of(t);
+    if (is_zero(n) || sgn(dot(n, v - t[0])) != 0) continue;
+    bool holds = true, holds_beside = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec inward = cross(n, t[(k + 1) % 3] - t[k]);
+      const int side = sgn(dot(inward, v - t[k]));
+      holds = holds && side >= 0;
+      holds_beside = holds_beside && (side > 0 || along_cell(inward));
+    }
+    if (!holds) continue;
+    const bool off = sgn(dot(n, p - t[0])) != 0;
+    if (!along_cell(n) || !(off || holds_beside)) return i;
+  }
+  return std::nullopt;
 }
 
 std::string Scene::flaw_of_target(std::uint32_t triangle, bool front, const Vec& p, const Vec& before,

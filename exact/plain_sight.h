@@ -29,6 +29,10 @@ struct Bound {
 };
 
 // V as int V = {all bounds < 0}, within the flat when it is lower-dimensional.
+//
+// What int V takes from S (D3): only the inside of a solid cell is no part of S. A flat cell, a segment and a
+// point have no interior in space: S is all of the triangles there, those that lie in int V included, and S
+// is closed in every dimension.
 class Cell {
  public:
   // Believes nothing: facet planes must support the vertices and close. `fault` says what is wrong, empty when nothing is.
@@ -38,12 +42,18 @@ class Cell {
   bool contains(const Vec& x) const;
   bool interior_contains(const Vec& x) const;
 
-  // Where the segment from v, in int V, to p leaves int V: v + s (p - v) is outside for s > begin, and at begin when `closed`.
+  // The part of the open segment from v, in int V, to p in which triangles block: v + s (p - v) for begin < s
+  // < 1, and for s = begin when `closed`. What lies inside a solid cell is left out. Of other cells nothing
+  // is, also where p is in their plane or on their line: all of 0 < s < 1.
   struct Outside {
     Rational begin = 0;
     bool closed = false;
   };
-  std::optional<Outside> outside_of(const Vec& v, const Vec& p) const;  // none: p is in int V
+  std::optional<Outside> outside_of(const Vec& v, const Vec& p) const;  // none: the cell is solid and p in int V
+
+  bool solid() const { return flat_.empty(); }
+  // Vectors that span the affine hull of V; none for a point.
+  const std::vector<Vec>& span() const { return span_; }
 
  private:
   std::string read_solid(const ConvexCell& cell);
@@ -52,7 +62,8 @@ class Cell {
 
   std::string fault_;
   std::vector<Vec> vertices_;
-  std::vector<Bound> flat_;  // equations of the affine hull, each zero
+  std::vector<Bound> flat_;  // equations of the affine hull, each zero; none for a solid cell
+  std::vector<Vec> span_;
   std::vector<Bound> bounds_;
 };
 
@@ -64,6 +75,16 @@ class Scene {
   std::optional<std::uint32_t> blocker(const Vec& v, const Vec& p, const Cell::Outside& part) const;
   // All that do, ascending.
   std::vector<std::uint32_t> blockers(const Vec& v, const Vec& p, const Cell::Outside& part) const;
+
+  // The first triangle that spoils the viewpoint v for p: it holds v, and may stop what is beside v from
+  // seeing p. None for solid cells. A triangle that holds v is harmless only where its plane holds all of V,
+  // and p is not in that plane or the triangle holds all of V near v. Then, if (v,p) is free, so is (v',p)
+  // for all v' of int V near v. Argument: a triangle without v misses (v',p) near v as it misses (v,p), for
+  // it is closed, and if it holds p it does so in a closed cone of directions that v is not in. One whose
+  // plane holds V, but not p, meets no (v',p) at all. One with p in its plane that holds V near v has the
+  // same closed cone of directions at v' as at v, and the direction to p is not in it. The same holds for p'
+  // near p, if no triangle holds p but in a plane that v is not in.
+  std::optional<std::uint32_t> spoiler(const Cell& cell, const Vec& v, const Vec& p) const;
 
   // Why a sight line that arrives from `before` does not end on that side of the triangle, at a point p of its relative interior; empty when it does.
   std::string flaw_of_target(std::uint32_t triangle, bool front, const Vec& p, const Vec& before,

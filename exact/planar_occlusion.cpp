@@ -1,5 +1,6 @@
 // The planar oracle (D18): gather every direction at which a triangle's shadow can begin or end, then try one direction in each
-// gap, and for a segment as cell the directions themselves.
+// gap. What is seen in the directions in between, and in no gap beside them, is no open part of the cell
+// (D6).
 #include "exact/planar_occlusion.h"
 
 #include <algorithm>
@@ -9,12 +10,6 @@
 
 namespace clues::exact {
 namespace {
-
-// What the sight lines in one direction have in common: v is free when no triangle meets the part from `end` to p.
-struct Trial {
-  Point3 v, end;
-  bool closed;  // `end` is outside int V and counts
-};
 
 // x with f(x) = 0 on the line ab, for the linear f with the given values at a and b.
 Point3 zero_between(const Point3& a, const Point3& b, const FT& at_a, const FT& at_b) {
@@ -56,25 +51,17 @@ class Fan {
     }
   }
 
-  // Every direction to try: one in each gap, and with `events` also the directions in between.
-  std::vector<Vector3> trials(bool events) {
+  // One direction in each gap.
+  std::vector<Vector3> trials() {
     std::sort(events_.begin(), events_.end(), [&](const Vector3& a, const Vector3& b) { return turn(a, b) > 0; });
     events_.push_back(last_);
-    std::vector<Vector3> all;
+    std::vector<Vector3> allowed;
     Vector3 before = first_;
     for (const Vector3& event : events_) {
       if (turn(before, event) == CGAL::ZERO) continue;
-      all.push_back(before + event);
-      all.push_back(event);
+      const Vector3 between = before + event;
+      if (!side_ || CGAL::sign(CGAL::scalar_product(*side_, between)) == CGAL::POSITIVE) allowed.push_back(between);
       before = event;
-    }
-    all.pop_back();  // `last` itself
-    std::vector<Vector3> allowed;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool wanted = i % 2 == 0 || events;
-      if (wanted && (!side_ || CGAL::sign(CGAL::scalar_product(*side_, all[i])) == CGAL::POSITIVE)) {
-        allowed.push_back(all[i]);
-      }
     }
     return allowed;
   }
@@ -95,9 +82,21 @@ class Fan {
   std::vector<Vector3> events_;
 };
 
-bool is_free(const Trial& trial, const Point3& p, const std::vector<TriangleCorners>& triangles) {
+bool is_free(const Point3& end, bool closed, const Point3& p, const std::vector<TriangleCorners>& triangles) {
   return std::none_of(triangles.begin(), triangles.end(),
-                      [&](const TriangleCorners& t) { return blocks(t, trial.end, trial.closed, p); });
+                      [&](const TriangleCorners& t) { return blocks(t, end, closed, p); });
+}
+
+// Where the line from p enters the cell, and where it leaves it: a point between the two that no triangle
+// holds, nor what lies between it and p. None if a triangle meets the way up to `enter`; else there are such
+// points near `enter`, as triangles are closed.
+std::optional<Point3> free_point_behind(const Point3& enter, const Point3& leave, const Point3& p,
+                                        const std::vector<TriangleCorners>& triangles) {
+  if (!is_free(enter, true, p, triangles)) return std::nullopt;
+  for (FT share = FT(1) / FT(2);; share = share * share) {
+    const Point3 v = enter + (leave - enter) * share;
+    if (is_free(v, true, p, triangles)) return v;
+  }
 }
 
 }  // namespace
@@ -105,14 +104,22 @@ bool is_free(const Trial& trial, const Point3& p, const std::vector<TriangleCorn
 std::optional<Point3> free_point_of_segment(const Point3& p, const std::optional<Plane3>& side, const Point3& a,
                                             const Point3& b, const std::vector<TriangleCorners>& triangles) {
   Fan fan(p, side, a - p, b - p);
-  for (const TriangleCorners& t : triangles) fan.add_section(t, {});
+  // Only what is between p and the line ab blocks, so a shadow may also end where its triangle passes that
+  // line.
+  for (const TriangleCorners& t : triangles) fan.add_section(t, {{a, b}});
   const Vector3 across = CGAL::cross_product(fan.normal(), b - a);
   const FT at_p = CGAL::scalar_product(across, p - a);
-  for (const Vector3& d : fan.trials(true)) {
+  for (const Vector3& d : fan.trials()) {
     const Point3 v = p - d * (at_p / CGAL::scalar_product(across, d));
-    if (is_free({v, v, false}, p, triangles)) return v;
+    if (is_free(v, false, p, triangles)) return v;
   }
   return std::nullopt;
+}
+
+std::optional<Point3> free_point_of_segment_end_on(const Point3& p, const Point3& a, const Point3& b,
+                                                   const std::vector<TriangleCorners>& triangles) {
+  return CGAL::has_smaller_distance_to_point(p, a, b) ? free_point_behind(a, b, p, triangles)
+                                                      : free_point_behind(b, a, p, triangles);
 }
 
 std::optional<Point3> free_point_of_polygon(const Point3& p, const std::optional<Plane3>& side,
@@ -135,7 +142,7 @@ std::optional<Point3> free_point_of_polygon(const Point3& p, const std::optional
   for (const Point3& corner : polygon) fan.add_point(corner);
   for (const TriangleCorners& t : triangles) fan.add_section(t, lines);
 
-  for (const Vector3& d : fan.trials(false)) {
+  for (const Vector3& d : fan.trials()) {
     std::optional<FT> enter, leave;
     for (const auto& [a, b] : lines) {
       const Vector3 inward = CGAL::cross_product(up, b - a);
@@ -145,8 +152,7 @@ std::optional<Point3> free_point_of_polygon(const Point3& p, const std::optional
       auto& bound = CGAL::sign(slope) == CGAL::POSITIVE ? enter : leave;
       if (!bound || (CGAL::sign(slope) == CGAL::POSITIVE ? s > *bound : s < *bound)) bound = s;
     }
-    const Trial trial{p + d * ((*enter + *leave) / 2), p + d * *enter, true};
-    if (is_free(trial, p, triangles)) return trial.v;
+    if (auto v = free_point_behind(p + d * *enter, p + d * *leave, p, triangles)) return v;
   }
   return std::nullopt;
 }

@@ -38,7 +38,7 @@ class ConeSearch {
   ConeSearch(const Point3& p, const ConvexCell& cell, const std::vector<TriangleCorners>& triangles)
       : p_(p), cell_(cell), triangles_(triangles), solid_(cell.dimension() == 3) {}
 
-  // v in int V seen from p through the facet, on the positive side; complete up to single points of creases on a flat cell.
+  // v in int V seen from p through the facet, on the positive side.
   std::optional<Point3> search(const Plane3& plane, const std::vector<Point3>& corners,
                                const std::optional<Plane3>& side) {
     std::optional<DirectionCone> start = cone_of(corners, p_);
@@ -52,7 +52,8 @@ class ConeSearch {
       pieces.pop_back();
       Vector3 direction;
       const DirectionCone* shadow = nullptr;
-      // A triangle whose shadow is flat can block this line, but not the piece: take another line.
+      // A triangle whose shadow is flat, or that stands behind a flat cell, can spoil this line, but not the
+      // piece: take another line.
       for (int t = 1; !shadow; ++t) {
         direction = interior_direction(piece, t);
         bool blocked = false;
@@ -74,7 +75,7 @@ class ConeSearch {
     const DirectionCone* best = nullptr;
     std::size_t best_count = 0;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      if (!blocks(triangles_[i], end, solid_, p_)) continue;
+      if (!blocks(triangles_[i], end, solid_, p_) && !stands_at(triangles_[i], end)) continue;
       blocked = true;
       if (!shadows_[i]) {
         shadows_[i] = cone_of(clipped({triangles_[i].begin(), triangles_[i].end()}, plane_), p_);
@@ -88,6 +89,13 @@ class ConeSearch {
       if (best_count == piece.rays.size()) break;
     }
     return best;
+  }
+
+  // A point of a flat cell that a triangle of another plane holds may see p without the points beside it
+  // (D6).
+  bool stands_at(const TriangleCorners& t, const Point3& v) const {
+    return !solid_ && blocks(t, v, true, p_) &&
+           !std::all_of(t.begin(), t.end(), [&](const Point3& corner) { return plane_.has_on(corner); });
   }
 
   Point3 entry(const Vector3& direction) const { return reach(direction, plane_); }
@@ -114,70 +122,35 @@ class ConeSearch {
   const Point3& p_;
   const ConvexCell& cell_;
   const std::vector<TriangleCorners>& triangles_;
-  bool solid_;  // of dimension 3: V's surface is outside int V, so triangles on it block
+  bool
+      solid_;  // of dimension 3: V's surface is outside int V, so triangles on it block. On a flat cell they stop no line from it
   Plane3 plane_;
   std::vector<std::optional<std::optional<DirectionCone>>> shadows_;  // per triangle, when asked for
 };
 
-bool free_of(const std::vector<TriangleCorners>& triangles, const Point3& end, bool closed, const Point3& p) {
-  return std::none_of(triangles.begin(), triangles.end(),
-                      [&](const TriangleCorners& t) { return blocks(t, end, closed, p); });
-}
-
-// On a flat cell the points of int V that lie on a triangle can be seen although nothing around them is: along the crease where
-// triangles stand on the cell. Complete for the points on triangles that are not in the cell's plane.
-std::optional<Point3> free_point_on_creases(const Point3& p, const std::optional<Plane3>& side, const ConvexCell& cell,
-                                            const std::vector<TriangleCorners>& triangles) {
-  const Plane3& plane = cell.facets()[0].plane;
-  const std::vector<Point3> polygon = corners_of(cell, cell.facets()[0]);
-  for (const TriangleCorners& t : triangles) {
-    std::vector<Point3> foot = clipped(clipped(std::vector<Point3>(t.begin(), t.end()), plane), plane.opposite());
-    if (foot.size() > 2) continue;  // in the plane: blocks nothing
-    for (std::size_t i = 0; i < polygon.size() && foot.size() == 2; ++i) {
-      const Point3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      const Plane3 wall(a, CGAL::cross_product(plane.orthogonal_vector(), b - a));
-      const bool keep0 = !wall.has_on_negative_side(foot[0]), keep1 = !wall.has_on_negative_side(foot[1]);
-      if (keep0 && keep1) continue;
-      if (!keep0 && !keep1) {
-        foot.clear();
-        break;
-      }
-      // A polygon of two corners is walked both ways: the crossing comes twice.
-      const Point3 inner = keep0 ? foot[0] : foot[1];
-      const std::vector<Point3> part = clipped(foot, wall);
-      const auto other = std::find_if(part.begin(), part.end(), [&](const Point3& x) { return x != inner; });
-      foot = other == part.end() ? std::vector<Point3>{inner} : std::vector<Point3>{inner, *other};
-    }
-    for (const Point3& v : foot) {
-      if (cell.interior_contains(v) && allowed(side, v) && free_of(triangles, v, false, p)) return v;
-    }
-    if (foot.size() == 2 && cell.interior_contains(CGAL::midpoint(foot[0], foot[1]))) {
-      if (auto v = free_point_of_segment(p, side, foot[0], foot[1], triangles)) return v;
-    }
-  }
-  return std::nullopt;
-}
-
 std::optional<Point3> free_point(const Point3& p, const std::optional<Plane3>& side, const ConvexCell& cell,
                                  const std::vector<TriangleCorners>& triangles) {
   const auto& vertices = cell.vertices();
-  if (cell.dimension() == 0 || (cell.dimension() == 1 && CGAL::collinear(vertices[0], vertices[1], p))) {
-    // One line of sight. A segment seen end on is entered at its nearer end, which is outside its relative interior.
-    if (!allowed(side, cell.center())) return std::nullopt;
-    const bool segment = cell.dimension() == 1;
-    const bool first = CGAL::has_smaller_distance_to_point(p, vertices.front(), vertices.back());
-    const Point3& end = first ? vertices.front() : vertices.back();
-    return free_of(triangles, end, segment, p) ? std::optional<Point3>(cell.center()) : std::nullopt;
+  if (cell.dimension() == 0) {
+    const Point3& v = cell.center();
+    const bool free =
+        allowed(side, v) && std::none_of(triangles.begin(), triangles.end(),
+                                         [&](const TriangleCorners& t) { return blocks(t, v, false, p); });
+    return free ? std::optional<Point3>(v) : std::nullopt;
   }
-  if (cell.dimension() == 1) return free_point_of_segment(p, side, vertices[0], vertices[1], triangles);
+  if (cell.dimension() == 1) {
+    if (!CGAL::collinear(vertices[0], vertices[1], p))
+      return free_point_of_segment(p, side, vertices[0], vertices[1], triangles);
+    if (!allowed(side, cell.center())) return std::nullopt;  // then no point of the line beyond p is
+    return free_point_of_segment_end_on(p, vertices[0], vertices[1], triangles);
+  }
 
   ConeSearch cones(p, cell, triangles);
   if (cell.dimension() == 2) {
     const CellFacet& facet = cell.facets()[0];
     if (facet.plane.has_on(p)) return free_point_of_polygon(p, side, corners_of(cell, facet), triangles);
     const bool front = facet.plane.has_on_positive_side(p);
-    if (auto v = cones.search(front ? facet.plane : facet.plane.opposite(), corners_of(cell, facet), side)) return v;
-    return free_point_on_creases(p, side, cell, triangles);
+    return cones.search(front ? facet.plane : facet.plane.opposite(), corners_of(cell, facet), side);
   }
   for (const CellFacet& facet : cell.facets()) {
     if (!facet.plane.has_on_positive_side(p)) continue;
@@ -193,7 +166,10 @@ OcclusionAnswer point_occlusion(const Point3& p, const std::optional<Plane3>& si
   if (side && !side->has_on(p)) {
     throw scene::Error(scene::ErrorCode::bad_argument, "point_occlusion: p must lie in the plane of its side");
   }
-  if (cell.contains(p)) return {false, interior_point_on_side(cell, side)};
+  if (cell.contains(p)) {
+    if (cell.dimension() < 3) return {false, std::nullopt};  // what stands in V may be between p and the rest of V
+    return {false, interior_point_on_side(cell, side)};
+  }
   std::optional<Point3> v = free_point(p, side, cell, triangles);
   if (!v) return {true, std::nullopt};
   *v = collapsed(*v);

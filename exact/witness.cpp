@@ -8,7 +8,7 @@
 namespace clues::exact {
 namespace {
 
-WitnessVerdict refuse(std::string reason) { return {false, std::move(reason)}; }
+WitnessVerdict refuse(std::string reason, bool special = false) { return {false, std::move(reason), special}; }
 
 }  // namespace
 
@@ -21,12 +21,14 @@ WitnessVerdict check_witness(const scene::TriangleMesh& mesh, const ConvexCell& 
   const plain::Cell own(cell);
   if (!own.fault().empty()) return refuse(own.fault());
   if (!own.interior_contains(v)) return refuse("v is not in the relative interior of the cell");
-  if (const auto outside = own.outside_of(v, p)) {  // else all of (v,p) is in int V
+  if (const auto outside = own.outside_of(v, p)) {
     if (const auto t = scene.blocker(v, p, *outside))
       return refuse("triangle " + std::to_string(*t) + " blocks the sight line");
   }
-  if (std::string flaw = scene.flaw_beside(triangle, p); !flaw.empty()) return refuse(std::move(flaw));
-  return {true, ""};
+  if (std::string flaw = scene.flaw_beside(triangle, p); !flaw.empty()) return refuse(std::move(flaw), true);
+  if (const auto t = scene.spoiler(own, v, p))
+    return refuse("v lies on triangle " + std::to_string(*t) + ": choose another viewpoint", true);
+  return {true, "", false};
 }
 
 SightLine check_sight_line(const scene::TriangleMesh& mesh, const ConvexCell& cell, const Point3& v_point,
@@ -36,7 +38,9 @@ SightLine check_sight_line(const scene::TriangleMesh& mesh, const ConvexCell& ce
   const plain::Cell own(cell);
   if (!own.fault().empty() || !own.interior_contains(v) || v == p) return out;
   out.valid = true;
-  if (const auto outside = own.outside_of(v, p)) out.blockers = plain::Scene(mesh).blockers(v, p, *outside);
+  const plain::Scene scene(mesh);
+  if (const auto outside = own.outside_of(v, p)) out.blockers = scene.blockers(v, p, *outside);
+  out.spoiler = scene.spoiler(own, v, p);
   return out;
 }
 

@@ -50,6 +50,10 @@ std::string flaw_of(const scene::TriangleMesh& mesh, const exact::ConvexCell& gi
       if (const auto t = scene.blocker(v, x, *part))
         return link + "triangle " + std::to_string(*t) + " blocks the way to x";
     }
+    if (!before) {  // the first x is to be in E (D6), and so seen from an open part of int V
+      if (const auto t = scene.spoiler(cell, v, x))
+        return link + "v lies on triangle " + std::to_string(*t) + ": choose another viewpoint";
+    }
     if (last) {
       if (std::string flaw = scene.flaw_beside(chain.triangle, x); !flaw.empty()) return link + flaw;
     }

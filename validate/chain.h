@@ -31,7 +31,9 @@ struct ChainVerdict {
 };
 
 // Every x but the last must be in free space outside V; the last must be in the relative interior of the triangle, reached on the given side, where no triangle
-// of another plane touches. Touching blocks (D5). O(links x triangles).
+// of another plane touches. Touching blocks (D5). The v of the first link is one that a witness may have
+// (exact/witness.h): only so is the first x in E (D6). On a flat cell or a segment the other v may lie on
+// triangles; what is between v and the x before does not matter to a continuation. O(links x triangles).
 ChainVerdict check_chain(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Chain& chain);
 
 }  // namespace clues::validate

@@ -50,7 +50,8 @@ PointQuery::PointQuery(const scene::TriangleMesh& mesh, const reference::Omega& 
 }
 
 // Only triangles that are known to matter are put to the oracle: it answers with a sight line that misses these, and what stops that line is
-// added, until it is free or there is none.
+// added, until it is free or there is none. So is a triangle that v lies on: points of int V beside v need
+// not see p then (D6).
 PointAnswer PointQuery::look(const Point3& p, const std::optional<Plane3>& side) const {
   PointAnswer answer;
   const exact::ConvexCell& cell = omega_.map().cell;
@@ -66,15 +67,17 @@ PointAnswer PointQuery::look(const Point3& p, const std::optional<Plane3>& side)
     const exact::SightLine line = exact::check_sight_line(mesh_, cell, *found.witness, p);
     if (!line.valid)
       throw scene::Error(scene::ErrorCode::internal, "point_query: a sight line does not start in the cell");
-    if (line.blockers.empty()) {
+    std::vector<std::uint32_t> in_the_way = line.blockers;
+    if (in_the_way.empty() && line.spoiler) in_the_way = {*line.spoiler};
+    if (in_the_way.empty()) {
       answer.v = found.witness;
       return answer;
     }
-    for (const std::uint32_t t : line.blockers) {
+    for (const std::uint32_t t : in_the_way) {
       if (std::find(cover.begin(), cover.end(), t) != cover.end())
         throw scene::Error(scene::ErrorCode::internal, "point_query: a sight line found does not pass a triangle");
     }
-    cover.push_back(line.blockers.front());
+    cover.push_back(in_the_way.front());
   }
   for (std::size_t i = cover.size(); i-- > 0;) {
     std::vector<std::uint32_t> less = cover;

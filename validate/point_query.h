@@ -21,7 +21,8 @@ namespace clues::validate {
 struct PointAnswer {
   std::optional<std::uint32_t> triangle;  // none: a point of space
   bool front = true;                      // side of the triangle
-  std::optional<exact::Point3> v;         // visible: in int V, and the open segment (v,p) is free (D5)
+  std::optional<exact::Point3>
+      v;  // visible: in int V, and the open segment (v,p) is free (D5), also from all of int V near v
   std::vector<std::uint32_t> covered_by;  // occluded: no triangle of these can be left out, unless the side faces away
   bool faces_away = false;                // occluded, because no point of V is strictly on that side
   bool first_order = true;                // in Omega, or on its border

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "exact/scene_query.h"
 #include "scene/error.h"
 
 namespace clues::validate {
@@ -89,7 +90,7 @@ SightScene::SightScene(const scene::TriangleMesh& mesh, const exact::ConvexCell&
   }
   if (shape_.dimension >= 2) find_edges();
   if (shape_.dimension == 3) find_cut_edges();
-  if (shape_.dimension == 1 || shape_.dimension == 2) find_cell_contacts();
+  if (shape_.dimension == 1) find_stops();
 }
 
 // The edge as a part of an edge of the input, whose numbers are short; as itself when it lies on none.
@@ -185,43 +186,16 @@ void SightScene::find_cut_edges() {
   }
 }
 
-void SightScene::find_cell_contacts() {
-  if (shape_.dimension == 1) {
-    const RVector &a = shape_.vertices[0], &b = shape_.vertices[1];
-    for (const Polygon& t : polygons_) {
-      if (t.empty()) continue;
-      const RVector n = normal_of(t);
-      const Rational at_a = dot(n, minus(a, t[0])), at_b = dot(n, minus(b, t[0]));
-      if (sgn(at_a) * sgn(at_b) >= 0) continue;
-      cell_contacts_.push_back(to_point(sum(a, times(minus(b, a), Rational(at_a / (at_a - at_b))))));
-    }
-    return;
+void SightScene::find_stops() {
+  const RVector &a = shape_.vertices[0], &b = shape_.vertices[1];
+  for (const Polygon& t : polygons_) {
+    if (t.empty()) continue;
+    const RVector n = normal_of(t);
+    const Rational at_a = dot(n, minus(a, t[0])), at_b = dot(n, minus(b, t[0]));
+    if (sgn(at_a) * sgn(at_b) < 0) stops_.push_back(at_a / (at_a - at_b));
   }
-  const RVector &n = shape_.facets[0].normal, &at = shape_.facets[0].corners[0];
-  // Pieces at a point or an edge of the cell's plane that reach to one side of it.
-  const auto standing = [&](const std::vector<std::uint32_t>& pieces, int side) {
-    return std::count_if(pieces.begin(), pieces.end(), [&](std::uint32_t p) {
-      const auto& corners = complex_.pieces[p].corners;
-      return std::any_of(corners.begin(), corners.end(),
-                         [&](std::uint32_t c) { return side_of(n, at, points_[c]) == side; });
-    });
-  };
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    const auto& pieces = complex_.point_pieces[i];
-    if (standing(pieces, 1) < 3 && standing(pieces, -1) < 3) continue;
-    if (cell_.interior_contains(complex_.points[i])) cell_contacts_.push_back(complex_.points[i]);
-  }
-  for (const exact::Edge& e : complex_.edges) {
-    if (!all_on_plane({points_[e.a], points_[e.b]}, n, at)) continue;
-    if (standing(e.pieces, 1) < 2 && standing(e.pieces, -1) < 2) continue;
-    SightEdge edge = edge_on_input(e);
-    bool left = true;
-    const Polygon& corners = shape_.facets[0].corners;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      left = left && cut_range(edge, cross(n, minus(corners[(i + 1) % corners.size()], corners[i])), corners[i]);
-    }
-    if (left) cell_grooves_.push_back(std::move(edge));
-  }
+  std::sort(stops_.begin(), stops_.end());
+  stops_.erase(std::unique(stops_.begin(), stops_.end()), stops_.end());
 }
 
 std::optional<SightQuestion> SightScene::question(std::uint32_t triangle, bool front) const {
@@ -241,12 +215,20 @@ std::optional<SightQuestion> SightScene::question(std::uint32_t triangle, bool f
   std::vector<exact::Point3> hull_points = cell_.vertices();
   for (std::size_t i = 0; i < 3; ++i) hull_points.push_back(corner(i));
   const CellShape hull{exact::ConvexCell(hull_points)};
+  const exact::ConvexCell body({corner(0), corner(1), corner(2)});
+  // What stands on the cell or on the target from outside the hull stops no line, but spoils single points of
+  // them for a witness.
+  const auto spoils = [&](const Polygon& t) {
+    const exact::TriangleCorners c{to_point(t[0]), to_point(t[1]), to_point(t[2])};
+    return shape_.dimension < 3 && (exact::meets_cell(c, cell_) || exact::meets_cell(c, body));
+  };
   for (std::uint32_t t = 0; t < polygons_.size(); ++t) {
     if (polygons_[t].empty() || t == triangle) continue;
     const bool coplanar = all_on_plane(polygons_[t], target.up, at);
-    if (!coplanar && surely_outside(polygons_[t], hull.facets)) continue;
+    const bool outside = !coplanar && surely_outside(polygons_[t], hull.facets);
+    if (outside && !spoils(polygons_[t])) continue;
     question.soup.push_back({to_point(polygons_[t][0]), to_point(polygons_[t][1]), to_point(polygons_[t][2])});
-    if (coplanar) continue;  // a line through the target meets its plane only there
+    if (coplanar || outside) continue;  // a line through the target meets its plane only there
     if (any_on_side(polygons_[t], target.up, at, 1)) target.before.push_back(clipped(polygons_[t], target.up, at));
     target.outside.insert(target.outside.end(), outside_[t].begin(), outside_[t].end());
     target.above.insert(target.above.end(), above_[t].begin(), above_[t].end());
@@ -290,6 +272,25 @@ void SightScene::find_places(SightQuestion& question) const {
     const auto& origins = complex_.pieces[p].origins;
     own[p] =
         std::any_of(origins.begin(), origins.end(), [&](const auto& o) { return o.triangle == question.triangle; });
+  }
+  // The plane of a polygon as cell parts the lines that come from its two sides: what stands on the plane ends there.
+  const auto& facets = shape_.facets;
+  if (shape_.dimension == 2 && any_on_side(target.triangle, facets[0].normal, facets[0].corners[0], 1) &&
+      any_on_side(target.triangle, facets[0].normal, facets[0].corners[0], -1)) {
+    for (std::uint32_t p = 0; p < complex_.pieces.size(); ++p) {
+      if (!own[p]) continue;
+      Polygon corners;
+      for (const std::uint32_t c : complex_.pieces[p].corners) corners.push_back(points_[c]);
+      for (const RVector& up : {facets[0].normal, negative(facets[0].normal)}) {
+        if (!any_on_side(corners, up, facets[0].corners[0], 1)) continue;
+        const Polygon part = clipped(corners, up, facets[0].corners[0]);
+        RVector middle{};
+        for (const RVector& x : part) middle = sum(middle, x);
+        question.samples.push_back(
+            to_point(times(middle, Rational(Rational(1) / static_cast<unsigned long>(part.size())))));
+      }
+    }
+    return;
   }
   for (const exact::Edge& e : complex_.edges) {
     std::vector<std::uint32_t> mine;

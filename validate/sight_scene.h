@@ -20,7 +20,8 @@ struct SightQuestion {
   SightTarget target;
   exact::Plane3 plane;           // positive side: the side asked for
   std::vector<SightEdge> edges;  // that can bound the free sight lines, cut to the part that matters
-  std::vector<exact::TriangleCorners> soup;
+  std::vector<exact::TriangleCorners>
+      soup;  // for the point-occlusion oracle: what may stop a line, or touch the target or a flat cell
   std::vector<exact::Point3> samples;  // a point in each part of the target that no occluder touches
 };
 
@@ -37,14 +38,15 @@ class SightScene {
   // nullopt: no sight line can reach this side, as no point of int V lies before it.
   std::optional<SightQuestion> question(std::uint32_t triangle, bool front) const;
 
-  // Cells of dimension 1 and 2: points and lines of int V at which occluders stand.
-  const std::vector<exact::Point3>& cell_contacts() const { return cell_contacts_; }
-  const std::vector<SightEdge>& cell_grooves() const { return cell_grooves_; }
+  // A segment as cell: where the planes of triangles cross it, in parts of its length, ascending. All
+  // triangles that hold a point between two of these hold those beside it too, or end there in a plane with
+  // the segment.
+  const std::vector<Rational>& stops() const { return stops_; }
 
  private:
   void find_edges();
   void find_cut_edges();
-  void find_cell_contacts();
+  void find_stops();
   SightEdge edge_on_input(const exact::Edge& edge) const;
   SightEdge::Sheet sheet_of(std::uint32_t piece, const RVector& into, const RVector& direction) const;
   std::vector<SightEdge::Sheet> sheets_at(const exact::Edge& edge, const RVector& direction) const;
@@ -63,8 +65,7 @@ class SightScene {
     bool along_boundary;  // some sheets may lead into the cell
   };
   std::vector<Candidate> edges_;
-  std::vector<exact::Point3> cell_contacts_;
-  std::vector<SightEdge> cell_grooves_;
+  std::vector<Rational> stops_;
 };
 
 // Cuts the range of y(s) to where normal . (y - at) > 0; false when nothing is left.

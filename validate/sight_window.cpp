@@ -281,7 +281,10 @@ SightWindow::Answer SightWindow::search(std::vector<Cone> cones, int wedge) {
       for (Shadow& shadow : shadows_) {
         if (!in_the_way(shadow)) continue;
         const Cone* taken = shadow_cone(shadow);
-        if (!taken) continue;
+        if (!taken) {  // seen edge-on: it can stop this line, but no cone of lines
+          blocked = blocked || sgn(dot(normal_of(*shadow.polygon), RVector{d[0], d[1], d[2]})) == 0;
+          continue;
+        }
         const int at = where(*taken, d);
         if (at < 0 || !is_before(shadow, d)) continue;
         blocked = true;

@@ -70,10 +70,17 @@ struct CellBounds {
     }
   }
 
-  // Whether a convex polygon meets int V. A relatively inner point of what it shares with V is in int V if any point of it is.
-  bool interior_meets(Polygon polygon) const {
+  // What a convex polygon shares with the closed V.
+  Polygon shared(Polygon polygon) const {
     for (const Bound& b : flat) polygon = clipped(clipped(polygon, b.normal, b.at), negative(b.normal), b.at);
     for (const Bound& b : strict) polygon = clipped(polygon, negative(b.normal), b.at);
+    return polygon;
+  }
+
+  // Whether it meets int V. A relatively inner point of what it shares with V is in int V if any point of it
+  // is.
+  bool interior_meets(const Polygon& given) const {
+    const Polygon polygon = shared(given);
     if (polygon.empty()) return false;
     RVector middle{};
     for (const RVector& p : polygon) middle = sum(middle, p);
@@ -236,9 +243,10 @@ bool proves_hidden(const scene::TriangleMesh& mesh, const exact::ConvexCell& cel
   const Corners t = corners_of(mesh, triangle);
   RVector up = normal_of(t);
   if (is_zero(up)) return false;
+  const CellShape shape(cell);
+  if (!CellBounds(shape).shared({t.begin(), t.end()}).empty()) return false;
   if (!front) up = negative(up);
   const Bound plane{up, t[0]};  // side(): +1 on the side asked for
-  const CellShape shape(cell);
   if (std::none_of(shape.vertices.begin(), shape.vertices.end(), [&](const RVector& s) { return plane.side(s) > 0; }))
     return true;
 

@@ -6,10 +6,20 @@
 //   (b) each other facet has the cell on the closed inner side of its plane (the side its corners turn clockwise to);
 //   (c) along every line, as many facets begin at each point as end there: the facets have no border, so w is a whole number and changes at facets only;
 //   (d) no facet meets int V, and w is 0 there.
-// A free sight line starts at w = 0. It passes no facet of kind (a); where it passes one of kind (b), it goes outward, for it comes from the
-// cell and meets the plane once: w falls by one. So it never gets to a point with w > 0. The facets need not be free of
-// intersections, nor have common vertices. The sides of an enclosing box are of kind (b) as soon as the box holds the cell, and need no rule of
-// their own. (A sight line through an edge, or within a plane, has others beside it that end beside the same point.)
+// Then no point p with w(p) > 0 is in E. Were it, an open part of int V would see p (D6), and in it some v
+// that no triangle spoils (plain_sight.h). Let x be a point of (v,p) so near p that w(x) = w(p). It is not in
+// S, and S is closed: so (v,x') is free for all x' of space near x. Choose x' such that the line from v to it
+// passes no edge of a facet and lies in no facet's plane; as v is on no facet (d), finitely many planes
+// through v are to be avoided. The line starts at w = 0 (d). It passes no facet of kind (a), which is a part
+// of S: it lies in a triangle, and outside int V (d). Where it passes one of kind (b), it goes outward: it
+// comes from the cell, on the closed inner side, and is not in the plane. There w falls by one. So w(p) =
+// w(x') <= 0.
+//
+// This holds for cells of every dimension. Nothing is moved but x; a flat cell or a segment may lie in the
+// plane of a facet of kind (b), which a line from v then leaves at v, on which there is no facet. For such
+// cells all of the triangles is S (D3), and (d) asks more than is needed. The facets need not be free of
+// intersections, nor have common vertices. The sides of an enclosing box are of kind (b) as soon as the box
+// holds the cell, and need no rule of their own.
 #pragma once
 
 #include <array>
@@ -43,8 +53,11 @@ CertificateVerdict check_umbra_certificate(const scene::TriangleMesh& mesh, cons
 // w(p) for facets without border; none when p lies on a facet. O(n).
 std::optional<int> winding_number(const UmbraCertificate& facets, const RVector& p);
 
-// Whether a certificate that is valid proves this side of a triangle hidden: no facet touches the open triangle from that side, and w > 0 beside it. A
-// side that no point of the cell is strictly in front of is hidden without proof. False for a triangle without area. O(n).
+// Whether a certificate that is valid proves this side of a triangle hidden: no facet touches the open
+// triangle from that side, and w > 0 beside it. Then w > 0 holds for all points just before the triangle, and
+// a sight line to a point of it would have free sight lines to some of these. A side that no point of the
+// cell is strictly in front of is hidden without proof. False for a triangle without area, and for one that
+// has a point in the closed cell: that is visible (D3), whatever its sides. O(n).
 bool proves_hidden(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const UmbraCertificate& facets,
                    std::uint32_t triangle, bool front);
 

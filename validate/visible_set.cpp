@@ -64,12 +64,10 @@ class Search {
       if (!front && options_.mode == reference::Mode::solid) continue;
       if (auto question = scene_.question(t, front)) questions.push_back(std::move(*question));
     }
-    // Viewpoints between occluders that stand on a flat cell.
     for (const auto& question : questions) {
-      if (answer.witness || !may_be_seen) break;
-      answer.witness = ask_viewpoints(question);
+      if (answer.witness || !may_be_seen || cell_.dimension() > 0) break;
+      answer.witness = ask_viewpoint(question);
       statistics_.found_by_point += answer.witness ? 1 : 0;
-      if (!answer.witness) answer.witness = sweep_cell_grooves(question);
     }
     for (const bool by_point : {options_.points_first, !options_.points_first}) {
       if (!may_be_seen) break;
@@ -109,22 +107,17 @@ class Search {
     return std::nullopt;
   }
 
-  // The same from points of the cell, the triangle being what is to be seen.
-  std::optional<Witness> ask_viewpoints(const SightQuestion& question) {
-    std::vector<Point3> viewpoints = scene_.cell_contacts();
-    if (cell_.dimension() == 0) viewpoints.push_back(cell_.center());
-    if (viewpoints.empty()) return std::nullopt;
+  // A single point as cell: the same from there, the triangle being what is to be seen. All is decided by
+  // that.
+  std::optional<Witness> ask_viewpoint(const SightQuestion& question) {
+    const Point3& v = cell_.center();
     const auto& triangle = question.target.triangle;
     const exact::ConvexCell seen({to_point(triangle[0]), to_point(triangle[1]), to_point(triangle[2])});
-    for (const Point3& v : viewpoints) {
-      if (!question.plane.has_on_positive_side(v)) continue;
-      ++statistics_.point_questions;
-      const auto answer = exact::point_occlusion(v, std::nullopt, seen, question.soup);
-      if (answer.occluded) continue;
-      if (auto found = confirmed(question, v, *answer.witness)) return found;
-      throw scene::Error(scene::ErrorCode::internal, "visible_set: a free sight line to a viewpoint is refused");
-    }
-    return std::nullopt;
+    ++statistics_.point_questions;
+    const auto answer = exact::point_occlusion(v, std::nullopt, seen, question.soup);
+    if (answer.occluded) return std::nullopt;
+    if (auto found = confirmed(question, v, *answer.witness)) return found;
+    throw scene::Error(scene::ErrorCode::internal, "visible_set: a free sight line to a viewpoint is refused");
   }
 
   std::optional<Witness> sweep_edges(const SightQuestion& question) {
@@ -138,20 +131,21 @@ class Search {
     return std::nullopt;
   }
 
-  std::optional<Witness> sweep_cell_grooves(const SightQuestion& question) {
-    for (const SightEdge& edge : scene_.cell_grooves()) {
-      if (auto found = sweep(question, edge, Passage::on_cell)) return found;
-    }
-    return std::nullopt;
-  }
-
   // Windows along one line until every open range between critical places is decided.
   std::optional<Witness> sweep(const SightQuestion& question, const SightEdge& edge, Passage passage) {
     ++statistics_.edges_swept;
     SightWindow window(scene_.shape(), question.target, edge, passage, options_.planted_bug);
     for (const int wedge : {1, -1}) {
       if (wedge < 0 && passage != Passage::edge) break;
-      std::vector<OpenRange> todo{{to_root(edge.low), to_root(edge.high)}};
+      std::vector<OpenRange> todo;
+      Rational from = edge.low;
+      if (passage == Passage::on_cell) {
+        for (const Rational& stop : scene_.stops()) {
+          todo.push_back({to_root(from), to_root(stop)});
+          from = stop;
+        }
+      }
+      todo.push_back({to_root(from), to_root(edge.high)});
       while (!todo.empty()) {
         const OpenRange range = std::move(todo.back());
         todo.pop_back();
@@ -181,6 +175,8 @@ class Search {
   }
 
   // Free lines are an open set, so a small enough nudge off the edge leaves one; it is found by halving.
+  // Where its ends are touched, which spoils them for a witness (D6), another direction beside is taken, in
+  // another place each time.
   std::optional<Witness> witness_from(const SightQuestion& question, const Opening& opening, Passage passage) const {
     const RVector d{opening.d[0], opening.d[1], opening.d[2]};
     Rational size(1, 16);
@@ -194,10 +190,12 @@ class Search {
     constexpr int most_halvings = 4000;  // far beyond any distance between doubles
     for (int i = 0; i < most_halvings; ++i, size /= 2) {
       const RVector y = sum(opening.y, times(nudge, size));
-      const auto line = line_through(question, y, d, passage);
-      if (!line) continue;
-      if (auto found = confirmed(question, to_point(line->first), to_point(line->second))) return found;
-      if (is_zero(nudge)) break;
+      const RVector aside{Rational(i % 7 - 3), Rational(i % 11 - 5), Rational(i % 13 - 6)};
+      for (const RVector& direction : {d, sum(d, times(aside, Rational(size * longest(d))))}) {
+        const auto line = line_through(question, y, direction, passage);
+        if (!line) continue;
+        if (auto found = confirmed(question, to_point(line->first), to_point(line->second))) return found;
+      }
     }
     throw scene::Error(scene::ErrorCode::internal, "visible_set: an open window leads to no free sight line");
   }
@@ -205,6 +203,7 @@ class Search {
   // v and p on the line through y.
   std::optional<std::pair<RVector, RVector>> line_through(const SightQuestion& question, const RVector& y,
                                                           const RVector& d, Passage passage) const {
+    if (sgn(dot(question.target.up, d)) == 0) return std::nullopt;
     const auto reach = [&](const RVector& normal, const RVector& at) {
       return Rational(dot(normal, minus(at, y)) / dot(normal, d));
     };
@@ -212,6 +211,7 @@ class Search {
     const RVector p = point(reach(question.target.up, question.target.triangle[0]));
     if (passage == Passage::on_cell) return std::pair(y, p);
     const auto& facets = scene_.shape().facets;
+    if (cell_.dimension() == 2 && sgn(dot(facets[0].normal, d)) == 0) return std::nullopt;
     if (cell_.dimension() == 2) return std::pair(point(reach(facets[0].normal, facets[0].corners[0])), p);
     std::optional<Rational> enter, leave;
     for (const auto& facet : facets) {
@@ -221,7 +221,7 @@ class Search {
       if (slope < 0 && (!enter || *enter < s)) enter = s;
       if (slope > 0 && (!leave || s < *leave)) leave = s;
     }
-    if (!(*enter < *leave)) return std::nullopt;
+    if (!enter || !leave || !(*enter < *leave)) return std::nullopt;
     return std::pair(point(Rational((*enter + *leave) / 2)), p);
   }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "exact/scene_query.h"
+#include "exact/witness.h"
 #include "fastpath/segment_queries.h"
 #include "fuzz/campaign/oracle.h"
 #include "fuzz/generators/parts.h"
@@ -163,8 +164,8 @@ class Shooter {
 
   void file(const validate::Witness& w, const char* aim) {
     bool& found = exam_.lists(w.triangle) ? found_region_ : found_triangle_;
-    if (!found)
-      found = exam_.claim(oracle_, w, fmt::format("a free sight line ({}) ends where all is called hidden", aim));
+    if (found || exact::check_witness(exam_.scene().mesh, exam_.cell(), w.triangle, w.front, w.v, w.p).special) return;
+    found = exam_.claim(oracle_, w, fmt::format("a free sight line ({}) ends where all is called hidden", aim));
   }
 
   Exam& exam_;

@@ -68,6 +68,59 @@ TEST_F(Query, BadPointsAreNamedByFileAndLine) {
   EXPECT_EQ(run({"query"}).exit_code, 2);
 }
 
+// Scenes in which a campaign found false answers of the checkers for cells without an interior (D3, D6).
+class ThinCells : public testing::Test {
+ protected:
+  TestFolder folder_;
+  Ran run(const std::string& command, const std::string& cell, std::vector<std::string> more) const {
+    more.insert(more.begin(), {command, "scene.off", "--cell", cell});
+    return run_clues(more, folder_.path());
+  }
+};
+
+TEST_F(ThinCells, APointSeenPastATriangleThatCrossesTheLineOfASegmentCell) {
+  folder_.write("scene.off", "OFF\n3 1 0\n-0.5 -1 0.5\n-0.5 1 0.5\n3.25 0 -1\n3 0 1 2\n");
+  folder_.write("points.txt", "0.5 0 1\n");
+  const auto ran = run("query", "box:0,0,0,1,0,0", {"--points", "points.txt", "--json"});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_EQ(json::parse(ran.out)["points"][0]["answers"][0]["sight"], "visible") << ran.out;
+}
+
+TEST_F(ThinCells, AnEmptyUmbraHidesNoTriangleThatTouchesAFlatCell) {
+  folder_.write("scene.off", "OFF\n3 1 0\n0 0 0\n2 0 0\n0 2 0\n3 0 1 2\n");
+  folder_.write(
+      "empty.json",
+      R"({"format":"clues-umbra/1","bounds_exact":[["0","0","0"],["0","0","0"]],"vertices_exact":[],"facets":[]})");
+  const auto ran = run("verify", "box:.25,.25,0,.5,.5,0", {"--umbra", "empty.json", "--list"});
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("hidden triangles: 0 of 1\n"));
+}
+
+// Triangle 2 is seen from the line, or the point, at which the two others stand on the cell, and from nowhere
+// else.
+TEST_F(ThinCells, WhatIsSeenFromBetweenTrianglesOnTheCellAloneIsHidden) {
+  const auto agree = [&](const char* scene, const std::string& cell) {
+    folder_.write("scene.off", scene);
+    ASSERT_EQ(run("map", cell, {"-o", "out.pvs"}).exit_code, 0);
+    EXPECT_THAT(read_all(folder_.file("out.pvs")), testing::Not(HasSubstr("\n2\n")));
+    const auto ran = run("check", cell, {"--pvs", "out.pvs"});
+    EXPECT_EQ(ran.exit_code, 0) << ran.out;
+    EXPECT_THAT(ran.out, HasSubstr("verdict: sound"));
+    folder_.write("points.txt", "1/2 1/100 1\n");  // on triangle 2
+    const auto asked = run("query", cell, {"--points", "points.txt", "--json"});
+    EXPECT_EQ(asked.exit_code, 0) << asked.err;
+    for (const auto& answer : json::parse(asked.out)["points"][0]["answers"]) EXPECT_EQ(answer["sight"], "occluded");
+  };
+  agree(
+      "OFF\n9 3 0\n-1 0 0\n3 0 0\n1 -40 0.5\n-1 0 0\n3 0 0\n1 40 0.5\n0.4 -0.1 1\n0.6 -0.1 1\n0.5 0.2 1\n"
+      "3 0 1 2\n3 3 4 5\n3 6 7 8\n",
+      "box:0,-1,0,1,1,0");
+  agree(
+      "OFF\n9 3 0\n0.125 -1 0.5\n0.125 1 0.5\n1.25 0 -1\n0.875 -1 0.5\n0.875 1 0.5\n-0.25 0 -1\n"
+      "0.4375 -0.0625 1\n0.5625 -0.0625 1\n0.5 0.0625 1\n3 0 1 2\n3 3 4 5\n3 6 7 8\n",
+      "box:0,0,0,1,0,0");
+}
+
 using Umbra = Commands;
 
 TEST_F(Umbra, IsWrittenAndVerified) {

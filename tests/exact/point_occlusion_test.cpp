@@ -156,11 +156,12 @@ TEST(PointOcclusion, FlatCellSeenFromOutsideItsPlane) {
   EXPECT_FALSE(occluded(eye, flat, {}));
   EXPECT_TRUE(occluded(eye, flat, screen(0, -half, -half, half, half)));
   EXPECT_FALSE(occluded(eye, flat, screen(0, -half, -half, half, half - FT(1) / FT(1024))));
-  // In the cell's own plane: inside int V, so no occluder (D3), unlike on a solid cell.
+  // In the cell's own plane: a sight line to a point off the plane leaves it at once, unlike that of a solid
+  // cell.
   EXPECT_FALSE(occluded(eye, flat, screen(-1, -9, -9, 9, 9)));
 }
 
-TEST(PointOcclusion, TheCreaseOfATentOnAFlatCellIsSeen) {
+TEST(PointOcclusion, TheCreaseOfATentOnAFlatCellIsNoOpenPartOfIt) {
   const ConvexCell flat({Point3(-1, -1, -1), Point3(-1, 1, -1), Point3(-1, 1, 1), Point3(-1, -1, 1)});
   // Two half screens that lean on the cell along z = 0: all but the crease is hidden.
   const auto leaning = [](int z) {
@@ -170,11 +171,22 @@ TEST(PointOcclusion, TheCreaseOfATentOnAFlatCellIsSeen) {
   Soup tent = leaning(2);
   EXPECT_FALSE(occluded(eye, flat, tent));
   for (const auto& t : leaning(-2)) tent.push_back(t);
-  const auto answer = point_occlusion(eye, std::nullopt, flat, tent);
-  ASSERT_FALSE(answer.occluded);
-  EXPECT_EQ(answer.witness->z(), FT(0));
-  tent.push_back({Point3(0, -1, 0), Point3(0, 1, 0), Point3(0, 0, 1)});  // a knife edge over the crease: grazing blocks
-  EXPECT_TRUE(occluded(eye, flat, tent));
+  EXPECT_TRUE(occluded(eye, flat, tent));  // sight lines from the crease are free, and it has no area (D6)
+}
+
+// What stands on the cell, or behind it, may hold the viewpoint that comes to mind first.
+TEST(PointOcclusion, AViewpointOnAFlatCellIsOffAllTrianglesThere) {
+  const ConvexCell flat({Point3(-1, -1, -1), Point3(-1, 1, -1), Point3(-1, 1, 1), Point3(-1, -1, 1)});
+  for (const int x : {-2, 0}) {
+    Soup fins{{Point3(-1, -1, 0), Point3(-1, 1, 0), Point3(x, 0, 0)},
+              {Point3(-1, 0, -1), Point3(-1, 0, 1), Point3(x, 0, 0)},
+              {Point3(-1, -1, -1), Point3(-1, 1, 1), Point3(x, 0, 0)}};
+    const auto answer = point_occlusion(eye, std::nullopt, flat, fins);
+    ASSERT_FALSE(answer.occluded);
+    EXPECT_NE(answer.witness->y(), FT(0));
+    EXPECT_NE(answer.witness->z(), FT(0));
+    EXPECT_NE(answer.witness->y(), answer.witness->z());
+  }
 }
 
 TEST(PointOcclusion, FlatCellSeenInItsPlane) {
@@ -192,10 +204,15 @@ TEST(PointOcclusion, FlatCellSeenInItsPlane) {
   EXPECT_FALSE(occluded(eye, flat, {{eye, Point3(0, -1, 0), Point3(0, 0, 0)}}));
   EXPECT_TRUE(occluded(eye, flat, {{Point3(2, -9, 0), Point3(2, 9, 0), Point3(0, 0, 0)}}));  // p inside it
   EXPECT_FALSE(occluded(eye, flat, {{eye, Point3(2, -9, 0), Point3(2, 9, 0)}}));             // all behind p
-  // On the cell's edge: hides; in its interior: does not.
+  // On the cell's edge: hides. In its interior: p sees what is before it.
   EXPECT_TRUE(occluded(eye, flat, {{Point3(-1, -1, 0), Point3(-1, 1, 0), Point3(-1, 0, 1)}}));
-  EXPECT_FALSE(occluded(eye, flat,
-                        {{Point3(FT(-3) / FT(2), -9, 0), Point3(FT(-3) / FT(2), 9, 0), Point3(FT(-3) / FT(2), 0, 1)}}));
+  const Soup across{{Point3(FT(-3) / FT(2), -9, 0), Point3(FT(-3) / FT(2), 9, 0), Point3(FT(-3) / FT(2), 0, 1)}};
+  const auto before = point_occlusion(eye, std::nullopt, flat, across);
+  ASSERT_FALSE(before.occluded);
+  EXPECT_GT(before.witness->x(), FT(-3) / FT(2));
+  // A triangle in the plane, within the cell: the same, and one that holds all of the cell hides it.
+  EXPECT_FALSE(occluded(eye, flat, {{Point3(-2, -9, 0), Point3(-2, 9, 0), Point3(FT(-5) / FT(4), 0, 0)}}));
+  EXPECT_TRUE(occluded(eye, flat, {{Point3(-9, -9, 0), Point3(-9, 9, 0), Point3(0, 0, 0)}}));
 }
 
 TEST(PointOcclusion, SegmentCell) {
@@ -207,16 +224,27 @@ TEST(PointOcclusion, SegmentCell) {
   EXPECT_FALSE(occluded(eye, segment, {{Point3(0, -half, 0), Point3(0, half - FT(1) / FT(99), 0), Point3(0, 0, 1)}}));
 }
 
-TEST(PointOcclusion, OneFreePointOfASegmentCellIsFound) {
-  const ConvexCell segment({Point3(-1, -1, 0), Point3(-1, 1, 0)});
-  // Each triangle stands on the segment and hides one half; the point where they meet is in int V and stays free.
-  Soup halves{{Point3(-1, 0, 0), Point3(0, -2, 0), Point3(-1, -2, 0)},
-              {Point3(-1, 0, 0), Point3(0, 2, 0), Point3(-1, 2, 0)}};
-  const auto answer = point_occlusion(eye, std::nullopt, segment, halves);
+// The triangle's section with the plane of p and the segment crosses the segment's line between its corners.
+TEST(PointOcclusion, AShadowEndsWhereItsTriangleCrossesTheLineOfASegmentCell) {
+  const ConvexCell segment({Point3(0, 0, 0), Point3(1, 0, 0)});
+  const FT half = FT(1) / FT(2);
+  const Soup one{{Point3(-half, -1, half), Point3(-half, 1, half), Point3(FT(13) / FT(4), 0, -1)}};
+  const Point3 p(half, 0, 1);
+  const auto answer = point_occlusion(p, std::nullopt, segment, one);
   ASSERT_FALSE(answer.occluded);
-  EXPECT_EQ(*answer.witness, Point3(-1, 0, 0));
-  halves.push_back({Point3(0, 0, 0), Point3(0, 0, 1), Point3(0, 1, 1)});  // a corner grazes the last line
+  EXPECT_GT(answer.witness->x(), FT(3) / FT(4));
+  EXPECT_FALSE(occluded(p, ConvexCell({Point3(FT(3) / FT(4), 0, 0), Point3(1, 0, 0)}), one));
+  EXPECT_TRUE(occluded(p, ConvexCell({Point3(0, 0, 0), Point3(FT(3) / FT(4), 0, 0)}), one));
+}
+
+TEST(PointOcclusion, AFreePointOfASegmentCellIsNoOpenPartOfIt) {
+  const ConvexCell segment({Point3(-1, -1, 0), Point3(-1, 1, 0)});
+  // Each triangle stands on the segment and hides one half; sight lines from the point where they meet are
+  // free.
+  const Soup halves{{Point3(-1, 0, 0), Point3(0, -2, 0), Point3(-1, -2, 0)},
+                    {Point3(-1, 0, 0), Point3(0, 2, 0), Point3(-1, 2, 0)}};
   EXPECT_TRUE(occluded(eye, segment, halves));
+  EXPECT_FALSE(occluded(eye, segment, {halves[0]}));
 }
 
 TEST(PointOcclusion, SegmentSeenEndOnAndPointCell) {
@@ -225,7 +253,9 @@ TEST(PointOcclusion, SegmentSeenEndOnAndPointCell) {
   const Soup inside{{Point3(FT(-3) / FT(2), 0, 0), Point3(FT(-3) / FT(2), 1, 0), Point3(FT(-3) / FT(2), 0, 1)}};
   EXPECT_FALSE(occluded(eye, segment, {}));
   EXPECT_TRUE(occluded(eye, segment, at_end));
-  EXPECT_FALSE(occluded(eye, segment, inside));
+  EXPECT_FALSE(occluded(eye, segment, inside));  // its nearer half is seen
+  EXPECT_GT(point_occlusion(eye, std::nullopt, segment, inside).witness->x(), FT(-3) / FT(2));
+  EXPECT_TRUE(occluded(Point3(-3, 0, 0), segment, {{Point3(-2, 0, 0), Point3(-1, 0, 0), Point3(-1, 1, 0)}}));
   const ConvexCell point({Point3(-1, 0, 0)});
   EXPECT_FALSE(occluded(eye, point, at_end));  // the point itself is int V
   EXPECT_TRUE(occluded(eye, point, {{Point3(0, 0, 0), Point3(0, 1, 0), Point3(0, 0, 1)}}));  // a corner grazes

@@ -125,6 +125,43 @@ TEST_F(Witness, FlatCells) {
   EXPECT_TRUE(check_witness(mesh_, end_on, 0, true, v_, p_).valid);
 }
 
+// D6: an open part of int V. A triangle that holds v may stop all that is beside v.
+TEST_F(Witness, AViewpointThatATriangleStandsOnIsNoWitness) {
+  const auto square = ConvexCell::from_doubles({{-1, -1, -1}, {-1, 1, -1}, {-1, 1, 1}, {-1, -1, 1}});
+  const auto segment = ConvexCell::from_doubles({{-1, -1, 0}, {-1, 1, 0}});
+  const auto point = ConvexCell::from_doubles({{-1, 0, 0}});
+  const auto solid = ConvexCell::from_doubles({{-2, -1, -1}, {0, -1, -1}, {-1, 1, -1}, {-1, 0, 1}});
+  const Point3 v(-1, 0, 0);
+  add({-1, 0, 0}, {-0.5, -2, 0}, {-1, -2, 0});  // stands on the segment, from v on
+  add({-1, 0, 0}, {-0.5, 2, 0}, {-1, 2, 0});
+  for (const auto* cell : {&square, &segment}) {
+    const auto verdict = check_witness(mesh_, *cell, 0, true, v, p_);
+    EXPECT_TRUE(names(verdict, "v lies on triangle 1: choose another viewpoint")) << verdict.reason;
+    EXPECT_TRUE(verdict.special);
+    EXPECT_EQ(check_sight_line(mesh_, *cell, v, p_).spoiler, std::optional<std::uint32_t>(1));
+    EXPECT_TRUE(check_sight_line(mesh_, *cell, v, p_).blockers.empty());
+  }
+  EXPECT_TRUE(check_witness(mesh_, point, 0, true, v, p_).valid);
+  EXPECT_TRUE(check_witness(mesh_, solid, 0, true, v, p_).valid);
+  mesh_.triangles.resize(1);
+  add({-1, -2, 0}, {-1, 2, 0}, {-3, 0, 0});  // along the segment, behind it
+  EXPECT_TRUE(check_witness(mesh_, segment, 0, true, v, p_).valid);
+  EXPECT_FALSE(check_witness(mesh_, square, 0, true, v, p_).valid);
+}
+
+// p in the plane of the cell: there triangles block that lie in int V.
+TEST_F(Witness, SightLinesWithinThePlaneOfAFlatCell) {
+  const auto square = ConvexCell::from_doubles({{-3, -1, 0}, {-1, -1, 0}, {-1, 1, 0}, {-3, 1, 0}});
+  const Point3 v(-2, 0, 0);
+  EXPECT_TRUE(check_witness(mesh_, square, 0, true, v, p_).valid);
+  add({-2.5, -1, 0}, {-2.5, 1, 0}, {-2, 0, 0});  // v is its corner, and behind it is v of no use
+  EXPECT_TRUE(names(check_witness(mesh_, square, 0, true, v, p_), "v lies on triangle 1"));
+  EXPECT_TRUE(check_witness(mesh_, square, 0, true, v, Point3(1, 0, FT(1) / 2)).valid);
+  add({-1.5, -1, -1}, {-1.5, 1, -1}, {-1.5, 0, 1});  // across the cell
+  EXPECT_TRUE(names(check_witness(mesh_, square, 0, true, v, p_), "triangle 2 blocks"));
+  EXPECT_TRUE(check_witness(mesh_, square, 0, true, Point3(FT(-5) / 4, 0, 0), p_).valid);
+}
+
 // Planted: every witness of the oracle passes; moved p, swapped side, and a blocker laid across are refused.
 TEST_F(Witness, TheOraclesWitnessesPassAndDamagedOnesDoNot) {
   int confirmed = 0;

@@ -121,6 +121,17 @@ TEST(ChainChecker, ASightLineIsAChainOfOneLink) {
   EXPECT_THAT(w.reason(), HasSubstr("link 0: v is not strictly on the back side"));
 }
 
+// D6: the first point has to be seen from an open part of int V.
+TEST(ChainChecker, TheFirstViewpointOnAFlatCellIsOnNoTriangle) {
+  Walls w;
+  w.cell = ConvexCell::from_doubles({{0, -1, -1}, {0, 1, -1}, {0, 1, 1}, {0, -1, 1}});
+  w.chain = {0, true, {{Point3(0, 0, 0), Point3(2, -2, 0)}}};
+  EXPECT_EQ(w.reason(), "");
+  w.mesh.points.insert(w.mesh.points.end(), {{0, 0, 0}, {-1, 1, 0}, {-1, -1, 0}});
+  w.mesh.triangles.push_back({9, 10, 11});
+  EXPECT_EQ(w.reason(), "link 0: v lies on triangle 3: choose another viewpoint");
+}
+
 TEST(ChainChecker, RefusesEveryBrokenChain) {
   const auto refused = [](const std::function<void(Walls&)>& spoil, const char* because) {
     Walls w;

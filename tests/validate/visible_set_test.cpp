@@ -205,6 +205,17 @@ TEST(VisibleSetGroove, ALineOrAPointWithoutAreaIsNotVisible) {
   }
 }
 
+// Triangle 0 stands on the plane of a polygon as cell and hides all of it from the part of triangle 1 above; the
+// part below sees it. No edge tells the two apart.
+TEST(VisibleSetCell, ATriangleThroughThePlaneOfAPolygonIsSeenFromItsOtherSide) {
+  Mesh mesh;
+  mesh.triangle({-1, -3, 2}, {-1.5, 3, 1}, {1, .5, -1.5});
+  const auto target = mesh.triangle({2, -3, -1}, {-2.796875, 3.21875, 0}, {-3.21875, -3.3203125, 2.3203125});
+  const auto cell =
+      ConvexCell::from_doubles({{.75, -1.25, .25}, {.375, -1.15625, .15625}, {-.53125, -2.3671875, 1.3671875}});
+  EXPECT_EQ(sight_of(mesh, target, cell), Sight::visible);
+}
+
 TEST(VisibleSetMode, SolidsShowTheSameInBothModes) {
   std::uint64_t compared = 0, visible = 0, hidden = 0;
   for (std::uint64_t i = 0; i < 12; ++i) {
