@@ -59,6 +59,12 @@ struct Closure {
   ClosureCounts counts;
 };
 
+// A point with these weights, which sum to 1, rounded, and a box that contains it and the exact one. With u =
+// 2^-53 and M the largest corner coordinate each product is off by u M or, where it underflows, by 2^-1075;
+// the sums by 2 u M (no sum of doubles underflows): at most 5 u M + 3 2^-1075 in all. The box is wider than
+// 2^-50 M + 2^-1071 in every direction, less its own rounding, which is below 2 u M.
+Box about_inside(const Corners& t, const std::array<double, 3>& weight, Point& p);
+
 // Deterministic for any number of threads of the current arena. Scenes of up to `whole` triangles are mapped as they are.
 // O(passes * (map of K + boxes next to lit space)).
 Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map, std::size_t whole = 64);
