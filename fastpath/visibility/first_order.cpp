@@ -37,10 +37,7 @@ Box outside_of(const Bvh& bvh) {
   return box;
 }
 
-}  // namespace
-
-FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
-                                  bool regions) {
+FirstOrder in_range(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options, bool regions) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   const Box outside = outside_of(bvh);
   Closure closure = close_over_visible(bvh, Cell(exact_cell), [&](const scene::TriangleMesh& part) {
@@ -57,6 +54,25 @@ FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell
   result.conservative_fallbacks = map.counts().conservative_fallbacks + map.conservative_labels();
   result.part = std::move(closure.part);
   return result;
+}
+
+}  // namespace
+
+FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
+                                  bool regions) {
+  const exact::StandardRange range(bvh.mesh(), cell);
+  if (!range.moves()) return in_range(bvh, cell, options, regions);
+  const scene::TriangleMesh mesh = range.moved_in(bvh.mesh());
+  FirstOrder result = in_range(Bvh(mesh), range.moved_in(cell), options, regions);
+  move_back(result.regions, range);
+  return result;
+}
+
+void move_back(std::vector<LocalRegion>& regions, const exact::StandardRange& range) {
+  for (LocalRegion& region : regions) {
+    for (Point& p : region.outline_estimate) p = range.estimate_moved_back(p);
+    region.area_estimate = range.area_moved_back(region.area_estimate);
+  }
 }
 
 void require_solid(const scene::TriangleMesh& mesh) {
