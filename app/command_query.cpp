@@ -35,6 +35,16 @@ struct Asked {
   std::vector<validate::SegmentPart> parts;  // of a segment; then there is no report
 };
 
+void move_back(Asked& q, const exact::StandardRange& range) {
+  for (validate::PointAnswer& a : q.report.answers) {
+    if (a.v) a.v = range.moved_back(*a.v);
+  }
+  for (validate::SegmentPart& part : q.parts) {
+    if (part.v) part.v = range.moved_back(*part.v);
+    part.at = range.moved_back(part.at);
+  }
+}
+
 std::string sight_word(const validate::PointAnswer& a) { return a.v ? "visible" : "occluded"; }
 
 json exact_json(const exact::Point3& p) {
@@ -160,15 +170,23 @@ int run_query(const QueryRequest& request) {
       bar.show(stage, done, total);
     };
     const reference::Omega omega(mesh, cell, options);
-    CGAL::Bbox_3 bounds = points.front().point.bbox();
-    for (const auto& p : points) bounds += p.end ? p.point.bbox() + p.end->bbox() : p.point.bbox();
-    const validate::PointQuery query(mesh, omega, bounds);
+    const exact::StandardRange& range = omega.map().range;
+    const scene::TriangleMesh mesh_in_range = range.moved_in(mesh);
+    std::vector<exact::Point3> from, to;
+    CGAL::Bbox_3 bounds;
     for (const auto& p : points) {
-      if (p.end) {
-        all.push_back({p, {}, validate::ask_segment(query, omega, p.point, *p.end)});
+      from.push_back(range.moved_in(p.point));
+      to.push_back(p.end ? range.moved_in(*p.end) : from.back());
+      bounds += from.back().bbox() + to.back().bbox();
+    }
+    const validate::PointQuery query(mesh_in_range, omega, bounds);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (points[i].end) {
+        all.push_back({points[i], {}, validate::ask_segment(query, omega, from[i], to[i])});
       } else {
-        all.push_back({p, query.ask(p.point), {}});
+        all.push_back({points[i], query.ask(from[i]), {}});
       }
+      move_back(all.back(), range);
       bar.show("points", all.size(), points.size());
     }
   }

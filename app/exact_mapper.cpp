@@ -36,9 +36,8 @@ class ExactMapper : public CellMapper {
     options.progress = progress;
     const auto cell = exact::ConvexCell::from_doubles(spec.points);
     if (request_.refinement != validate::Refinement::none) return simplified(refined(cell, options), spec, threads);
-    if (request_.umbra.file.empty())
-      return simplified(reference::first_order_visibility(mesh_, cell, options), spec, threads);
-    const reference::Omega omega(mesh_, cell, options);
+    reference::Omega omega(mesh_, cell, options);
+    if (request_.umbra.file.empty()) return simplified(std::move(omega).take_map(), spec, threads);
     if (progress) progress("umbra", 0, 1);
     MappedCell out = mapped(omega.map(), spec);
     UmbraOutput umbra = make_umbra(omega, mesh_, spec, request_.scene, sha256_, request_.umbra, threads);
@@ -57,11 +56,12 @@ class ExactMapper : public CellMapper {
     return bounds.refined_map(request_.refinement == validate::Refinement::cells ? "subdivided" : "backprojected");
   }
   MappedCell mapped(const reference::VisibilityMap& map, const scene::CellSpec& spec,
-                    const std::optional<scene::Simplification>& simplification = {}) const {
+                    const std::optional<scene::Simplification>& simplification = {},
+                    const std::string& about_simplification = "") const {
     return {spec.name,
             bytes_of(reference::to_result(map, spec, request_.with_map, request_.with_states), request_, sha256_,
                      simplification),
-            table_line(spec.name, map) + (simplification ? summary_of(*simplification) : ""),
+            table_line(spec.name, map) + about_simplification,
             request_.overlap_graph.empty() ? "" : overlap_graph_of(map),
             "",
             ""};
@@ -69,7 +69,8 @@ class ExactMapper : public CellMapper {
   MappedCell simplified(const reference::VisibilityMap& map, const scene::CellSpec& spec, int threads) const {
     if (!request_.simplify.asked()) return mapped(map, spec);
     const auto simpler = reference::with_simpler_occlusion(map, request_.simplify.to_reference(threads));
-    return mapped(simpler.map, spec, record_of(simpler, request_.simplify));
+    const scene::Simplification record = record_of(simpler, request_.simplify);
+    return mapped(simpler.map, spec, record, summary_of(simpler, record));
   }
 
   const scene::TriangleMesh& mesh_;

@@ -54,8 +54,9 @@ reference::OcclusionControls SimplifyChoice::to_reference(int threads) const {
 }
 
 scene::Simplification record_of(const reference::SimplifiedMap& simplified, const SimplifyChoice& choice) {
-  const auto figures = [](const reference::OcclusionFigures& f) {
-    return scene::Simplification::Figures{f.regions, f.segments, f.hidden_area, f.visible_triangles};
+  const auto figures = [&](const reference::OcclusionFigures& f) {
+    return scene::Simplification::Figures{f.regions, f.segments, simplified.map.range.area_moved_back(f.hidden_area),
+                                          f.visible_triangles};
   };
   return {choice.min_occlusion.value_or(0),
           choice.simplify_boundaries.value_or(0),
@@ -66,8 +67,9 @@ scene::Simplification record_of(const reference::SimplifiedMap& simplified, cons
           simplified.by_planes};
 }
 
-std::string summary_of(const scene::Simplification& s) {
-  const double kept = s.before.hidden_area > 0 ? 100 * s.after.hidden_area / s.before.hidden_area : 100;
+std::string summary_of(const reference::SimplifiedMap& simplified, const scene::Simplification& s) {
+  const double before = simplified.before.hidden_area;
+  const double kept = before > 0 ? 100 * simplified.after.hidden_area / before : 100;
   const std::string corners =
       s.intersect_planes ? fmt::format("inside corners by planes {} of {}, ", s.by_planes, s.inside_corners) : "";
   return fmt::format(

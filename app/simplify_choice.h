@@ -21,6 +21,7 @@ struct SimplifyChoice {
 
 scene::Simplification record_of(const reference::SimplifiedMap& simplified, const SimplifyChoice& choice);
 
-std::string summary_of(const scene::Simplification& simplification);  // one line
+// One line.
+std::string summary_of(const reference::SimplifiedMap& simplified, const scene::Simplification& record);
 
 }  // namespace clues::app

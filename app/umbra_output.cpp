@@ -61,7 +61,8 @@ UmbraOutput make_umbra(const reference::Omega& omega, const scene::TriangleMesh&
                        int threads) {
   const reference::Umbra umbra = reference::build_umbra(omega, bounds_of(request.bounds), threads);
   validate::UmbraRecord record = validate::record_of(umbra);
-  const auto verdict = validate::check_umbra_certificate(mesh, omega.map().cell, record.facets);
+  const auto verdict =
+      validate::check_umbra_certificate(mesh, omega.map().range.moved_back(omega.map().cell), record.facets);
   if (!verdict.valid) {
     const std::uint64_t limits = umbra.fallbacks + omega.map().statistics.conservative_fallbacks;
     if (limits > 0)

@@ -24,8 +24,12 @@ struct alignas(64) BoxLanes {
 // far_origin) / along in exact arithmetic. Computed, each quotient has three relative errors of u = 2^-24 (a difference, the inverse, a product) and keeps
 // its sign: near' <= s (1+u)^3 / (1-u)^3, and far' >= s / the same, that is, both within s (1 +- 4u). A near' below 0 is replaced by 0; far' >= 0.
 // So near' <= far' (1 + 9u), and far_inverse is larger by 16u. (Underflow: `reach` has 2^-34 to spare, quotients are at least 2^-2 times that.)
+// The limit is a bound on s, and near' may be beyond s by 4u: so it is larger by 16u (less the rounding of
+// that product, u), here and wherever a near' is compared with it.
 class BoxTest {
  public:
+  static float widened(float limit) { return limit * (1 + 0x1p-20F); }
+
   explicit BoxTest(const LocalSegment& s) {
     for (int i = 0; i < 3; ++i) {
       const auto k = static_cast<std::size_t>(i);
@@ -34,12 +38,13 @@ class BoxTest {
       near_origin_[i] = all_lanes(s.near_origin[k]);
       far_origin_[i] = all_lanes(s.far_origin[k]);
       inverse_[i] = all_lanes(s.inverse[k]);
-      far_inverse_[i] = all_lanes(s.inverse[k] * (1 + 0x1p-20F));
+      far_inverse_[i] = all_lanes(widened(s.inverse[k]));
     }
   }
 
-  // Bit i: child i may be met before s = limit (1: anywhere). near: where, for each child.
+  // Bit i: child i may be met at s <= limit (1: anywhere). near: where, for each child.
   unsigned operator()(const BoxLanes& node, float limit, float* near) const {
+    const Float4 last = all_lanes(widened(limit));
     unsigned met = 0;
     for (std::size_t lane = 0; lane < BoxLanes::kWidth; lane += 4) {
       const Float4 near_x = (load4(node.side[near_side_[0]] + lane) - near_origin_[0]) * inverse_[0];
@@ -49,7 +54,7 @@ class BoxTest {
       const Float4 far_y = (load4(node.side[far_side_[1]] + lane) - far_origin_[1]) * far_inverse_[1];
       const Float4 far_z = (load4(node.side[far_side_[2]] + lane) - far_origin_[2]) * far_inverse_[2];
       const Float4 low = max4(max4(near_x, near_y), max4(near_z, all_lanes(0.0F)));
-      const Float4 high = min4(min4(far_x, far_y), min4(far_z, all_lanes(limit)));
+      const Float4 high = min4(min4(far_x, far_y), min4(far_z, last));
       met |= bits_of(low <= high) << lane;
       if (near != nullptr) store4(near + lane, low);
     }

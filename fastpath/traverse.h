@@ -8,8 +8,8 @@
 
 namespace clues::fastpath {
 
-// The traversal as a sequence of steps, children in any order, so that the traversals of several segments can take turns: while one waits for memory
-// another computes.
+// The traversal as a sequence of steps, children in any order, so that the traversals of several segments can
+// take turns: while one waits for memory another computes.
 class Traversal {
  public:
   explicit Traversal(const LocalSegment& segment) : test_(segment) {}
@@ -71,7 +71,7 @@ void traverse_ordered(const Bvh& bvh, const LocalSegment& segment, const Leaf& l
   while (size > 0) {
     const Waiting next = stack[--size];
     const float end = limit();
-    if (next.near > end * (1 + 0x1p-20F)) continue;
+    if (next.near > BoxTest::widened(end)) continue;
     if ((next.child & BoxLanes::kLeaf) != 0) {
       leaf(bvh.blocks()[next.child & ~BoxLanes::kLeaf]);
       continue;

@@ -68,11 +68,12 @@ json bounds_json(const std::optional<Bounds>& bounds) {
 }
 
 json weights_json(const Weights& w) {
-  return {{"visible_listed", w.visible_listed},
-          {"visible_missing", w.visible_missing},
-          {"undecided_listed", w.undecided_listed},
-          {"undecided_missing", w.undecided_missing},
-          {"hidden_listed", w.hidden_listed},
+  const auto of = [&](double weight) { return w.range.area_moved_back(weight); };
+  return {{"visible_listed", of(w.visible_listed)},
+          {"visible_missing", of(w.visible_missing)},
+          {"undecided_listed", of(w.undecided_listed)},
+          {"undecided_missing", of(w.undecided_missing)},
+          {"hidden_listed", of(w.hidden_listed)},
           {"overestimate_qo", bounds_json(over_estimate(w))},
           {"underestimate_qu", bounds_json(under_estimate(w))}};
 }

@@ -57,7 +57,11 @@ Weights count_weights(const Judgement& judgement) {
 }
 
 Weights area_weights(const Judgement& judgement, const scene::TriangleMesh& mesh) {
-  return weigh(judgement, [&](std::uint32_t t) { return area_estimate(mesh, t); });
+  const exact::StandardRange range(mesh, std::vector<scene::Point>{});
+  const scene::TriangleMesh in_range = range.moved_in(mesh);
+  Weights weights = weigh(judgement, [&](std::uint32_t t) { return area_estimate(in_range, t); });
+  weights.range = range;
+  return weights;
 }
 
 std::vector<std::array<exact::FT, 2>> first_order_fractions(const scene::TriangleMesh& mesh,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "exact/kernel.h"
+#include "exact/standard_range.h"
 #include "reference/visibility/first_order.h"
 #include "scene/mesh.h"
 #include "validate/judge.h"
@@ -18,6 +19,7 @@ struct Weights {
   double visible_listed = 0, visible_missing = 0;      // in E for certain
   double undecided_listed = 0, undecided_missing = 0;  // in Omega, no witness
   double hidden_listed = 0;                            // loose, or proved hidden
+  exact::StandardRange range = {};                     // of areas, so that their ratios are numbers for any scene
 };
 
 struct Bounds {

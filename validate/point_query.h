@@ -37,7 +37,8 @@ struct PointReport {
 
 class PointQuery {
  public:
-  // Keeps references. `bounds`: a box around all points that will be asked for. Solid mode: fronts only (D4).
+  // Keeps references. All coordinates, the mesh's too, are in the range of omega (omega.map().range).
+  // `bounds`: a box around all points that will be asked for. Solid mode: fronts only (D4).
   PointQuery(const scene::TriangleMesh& mesh, const reference::Omega& omega, const CGAL::Bbox_3& bounds);
 
   // Throws Error internal if two oracles contradict each other on the way. One pass of plain rationals over all triangles for each triangle that

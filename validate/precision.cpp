@@ -13,7 +13,7 @@ using reference::AreaEstimate;
 using reference::DepthFigures;
 
 PrecisionReport refine(reference::Bounds& bounds, Refinement refinement, const reference::RefineOptions& options) {
-  PrecisionReport report{refinement, {}, {}, 0};
+  PrecisionReport report{refinement, {}, {}, 0, {}};
   if (refinement == Refinement::backprojection || refinement == Refinement::both) {
     report.depths = reference::refine_by_backprojection(bounds, options);
   }
@@ -24,6 +24,7 @@ PrecisionReport refine(reference::Bounds& bounds, Refinement refinement, const r
     report.depths.insert(report.depths.end(), more.begin(), more.end());
   }
   report.triangles = bounds.by_triangle();
+  report.range = bounds.range();
   report.fallbacks = bounds.first_order().statistics.conservative_fallbacks + bounds.fallbacks();
   return report;
 }
@@ -47,9 +48,10 @@ std::string to_table(const PrecisionReport& report) {
       "depth  cells   maps  backprojections  viewpoints       witnessed         refined          excess  of facing\n";
   for (const DepthFigures& d : report.depths) {
     const double share = d.area.facing > 0 ? 100 * d.area.excess() / d.area.facing : 0;
-    text += fmt::format("{:>5}  {:>5}  {:>5}  {:>15}  {:>10}  {:>14.6g}  {:>14.6g}  {:>14.6g}  {:>7.3f} %\n", d.depth,
-                        d.cells, d.maps, d.backprojections, d.viewpoints, d.area.lower, d.area.upper, d.area.excess(),
-                        share);
+    text +=
+        fmt::format("{:>5}  {:>5}  {:>5}  {:>15}  {:>10}  {:>14.6g}  {:>14.6g}  {:>14.6g}  {:>7.3f} %\n", d.depth,
+                    d.cells, d.maps, d.backprojections, d.viewpoints, report.range.area_moved_back(d.area.lower),
+                    report.range.area_moved_back(d.area.upper), report.range.area_moved_back(d.area.excess()), share);
   }
   const auto decided =
       std::count_if(report.triangles.begin(), report.triangles.end(), [](const auto& t) { return t.lower == t.upper; });
@@ -66,6 +68,7 @@ std::string to_json_text(const PrecisionReport& report, const std::string& scene
                          const std::string& scene_sha256) {
   using nlohmann::json;
   json depths = json::array(), triangles = json::array();
+  const auto area = [&](double x) { return report.range.area_moved_back(x); };
   for (const DepthFigures& d : report.depths) {
     depths.push_back({{"depth", d.depth},
                       {"cells", d.cells},
@@ -73,11 +76,11 @@ std::string to_json_text(const PrecisionReport& report, const std::string& scene
                       {"viewpoints", d.viewpoints},
                       {"backprojections", d.backprojections},
                       {"area",
-                       {{"facing", d.area.facing},
-                        {"witnessed", d.area.lower},
-                        {"refined", d.area.upper},
-                        {"first_order", d.area.first_order},
-                        {"excess", d.area.excess()}}}});
+                       {{"facing", area(d.area.facing)},
+                        {"witnessed", area(d.area.lower)},
+                        {"refined", area(d.area.upper)},
+                        {"first_order", area(d.area.first_order)},
+                        {"excess", area(d.area.excess())}}}});
   }
   for (const auto& t : report.triangles) {
     triangles.push_back({{"triangle", t.triangle},
@@ -114,7 +117,8 @@ std::string to_svg(const PrecisionReport& report) {
     const double v = most * k / 4;
     text += fmt::format("<line x1=\"{0}\" y1=\"{1:.2f}\" x2=\"{2}\" y2=\"{1:.2f}\" stroke=\"#ccc\"/>\n", left, y(v),
                         width - right);
-    text += fmt::format("<text x=\"{}\" y=\"{:.2f}\" text-anchor=\"end\">{:.4g}</text>\n", left - 6, y(v) + 4, v);
+    text += fmt::format("<text x=\"{}\" y=\"{:.2f}\" text-anchor=\"end\">{:.4g}</text>\n", left - 6, y(v) + 4,
+                        report.range.area_moved_back(v));
     if (most == 0) break;
   }
   std::string line;

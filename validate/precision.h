@@ -15,7 +15,8 @@ struct PrecisionReport {
   Refinement refinement = Refinement::cells;
   std::vector<reference::DepthFigures> depths;  // for `both` the depths of the second follow those of the first
   std::vector<reference::TriangleBounds> triangles;
-  std::uint64_t fallbacks = 0;  // D17
+  std::uint64_t fallbacks = 0;      // D17
+  exact::StandardRange range = {};  // of the areas
 };
 
 // Refines the bounds and reports.

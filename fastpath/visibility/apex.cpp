@@ -186,6 +186,33 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
   for (std::uint32_t i = 0; i < sectors_.size(); ++i) {
     const ApexSector& s = sectors_[i];
     const V n = normal_direction<NT>(*s.plane), middle = balanced_sum<NT>(star.to(*s.ray0), star.to(*s.ray1));
+    // A sector that bounds nothing is left out. Let its plane have V on the side H+, and A(x) on the other; d
+    // be the direction of visible space beside x, strictly in H+, from which the great circle arc to `middle`
+    // meets no arc. Then
+    // 1. The points just off the sector in H+, near x, are in Omega. From x + r d, r small, sight lines go on
+    //    in the directions x + r d - v, v in int V, which are as near as one likes to those of A(x) (D8), so
+    //    also to `middle` on the border of A(x), and reach points that project to the arc from d towards
+    //    `middle`. With v near enough to where the plane touches V they stay in H+ until as near to the
+    //    sector as one likes. What touches x is a cone beside x and meets no such arc if they are near enough
+    //    to the one that was tested (arcs are closed); all else is farther away. From there in the same way
+    //    to all directions of the sector: no arc crosses it (split()), and one that lies along it covers all
+    //    of it, `middle` too, and then the test failed.
+    // 2. So they are farther out, too: from x + r m, m just off the sector in H+, sight lines go on beside
+    //    the plane to the first surface in H+ that touches it. Let y be a point of the valid piece beyond
+    //    that, in general position, with x + t (x - v) = y for a v of the touching edge of V. All such v near
+    //    by, and so all points x' of the plane near x, are behind the same: an edge e in the plane (a vertex
+    //    hides a line only, in the limit). All triangles at e are in the closed H+, or the piece of x would
+    //    end at e (D13); V touches the plane in v; and beside e, in H-, is Omega, for e is on the valid piece
+    //    of x. So y is on the wedge of e in this plane (D10, D11), or on a sector in this plane at an end of
+    //    a lit part of e, nearer to y than x is. If that sector is left out as well, the same holds of it;
+    //    this ends, as there are finitely many edges. So where the two sides of the sector differ in label,
+    //    another valid piece lies there.
+    // 3. At a CSV the edge's end in H- of the piece that crosses it is such a d, if that is strictly in H+ of
+    //    the sector: beside the edge towards that end, all that the face of the probe reaches by `spreads` is
+    //    in Omega (the probe looks back along the piece, so sight lines go on from it towards x, that is, in
+    //    the half plane of edge and probe as near to the edge as one likes; and `spreads` turns about the
+    //    edge). So beside the edge, where `inner` is as seen along the edge, is Omega; and every arc is a
+    //    half plane at the edge, so none is between there and `inner`.
     bool bounds_nothing = false;
     for (const Lit& l : lit) {
       // Visible space strictly in H+ that surely reaches the points just off `middle` in H+.

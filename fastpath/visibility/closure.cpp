@@ -50,19 +50,6 @@ Box child_box(const LocalFrame& frame, const BoxLanes& node, std::size_t lane) {
   return box;
 }
 
-// A box that contains a point of the triangle's inside. The weights sum to 1 but for roundings, each coordinate is off by less than 8 units in the last place of
-// the largest corner coordinate.
-Box about_inside(const Corners& t, const std::array<double, 3>& weight) {
-  Box box;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double x = weight[0] * t[0][i] + weight[1] * t[1][i] + weight[2] * t[2][i];
-    const double off = 0x1p-50 * std::max({std::fabs(t[0][i]), std::fabs(t[1][i]), std::fabs(t[2][i])});
-    box.low[i] = x - 2 * off;
-    box.high[i] = x + 2 * off;
-  }
-  return box;
-}
-
 // The triangles of K that are lit, as boxes: all that light meets. What is dark in K stops no light, and need not be in K.
 class LitTriangles {
  public:
@@ -302,6 +289,17 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
 }
 
 }  // namespace
+
+Box about_inside(const Corners& t, const std::array<double, 3>& weight) {
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double x = weight[0] * t[0][i] + weight[1] * t[1][i] + weight[2] * t[2][i];
+    const double off = 0x1p-50 * std::max({std::fabs(t[0][i]), std::fabs(t[1][i]), std::fabs(t[2][i])}) + 0x1p-1071;
+    box.low[i] = x - 2 * off;
+    box.high[i] = x + 2 * off;
+  }
+  return box;
+}
 
 Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map, std::size_t whole,
                            const exact::Dials& dials) {

@@ -60,6 +60,12 @@ struct Closure {
   ClosureCounts counts;
 };
 
+// A box that contains the point with these weights, which sum to 1, and that point rounded. With u =
+// 2^-53 and M the largest corner coordinate each product is off by u M or, where it underflows, by 2^-1075;
+// the sums by 2 u M (no sum of doubles underflows): at most 5 u M + 3 2^-1075 in all. The box is wider than
+// 2^-50 M + 2^-1071 in every direction, less its own rounding, which is below 2 u M.
+Box about_inside(const Corners& t, const std::array<double, 3>& weight);
+
 inline constexpr std::size_t kMappedWhole = 64;
 
 // Deterministic for any number of threads of the current arena. Scenes of up to `whole` triangles are mapped as they are, unless the first guess is on a dial.

@@ -63,7 +63,21 @@ FirstOrder by_closure(const Bvh& bvh, const std::vector<Point>& cell, const Loca
 
 FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
                                   bool regions) {
-  return exact::by_dialed_threads(options.dials.threads, [&] { return by_closure(bvh, cell, options, regions); });
+  return exact::by_dialed_threads(options.dials.threads, [&] {
+    const exact::StandardRange range(bvh.mesh(), cell);
+    if (!range.moves()) return by_closure(bvh, cell, options, regions);
+    const scene::TriangleMesh mesh = range.moved_in(bvh.mesh());
+    FirstOrder result = by_closure(Bvh(mesh), range.moved_in(cell), options, regions);
+    move_back(result.regions, range);
+    return result;
+  });
+}
+
+void move_back(std::vector<LocalRegion>& regions, const exact::StandardRange& range) {
+  for (LocalRegion& region : regions) {
+    for (Point& p : region.outline_estimate) p = range.estimate_moved_back(p);
+    region.area_estimate = range.area_moved_back(region.area_estimate);
+  }
 }
 
 void require_solid(const scene::TriangleMesh& mesh) {

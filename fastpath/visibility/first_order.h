@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "exact/standard_range.h"
 #include "fastpath/bvh.h"
 #include "fastpath/visibility/closure.h"
 #include "fastpath/visibility/local_map.h"
@@ -19,10 +20,15 @@ struct FirstOrder {
   std::uint64_t conservative_fallbacks = 0;
 };
 
-// One tree serves many cells at once. The same answer for any number of threads. Solid mode takes the mesh as closed: see require_solid.
-// Throws scene::Error for coordinates that are not finite.
+// One tree serves many cells at once. The same answer for any number of threads. Solid mode takes the mesh as
+// closed: see require_solid. A scene outside the standard range (exact/standard_range.h) is moved there and
+// gets a tree of its own; regions are moved back. Throws scene::Error for coordinates that are not finite,
+// and unsupported as StandardRange does.
 FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
                                   bool regions = false);
+
+// Back into the coordinates of the scene.
+void move_back(std::vector<LocalRegion>& regions, const exact::StandardRange& range);
 
 // D4. Throws scene::Error not_solid unless the mesh is closed and consistently oriented. O(n log n) where the triangles share their corners; else as
 // slow as exact::build_complex.

@@ -24,6 +24,36 @@ IntervalBox bounds_of(const LocalScene& scene, const Box* outside) {
   return outside ? hull(scene.bounds, to_box(*outside)) : scene.bounds;
 }
 
+Interval wider(const Interval& side, double by) { return side + Interval(-by, by); }
+
+// What set_box needs: bounds of every segment that pieces are asked about. With L the largest side of what
+// holds mesh and cell, and E that of the mesh alone, ends of segments are
+// - corners of the mesh, points of V, of segments between these and those that follow, and places that the
+//   caller asks about: in `given`;
+// - beside a side of a piece (side_visible): E/16 off it, or exactly by 2^-21 E;
+// - beside a contour edge (beside_edge): 2^-5 (1 + 2^-5) of its length, at most 0.06 E, or exactly by 2^-29
+//   of the way across to the cell, at most 2 L, with 2^-5 of that, times 4 at most, along the normal: 2^-27
+//   L;
+// - beside x, on the way to another point (point_near): rounded to 2^-52 L;
+// - beside a vertex on the way through V, perhaps beyond V (views_of_cell): L/32 in each coordinate. Each is
+//   rounded, a few times, in the unit of the largest coordinate. So it is enough to add E/8 + L/16 and 2^-50
+//   of the largest coordinate around the mesh. The box that the closure gives leaves E/2 (first_order.cpp),
+//   which is as much where L is below 6 E and E is not next to the spacing of doubles.
+IntervalBox bounds_of_segments(const LocalScene& scene, const IntervalBox& given) {
+  if (scene.points.empty()) return given;
+  const RoundedUp rounded_up;
+  IntervalBox mesh = scene.points.front().approximate();
+  for (const ExactPoint& p : scene.points) mesh = hull(mesh, p.approximate());
+  const auto largest_side = [](const IntervalBox& b) {
+    return std::max({b.x.sup() - b.x.inf(), b.y.sup() - b.y.inf(), b.z.sup() - b.z.inf()});
+  };
+  double largest = 0;
+  for (const Interval* side : {&scene.bounds.x, &scene.bounds.y, &scene.bounds.z})
+    largest = std::max({largest, std::fabs(side->inf()), std::fabs(side->sup())});
+  const double by = largest_side(mesh) / 8 + largest_side(scene.bounds) / 16 + 0x1p-50 * largest;
+  return hull(given, IntervalBox{wider(mesh.x, by), wider(mesh.y, by), wider(mesh.z, by)});
+}
+
 }  // namespace
 
 class LocalMap::Parts {
@@ -34,7 +64,8 @@ class LocalMap::Parts {
         wanted(mesh.triangles.size(), true),
         bounds(fastpath::bounds_of(scene, outside)),
         workers(scene),
-        search(scene, bounds, options, counts, workers) {
+        bounds_asked(bounds_of_segments(scene, bounds)),
+        search(scene, bounds_asked, options, counts, workers) {
     make();
   }
   Parts(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part,
@@ -44,7 +75,8 @@ class LocalMap::Parts {
         wanted(w),
         bounds(scene.bounds),
         workers(scene),
-        search(scene, bounds, options, counts, workers) {
+        bounds_asked(bounds_of_segments(scene, bounds)),
+        search(scene, bounds_asked, options, counts, workers) {
     make();
   }
 
@@ -62,7 +94,8 @@ class LocalMap::Parts {
     counts.exact_decisions = exact_decisions() - before;
   }
 
-  static WedgePiece estimated(const ValidPiece& p) {
+  WedgePiece estimated(ValidPiece p) const {
+    set_box(p, bounds);
     WedgePiece out;
     out.kind = p.kind;
     out.generation = p.generation;
@@ -79,8 +112,9 @@ class LocalMap::Parts {
   LocalMapCounts counts;
   LocalScene scene;
   const std::vector<bool> wanted;  // by triangle
-  IntervalBox bounds;
+  IntervalBox bounds;              // of scene and cell, and of what the caller asks about
   Workers workers;
+  IntervalBox bounds_asked;
   Search search;
   std::vector<std::uint32_t> visible, lit;
   std::optional<OneLabel> one_label;
@@ -358,7 +392,7 @@ const std::vector<std::uint32_t>& LocalMap::visible() const { return parts_->vis
 std::vector<WedgePiece> LocalMap::pieces() const {
   const RoundedUp rounded_up;
   std::vector<WedgePiece> out;
-  for (const ValidPiece& p : parts_->search.pieces().pieces()) out.push_back(Parts::estimated(p));
+  for (const ValidPiece& p : parts_->search.pieces().pieces()) out.push_back(parts_->estimated(p));
   return out;
 }
 const std::vector<std::uint32_t>& LocalMap::lit() const { return parts_->lit; }
@@ -407,6 +441,9 @@ LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell
     for (const double x : p) {
       if (!std::isfinite(x))
         throw scene::Error(scene::ErrorCode::non_finite, "local map: a coordinate is not a finite number");
+      if (std::fabs(x) >= 0x1p129)
+        throw scene::Error(scene::ErrorCode::unsupported,
+                           "local map: a coordinate is beyond 2^128; move the scene into the standard range first");
     }
   }
   return LocalMap(std::make_shared<const LocalMap::Parts>(mesh, cell, options, outside));

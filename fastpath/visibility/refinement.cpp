@@ -352,7 +352,21 @@ class Refiner {
 
 RefinedVisibility refined_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
                                      const RefinementOptions& refinement) {
-  return exact::by_dialed_threads(options.dials.threads, [&] { return Refiner(bvh, cell, options, refinement).run(); });
+  return exact::by_dialed_threads(options.dials.threads, [&] {
+    const exact::StandardRange range(bvh.mesh(), cell);
+    if (!range.moves()) return Refiner(bvh, cell, options, refinement).run();
+    const scene::TriangleMesh mesh = range.moved_in(bvh.mesh());
+    const Bvh moved(mesh);
+    RefinementOptions in_range = refinement;
+    if (refinement.tolerance_area > 0)
+      in_range.tolerance_area = std::max(range.area_moved_in(refinement.tolerance_area), 0x1p-1000);
+    RefinedVisibility result = Refiner(moved, range.moved_in(cell), options, in_range).run();
+    move_back(result.first_order.regions, range);
+    for (RefinementFigures& f : result.depths) {
+      for (double* area : {&f.first_order_area, &f.witnessed_area, &f.refined_area}) *area = range.area_moved_back(*area);
+    }
+    return result;
+  });
 }
 
 }  // namespace clues::fastpath

@@ -143,13 +143,19 @@ class Star {
     return name;
   }
 
-  // Whether the great circle arc from just beside d0.limit to d1 surely meets no arc.
+  // Whether the great circle arc (the way) from d0, just beside d0.limit and on no arc, to d1 surely meets no
+  // arc: arc by arc, by the sides of its great circle on which the ends are. On one side both: the way, less
+  // than a half turn, stays there. d0 on the circle and d1 not: they have d0 in common, which is on no arc.
+  // d0 beside the circle and d1 on it: they have d1 in common. On different sides: one point y; if the circle
+  // holds d0.limit, y is as near to that as d0 is, and an arc, being closed, that does not hold the limit
+  // does not come so near. Both on it: not surely. (Opposite ends make y zero, which counts as on the arc.)
   bool free_between(const Beside<NT>& d0, const V& d1) const {
     for (const Arc& arc : arcs_) {
       const int s0 = side_of(arc, d0), s1 = sign_of(NT(dot(arc.normal, d1)));
       if (s0 != 0 && s0 == s1) continue;
       if (s0 == 0 && s1 != 0) continue;
       if (s0 == 0) return false;
+      if (s1 == 0 && in_arc(nodes_[idx(arc.a)], nodes_[idx(arc.b)], arc.normal, d1)) return false;
       const NT l = is_on(arc, d0) ? NT(0) : NT(dot(arc.normal, d0.limit)), m = dot(arc.normal, d1);
       const NT at0 = sign_of(l) < 0 ? NT(-l) : l, at1 = sign_of(m) < 0 ? NT(-m) : m;
       const V y = sign_of(at0) == 0 ? d0.limit : V(at1 * d0.limit + at0 * d1);

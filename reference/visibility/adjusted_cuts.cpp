@@ -50,7 +50,7 @@ class AdjustedCuts {
     for (int depth = 1; depth <= options_.max_depth; ++depth) {
       if (std::none_of(open_.begin(), open_.end(), [](bool o) { return o; })) break;
       const double excess = depths.back().area.excess();
-      if (excess <= options_.tolerance_area) break;
+      if (excess <= bounds_.range().area_moved_in(options_.tolerance_area)) break;
       excess_ = excess;
       const std::size_t parts = parts_.size();  // the halves made now wait for the next depth
       for (std::size_t i = 0; i < parts; ++i) {

@@ -5,6 +5,7 @@
 #include "exact/area.h"
 #include "exact/cell_cut.h"
 #include "reference/visibility/in_parallel.h"
+#include "reference/visibility/omega.h"
 #include "reference/visibility/side_faces.h"
 #include "reference/visibility/sides.h"
 
@@ -19,7 +20,7 @@ void Bounds::for_each_side(const Work& work) const {
 }
 
 Bounds::Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options)
-    : map_(first_order_visibility(mesh, cell, options)), options_(options), viewpoints_to_ask_(cell) {
+    : map_(Omega(mesh, cell, options).take_map()), options_(options), viewpoints_to_ask_(map_.cell) {
   options_.progress = nullptr;
   const exact::Complex& complex = map_.complex;
   for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {

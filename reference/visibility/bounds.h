@@ -21,7 +21,8 @@ namespace clues::reference {
 // By side_index. Sides that were not wanted, or do not count in the mode, are empty.
 using SideSets = std::vector<FlatSet>;
 
-// Estimates, for reports and for deciding when to stop; never for a label. In the units of the scene, squared.
+// Estimates, for reports and for deciding when to stop; never for a label. In units of the standard range,
+// squared.
 struct AreaEstimate {
   double facing = 0;  // all sides that some point of the cell faces
   double lower = 0, first_order = 0, upper = 0;
@@ -37,10 +38,12 @@ struct TriangleBounds {
 
 class Bounds {
  public:
-  // upper: the first-order map; lower: nothing yet. Throws as first_order_visibility does.
+  // upper: the first-order map; lower: nothing yet. Throws as first_order_visibility does. All is in the
+  // standard range of the scene.
   Bounds(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options);
 
   const VisibilityMap& first_order() const { return map_; }
+  const exact::StandardRange& range() const { return map_.range; }
   const Options& options() const { return options_; }
   const SideSets& lower() const { return lower_; }
   const SideSets& upper() const { return upper_; }

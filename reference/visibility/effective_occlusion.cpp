@@ -204,8 +204,8 @@ VisibilityMap rebuilt(const VisibilityMap& map, const std::map<std::size_t, std:
       throw scene::Error(scene::ErrorCode::internal, "simplification: a hidden region grew");
     made[k] = side_faces(subtract(whole_of(frame), hidden), frame, t, is_front(order[k]));
   });
-  VisibilityMap out{map.complex, map.cell, map.mode, map.formulation, map.wedges,
-                    {},          {},       {},       map.statistics,  map.method};
+  VisibilityMap out{map.complex, map.cell, map.mode,       map.formulation, map.wedges, {},
+                    {},          {},       map.statistics, map.method,      map.range};
   const auto is_changed = [&](const auto& x) { return changed.count(side_index(x.piece, x.front)) > 0; };
   std::remove_copy_if(map.regions.begin(), map.regions.end(), std::back_inserter(out.regions), is_changed);
   std::remove_copy_if(map.segments.begin(), map.segments.end(), std::back_inserter(out.segments), is_changed);
@@ -292,10 +292,11 @@ SimplifiedMap with_simpler_occlusion(const VisibilityMap& map, const OcclusionCo
   const std::vector<std::size_t> leader = joined(map.complex, regions);
   const auto sums = summed(map, regions, leader);
 
+  const double least = map.range.area_moved_in(controls.min_occlusion);
   std::vector<HiddenRegion> kept;
   std::map<std::size_t, std::vector<Face2>> changed;
   for (std::size_t i = 0; i < regions.size(); ++i) {
-    const bool stays = regions[i].segments == 0 || sums.at(leader[i]).effective() >= controls.min_occlusion;
+    const bool stays = regions[i].segments == 0 || sums.at(leader[i]).effective() >= least;
     if (!stays || regions[i].face != old[i].face) changed[regions[i].side];
     if (stays) kept.push_back(std::move(regions[i]));
   }

@@ -23,7 +23,7 @@ namespace clues::reference {
 // of the mesh costs nothing.
 struct OcclusionRegion {
   std::uint64_t segments = 0;
-  double hidden_area = 0;                // areas are estimates, in units of the scene, squared; the same in every run
+  double hidden_area = 0;                // areas are estimates, in units of the map, squared; the same in every run
   double bordered_area = 0;              // without the pieces that are hidden wholly
   std::uint64_t whole_pieces = 0;        // sides of pieces that lie in it wholly
   std::vector<std::uint32_t> triangles;  // input triangles with a hidden region in it, ascending
@@ -37,9 +37,10 @@ struct OcclusionRegion {
 std::vector<OcclusionRegion> occlusion_regions(const VisibilityMap& map);
 
 struct OcclusionControls {
-  double min_occlusion = 0;  // where effective() is less, after the simplification, the boundary goes
-  double max_loss = 0;       // 0 to 1: the largest part of its area that a hidden region gives up for a simpler border
-  int threads = 0;           // 0: as many as the machine has; the result does not depend on it
+  double min_occlusion =
+      0;  // in units of the scene, squared: where effective() is less, after the simplification, the boundary goes
+  double max_loss = 0;  // 0 to 1: the largest part of its area that a hidden region gives up for a simpler border
+  int threads = 0;      // 0: as many as the machine has; the result does not depend on it
   PlantedStep planted = PlantedStep::none;
   std::optional<double> corner_angle = std::
       nullopt;  // FIG. 20B, before all else: the planes meet where that is within so many degrees of every swept wedge
@@ -48,7 +49,7 @@ struct OcclusionControls {
 struct OcclusionFigures {
   std::uint64_t regions = 0;  // occlusion regions
   std::uint64_t segments = 0;
-  double hidden_area = 0;  // estimate
+  double hidden_area = 0;  // estimate, in units of the map, squared
   std::uint64_t visible_triangles = 0;
 };
 

@@ -1,7 +1,9 @@
 #include "reference/visibility/first_order.h"
 
+#include <algorithm>
 #include <cassert>
 #include <string>
+#include <utility>
 
 #include "exact/scene_query.h"
 #include "exact/threads.h"
@@ -19,8 +21,13 @@ namespace {
 
 int threads_of(const Options& options) { return options.dials.threads > 0 ? options.dials.threads : options.threads; }
 
-exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options) {
-  exact::Complex complex = exact::by_threads(threads_of(options), [&] { return exact::build_complex(mesh, &cell); });
+exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options,
+                           const exact::StandardRange& range) {
+  exact::Complex complex = exact::by_threads(threads_of(options), [&] {
+    if (!range.moves()) return exact::build_complex(mesh, &cell);
+    const exact::ConvexCell moved = range.moved_in(cell);
+    return exact::build_complex(range.moved_in(mesh), &moved);
+  });
   if (options.mode == Mode::solid) exact::require_solid(complex);
   return complex;
 }
@@ -28,7 +35,13 @@ exact::Complex complex_for(const scene::TriangleMesh& mesh, const exact::ConvexC
 }  // namespace
 
 Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options)
-    : Omega(complex_for(mesh, cell, options), cell, options, {}) {}
+    : Omega(mesh, cell, options, exact::StandardRange(mesh, cell)) {}
+
+Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options,
+             const exact::StandardRange& range)
+    : Omega(complex_for(mesh, cell, options, range), range.moved_in(cell), options, {}) {
+  map_->range = range;
+}
 
 Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Options& options,
              const std::vector<bool>& wanted) {
@@ -58,7 +71,33 @@ Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Option
 
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                      const Options& options) {
-  return Omega(mesh, cell, options).take_map();
+  return moved_back(Omega(mesh, cell, options).take_map());
+}
+
+VisibilityMap moved_back(VisibilityMap map) {
+  const exact::StandardRange range = std::exchange(map.range, {});
+  if (!range.moves()) return map;
+  const auto move = [&](exact::Point3& p) { p = range.moved_back(p); };
+  std::for_each(map.complex.points.begin(), map.complex.points.end(), move);
+  for (exact::Plane3& h : map.complex.planes) h = range.moved_back(h);
+  map.complex.unit = exact::unit_of(map.complex.points);
+  map.cell = range.moved_back(map.cell);
+  for (Wedge& w : map.wedges) {
+    w.plane = range.moved_back(w.plane);
+    for (exact::Point3* p : {&w.center, &w.near0, &w.near1, &w.on_ray0, &w.on_ray1}) move(*p);
+    if (w.unbounded) continue;
+    move(w.far0);
+    move(w.far1);
+  }
+  for (DmSegment& d : map.segments) {
+    move(d.a);
+    move(d.b);
+  }
+  for (Region& r : map.regions) {
+    for (auto& ring : r.rings) std::for_each(ring.begin(), ring.end(), move);
+    move(r.sample);
+  }
+  return map;
 }
 
 VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exact::ConvexCell& cell,
@@ -124,9 +163,13 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   if (!with_map) return result;
 
   result.has_map = true;
-  const auto text = [](const exact::Point3& p) {
+  const auto text = [&](const exact::Point3& in_range) {
+    const exact::Point3 p = map.range.moved_back(in_range);
     return std::array<std::string, 3>{exact::to_string_exact(p.x()), exact::to_string_exact(p.y()),
                                       exact::to_string_exact(p.z())};
+  };
+  const auto estimate = [&](const exact::Point3& p) {
+    return map.range.estimate_moved_back(exact::to_double_estimate(p));
   };
   std::vector<RenderState> states;
   if (with_render_states) states = render_states(map);
@@ -142,7 +185,7 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
       out.rings.emplace_back();
       for (const exact::Point3& p : ring) {
         out.rings_exact.back().push_back(text(p));
-        out.rings.back().push_back(exact::to_double_estimate(p));
+        out.rings.back().push_back(estimate(p));
       }
     }
     out.area_fraction = exact::to_string_exact(r.area_fraction);
@@ -165,11 +208,8 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   for (const DmSegment& d : map.segments) {
     for (const exact::Origin& o : map.complex.pieces[d.piece].origins) {
       if (!counts(map.mode, o, d.front)) continue;
-      result.segments.push_back({o.triangle,
-                                 o.same_side == d.front,
-                                 d.boundary,
-                                 {text(d.a), text(d.b)},
-                                 {exact::to_double_estimate(d.a), exact::to_double_estimate(d.b)}});
+      result.segments.push_back(
+          {o.triangle, o.same_side == d.front, d.boundary, {text(d.a), text(d.b)}, {estimate(d.a), estimate(d.b)}});
     }
   }
   for (const Wedge& w : map.wedges) {
@@ -181,7 +221,7 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
                                          w.unbounded ? w.near1 + (w.on_ray1 - w.center) : w.far1};
     for (std::size_t i = 0; i < 4; ++i) {
       out.exact[i] = text(p[i]);
-      out.points[i] = exact::to_double_estimate(p[i]);
+      out.points[i] = estimate(p[i]);
     }
     result.wedges.push_back(std::move(out));
   }

@@ -13,6 +13,7 @@
 #include "exact/dials.h"
 #include "exact/kernel.h"
 #include "exact/scene_query.h"
+#include "exact/standard_range.h"
 #include "reference/visibility/wedge.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh.h"
@@ -84,6 +85,8 @@ struct Statistics {
   std::uint64_t clusters = 0;  // those that trimming did not break
 };
 
+// What Omega and Bounds hold is in the standard range of the scene (exact/standard_range.h): `range` leads
+// back from there. What first_order_visibility returns is in the coordinates of the scene.
 struct VisibilityMap {
   exact::Complex complex;
   exact::ConvexCell cell;
@@ -95,11 +98,16 @@ struct VisibilityMap {
   std::vector<std::uint32_t> visible;  // the PVS: input triangle ids, ascending
   Statistics statistics;
   std::string method = "first-order";  // or how it was refined (D20, D21)
+  exact::StandardRange range = {};
 };
 
-// Throws scene::Error not_solid when mode is solid and the mesh is not closed and consistently oriented.
+// Throws scene::Error not_solid when mode is solid and the mesh is not closed and consistently oriented;
+// unsupported as StandardRange does.
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                      const Options& options);
+
+// The same map in the coordinates of the scene, exactly.
+VisibilityMap moved_back(VisibilityMap map);
 
 // The sides of the pieces of a complex, numbered.
 inline std::size_t side_index(std::uint32_t piece, bool front) { return 2 * std::size_t{piece} + (front ? 0 : 1); }
@@ -112,7 +120,8 @@ VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exa
 // D15: the PVS by the map's regions. D3: a triangle that meets the cell is visible.
 void find_visible(const exact::SceneQuery& scene, VisibilityMap& map);
 
-// The result file's contents; scene_file and scene_sha256 are left to the caller. with_map adds regions, segments and wedges.
+// The result file's contents, in the coordinates of the scene; scene_file and scene_sha256 are left to the
+// caller. with_map adds regions, segments and wedges.
 // With render_states its regions carry those too (render_states.h).
 scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map,
                         bool with_render_states = false);

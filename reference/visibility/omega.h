@@ -1,4 +1,6 @@
-// Omega (D9) of a scene as something that can be asked: the map, and with it the wedges that label any point of space (D14).
+// Omega (D9) of a scene as something that can be asked: the map, and with it the wedges that label any point
+// of space (D14). All of it is in the standard range of the scene: map().range says how to get there and
+// back.
 #pragma once
 
 #include <memory>
@@ -27,13 +29,17 @@ class Omega {
   VisibilityMap take_map() && { return std::move(*map_); }
 
  private:
+  Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const Options& options,
+        const exact::StandardRange& range);
+
   std::unique_ptr<VisibilityMap> map_;
   std::unique_ptr<exact::Complex> part_;  // the traversal's
   std::unique_ptr<exact::SceneQuery> scene_;
   std::unique_ptr<Fixpoint> fixpoint_;
 };
 
-// Labels of points of free space within a box (and within that of scene and cell). Keeps a reference. Not for maps with a planted bug.
+// Labels of points of free space within a box (and within that of scene and cell), in the coordinates of
+// omega.map(). Keeps a reference. Not for maps with a planted bug.
 class SpaceLabels {
  public:
   SpaceLabels(const Omega& omega, const CGAL::Bbox_3& bounds);

@@ -10,7 +10,8 @@
 namespace clues::reference {
 
 VisibilityMap Bounds::refined_map(const std::string& method) const {
-  VisibilityMap map{map_.complex, map_.cell, map_.mode, map_.formulation, {}, {}, {}, {}, map_.statistics, method};
+  VisibilityMap map{map_.complex, map_.cell, map_.mode,       map_.formulation, {},        {},
+                    {},           {},        map_.statistics, method,           map_.range};
   std::set<std::size_t> present;
   for (const Region& r : map_.regions) present.insert(side_index(r.piece, r.front));
   const std::vector<std::size_t> order(present.begin(), present.end());

@@ -41,7 +41,7 @@ std::vector<DepthFigures> refine_by_cells(Bounds& bounds, const RefineOptions& o
   for (int depth = 1; depth <= options.max_depth; ++depth) {
     std::vector<bool> open = bounds.open_sides();
     if (std::none_of(open.begin(), open.end(), [](bool o) { return o; })) break;
-    if (depths.back().area.excess() <= options.tolerance_area) break;
+    if (depths.back().area.excess() <= bounds.range().area_moved_in(options.tolerance_area)) break;
     std::vector<Part> next;
     for (Part& part : parts) {
       const std::vector<ConvexCell> cut = exact::halves(part.cell);

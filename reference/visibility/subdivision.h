@@ -13,7 +13,7 @@ namespace clues::reference {
 
 struct RefineOptions {
   int max_depth = 4;          // cuts on the way from V to a part
-  double tolerance_area = 0;  // done when the estimated excess is no more than this
+  double tolerance_area = 0;  // done when the estimated excess is no more than this, in units of the scene, squared
   bool retract = false;       // by backprojection: retraction.h
 };
 

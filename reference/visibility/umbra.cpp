@@ -338,7 +338,9 @@ Box wide_box(const CGAL::Bbox_3& b) {
 }  // namespace
 
 Umbra build_umbra(const Omega& omega, const std::optional<Box>& bounds, int threads) {
-  const Box box = bounds ? *bounds : wide_box(omega.scene().bounds());
+  const exact::StandardRange& range = omega.map().range;
+  const Box box =
+      bounds ? Box{range.moved_in(bounds->lo), range.moved_in(bounds->hi)} : wide_box(omega.scene().bounds());
   for (int i = 0; i < 3; ++i) {
     if (box.lo[i] >= box.hi[i])
       throw scene::Error(scene::ErrorCode::bad_argument, "the bounds of an umbra must be a solid box");
@@ -350,7 +352,13 @@ Umbra build_umbra(const Omega& omega, const std::optional<Box>& bounds, int thre
     }
   }
   const Builder builder(omega, box);
-  return exact::by_threads(threads, [&] { return builder.run(); });
+  Umbra umbra = exact::by_threads(threads, [&] { return builder.run(); });
+  if (!range.moves()) return umbra;
+  umbra.bounds = {range.moved_back(umbra.bounds.lo), range.moved_back(umbra.bounds.hi)};
+  for (UmbraFacet& facet : umbra.facets) {
+    for (Point3& p : facet.corners) p = range.moved_back(p);
+  }
+  return umbra;
 }
 
 }  // namespace clues::reference

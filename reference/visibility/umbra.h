@@ -40,6 +40,7 @@ struct Umbra {
 };
 
 // The part of the umbra within `bounds`, which must contain the cell (Error bad_argument); without bounds, a box with three times the extent of scene and cell.
+// Bounds and umbra are in the coordinates of the scene, whatever the range of omega.
 // The result does not depend on `threads` (0: as many as the machine has). For w wedge pieces and n triangles: O((w + n) log(w + n)) box tests, an arrangement in
 // each of O(w + n) planes, and two walks for each part.
 Umbra build_umbra(const Omega& omega, const std::optional<Box>& bounds, int threads);
