@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "exact/cell_plane.h"
 #include "exact/direction_cone.h"
 
 namespace clues::exact {
@@ -78,13 +79,15 @@ SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_p
     const bool negative = o1 == CGAL::NEGATIVE || o2 == CGAL::NEGATIVE || o3 == CGAL::NEGATIVE;
     const bool positive = o1 == CGAL::POSITIVE || o2 == CGAL::POSITIVE || o3 == CGAL::POSITIVE;
     if (negative && positive) continue;
+    // On a triangle that holds what of V is next to v, v starts beside it, and a line that leaves its plane does not come back.
+    if (at_v == CGAL::COPLANAR && lies_in(*cell_, complex_->planes[t])) continue;
     if (at_v == CGAL::COPLANAR || o1 == CGAL::COPLANAR || o2 == CGAL::COPLANAR || o3 == CGAL::COPLANAR) {
       answer.degenerate = true;
       return answer;
     }
     const FT at_end = value_at(complex_->planes[t], p), at_start = value_at(complex_->planes[t], v);
     const FT s = at_start / (at_start - at_end);
-    if (meets_cell_[t] && cell_->interior_contains(v + s * (p - v))) continue;
+    if (cell_->dimension() == 3 && meets_cell_[t] && cell_->interior_contains(v + s * (p - v))) continue;
     answer.hits.push_back({t, s});
   }
   std::sort(answer.hits.begin(), answer.hits.end(), [](const Hit& x, const Hit& y) { return x.t < y.t; });
@@ -96,10 +99,10 @@ SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_p
 
 bool SceneQuery::is_free(const Point3& v, const Point3& p) const {
   if (v == p) return true;
+  const bool solid = cell_->dimension() == 3;  // else nothing is in its interior (D3)
+  const auto inside = [&](const Point3& x) { return solid && cell_->interior_contains(x); };
   // An end of the segment is not in the open segment; what is beside it is in int V where the end is at least in V.
-  const auto end_in_cell = [&](const Point3& x) {
-    return x == v || x == p ? cell_->contains(x) : cell_->interior_contains(x);
-  };
+  const auto end_in_cell = [&](const Point3& x) { return x == v || x == p ? cell_->contains(x) : inside(x); };
   const Kernel::Segment_3 segment(v, p);
   for (const std::uint32_t t : candidates(SegmentBoxTest(v, p))) {
     const auto& c = complex_->pieces[t].corners;
@@ -108,11 +111,10 @@ bool SceneQuery::is_free(const Point3& v, const Point3& p) const {
     const auto met = CGAL::intersection(segment, triangle);
     if (!met) continue;
     if (const auto* x = boost::get<Point3>(&*met)) {
-      if (*x != v && *x != p && !cell_->interior_contains(*x)) return false;
+      if (*x != v && *x != p && !inside(*x)) return false;
     } else {
       const auto& s = boost::get<Kernel::Segment_3>(*met);
-      if (!end_in_cell(s.source()) || !end_in_cell(s.target()) ||
-          !cell_->interior_contains(CGAL::midpoint(s.source(), s.target())))
+      if (!end_in_cell(s.source()) || !end_in_cell(s.target()) || !inside(CGAL::midpoint(s.source(), s.target())))
         return false;
     }
   }

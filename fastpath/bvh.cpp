@@ -55,8 +55,8 @@ bool certainly_has_area(const Corners& t) {
 }
 
 // Local coordinates are wrong by a relative 2^-53 and 2^-1074.
-Box box_of(const LocalFrame& frame, const Corners& t) {
-  Box box;
+LocalBox box_of(const LocalFrame& frame, const Corners& t) {
+  LocalBox box;
   for (std::size_t i = 0; i < 3; ++i) {
     const double low = frame.to_local(std::min({t[0][i], t[1][i], t[2][i]}), i);
     const double high = frame.to_local(std::max({t[0][i], t[1][i], t[2][i]}), i);
@@ -83,7 +83,7 @@ void set_lane(TriangleBlock& block, std::size_t lane, const LocalFrame& frame, c
 
 // Every child has the box of all.
 void let_cull_nothing(std::vector<BoxLanes>& nodes) {
-  Box all;
+  LocalBox all;
   const auto each_child = [&](const auto& visit) {
     for (BoxLanes& node : nodes) {
       for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane) {
@@ -132,7 +132,7 @@ Bvh::Bvh(const scene::TriangleMesh& mesh) : mesh_(&mesh) {
         high[k] = std::max(high[k], p[k]);
       }
     }
-    items.push_back({Box{}, i});
+    items.push_back({LocalBox{}, i});
   }
   if (items.empty()) return;
   frame_ = LocalFrame::of_box(low, high);

@@ -19,11 +19,11 @@ constexpr std::size_t kBins = 32;
 constexpr std::size_t kParallel = 8192;  // fewer items are one task
 constexpr int kSurfaceAreaLevels = 64;   // below, halves: at most 32 more levels, and kDeepest holds
 
-float twice_center(const Box& box, std::size_t axis) { return box.low[axis] + box.high[axis]; }
+float twice_center(const LocalBox& box, std::size_t axis) { return box.low[axis] + box.high[axis]; }
 
 struct Bounds {
-  Box boxes;    // of the items
-  Box centers;  // of twice their centers
+  LocalBox boxes;    // of the items
+  LocalBox centers;  // of twice their centers
 };
 
 void add(Bounds& bounds, const BoxedTriangle& item) {
@@ -67,7 +67,7 @@ Range range_of(std::span<BoxedTriangle> items, std::size_t offset) {
 }
 
 struct Bin {
-  Box box;
+  LocalBox box;
   std::size_t count = 0;
 };
 using Bins = std::array<std::array<Bin, kBins>, 3>;
@@ -75,14 +75,14 @@ using Bins = std::array<std::array<Bin, kBins>, 3>;
 struct Binning {
   std::array<float, 3> low{}, per_unit{};
 
-  explicit Binning(const Box& centers) {
+  explicit Binning(const LocalBox& centers) {
     for (std::size_t i = 0; i < 3; ++i) {
       const float width = centers.high[i] - centers.low[i];
       low[i] = centers.low[i];
       per_unit[i] = width > 0x1p-100F ? static_cast<float>(kBins) / width : 0;
     }
   }
-  std::size_t bin_of(const Box& box, std::size_t axis) const {
+  std::size_t bin_of(const LocalBox& box, std::size_t axis) const {
     const float x = (twice_center(box, axis) - low[axis]) * per_unit[axis];
     return std::min(kBins - 1, static_cast<std::size_t>(x));
   }
@@ -164,7 +164,7 @@ std::pair<Range, Range> split(const Range& range, int level) {
   return {a, b};
 }
 
-void set_lane(BoxLanes& node, std::size_t lane, const Box& box) {
+void set_lane(BoxLanes& node, std::size_t lane, const LocalBox& box) {
   for (std::size_t i = 0; i < 3; ++i) {
     node.side[i][lane] = box.low[i];
     node.side[i + 3][lane] = box.high[i];
@@ -203,7 +203,7 @@ void build(const Range& range, int level, Tree& tree) {
   tree.nodes.emplace_back();
   std::fill(std::begin(tree.nodes[self].child), std::end(tree.nodes[self].child), BoxLanes::kEmpty);
   for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane)
-    set_lane(tree.nodes[self], lane, lane < parts ? part[lane].bounds.boxes : Box{});
+    set_lane(tree.nodes[self], lane, lane < parts ? part[lane].bounds.boxes : LocalBox{});
 
   const auto build_child = [&](std::size_t lane, Tree& into) -> std::uint32_t {
     if (part[lane].items.size() <= kLeafSize) {
@@ -235,14 +235,14 @@ void build(const Range& range, int level, Tree& tree) {
 
 }  // namespace
 
-void Box::add(const Box& other) {
+void LocalBox::add(const LocalBox& other) {
   for (std::size_t i = 0; i < 3; ++i) {
     low[i] = std::min(low[i], other.low[i]);
     high[i] = std::max(high[i], other.high[i]);
   }
 }
 
-float Box::half_area() const {
+float LocalBox::half_area() const {
   const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
   return x * y + y * z + z * x;
 }

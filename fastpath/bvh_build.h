@@ -10,16 +10,17 @@
 
 namespace clues::fastpath {
 
-struct Box {
+// In floats of the local frame (local_frame.h); empty until something is added.
+struct LocalBox {
   std::array<float, 3> low{BoxLanes::kNowhere, BoxLanes::kNowhere, BoxLanes::kNowhere};
   std::array<float, 3> high{-BoxLanes::kNowhere, -BoxLanes::kNowhere, -BoxLanes::kNowhere};
 
-  void add(const Box& other);
+  void add(const LocalBox& other);
   float half_area() const;
 };
 
 struct BoxedTriangle {
-  Box box;
+  LocalBox box;
   std::uint32_t triangle = 0;
 };
 

@@ -110,15 +110,15 @@ void SegmentQueries::any_hits(std::span<const Segment> segments, std::span<std::
   struct Lane {
     Query query;
     BlockTest test;
-    Walk walk;
+    Traversal traversal;
     std::uint8_t* answer;
-    // In place: a walk has room for a whole stack, which must not be copied.
+    // In place: a traversal has room for a whole stack, which must not be copied.
     Lane(const Segment& segment, const Except& but, const LocalSegment& local, std::uint8_t* to)
-        : query(segment, but), test(local), walk(local), answer(to) {}
+        : query(segment, but), test(local), traversal(local), answer(to) {}
   };
   std::array<std::optional<Lane>, kTogether> lanes;
   std::size_t next = 0;
-  // Puts the next segment that needs a walk into the lane; false when there is none.
+  // Puts the next segment that needs a traversal into the lane; false when there is none.
   const auto refill = [&](std::optional<Lane>& lane) {
     for (; next < segments.size(); ++next) {
       ++counts_.queries;
@@ -137,13 +137,13 @@ void SegmentQueries::any_hits(std::span<const Segment> segments, std::span<std::
   while (active > 0) {
     for (auto& lane : lanes) {
       if (!lane) continue;
-      const bool goes_on = lane->walk.step(*bvh_, [&](const TriangleBlock& block) {
+      const bool goes_on = lane->traversal.step(*bvh_, [&](const TriangleBlock& block) {
         const bool found = any_of_block(lane->query, lane->test, block);
         *lane->answer = found ? 1 : 0;
         return found;
       });
       if (goes_on) {
-        lane->walk.prefetch(*bvh_);
+        lane->traversal.prefetch(*bvh_);
       } else if (!refill(lane)) {
         --active;
       }

@@ -8,11 +8,11 @@
 
 namespace clues::fastpath {
 
-// The walk as a sequence of steps, children in any order, so that the walks of several segments can take turns: while one waits for memory
+// The traversal as a sequence of steps, children in any order, so that the traversals of several segments can take turns: while one waits for memory
 // another computes.
-class Walk {
+class Traversal {
  public:
-  explicit Walk(const LocalSegment& segment) : test_(segment) {}
+  explicit Traversal(const LocalSegment& segment) : test_(segment) {}
 
   // Looks at one node or one block; false when that was the last. leaf(block) returns true to end the walk. The tree is not empty.
   template <class Leaf>
@@ -51,8 +51,8 @@ class Walk {
 template <class Leaf>
 void traverse(const Bvh& bvh, const LocalSegment& segment, const Leaf& leaf) {
   if (bvh.nodes().empty()) return;
-  Walk walk(segment);
-  while (walk.step(bvh, leaf)) {
+  Traversal traversal(segment);
+  while (traversal.step(bvh, leaf)) {
   }
 }
 

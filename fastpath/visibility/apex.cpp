@@ -1,6 +1,7 @@
 #include "fastpath/visibility/apex.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "fastpath/visibility/star.h"
 
@@ -28,8 +29,8 @@ void Apex::find_sectors(Pool& pool) {
   const LocalCell& cell = scene_->cell;
   const auto vertex = [&](int i) -> const ExactPoint& { return cell.vertices[static_cast<std::size_t>(i)]; };
   if (cell.dimension == 0 || cell.contains(*x_)) {
-    if (cell.dimension < 3 || cell.interior_contains(*x_)) return;
-    // On the border: A(x) is the cone opposite to V at x, bounded by the planes of the facets at x.
+    if (cell.interior_contains(*x_)) return;
+    // On the border: A(x) is the cone opposite to V at x, bounded by the planes of the facets at x; that of a polygon is flat. (Inside a polygon the rays turn all the way round.)
     for (std::size_t f = 0; f < cell.facets.size(); ++f) {
       const Plane& plane = cell.facet_planes[f];
       if (plane.side(*x_) != 0) continue;
@@ -38,11 +39,23 @@ void Apex::find_sectors(Pool& pool) {
         if (!equal(*x_, vertex(c))) rays.push_back(pool.keep(ExactPoint::reflected(*x_, vertex(c))));
       }
       const OnWedge frame{&plane, x_, {}, {}, {}, {}, {}, {}};
+      std::vector<std::pair<const ExactPoint*, const ExactPoint*>> turns;
       for (std::size_t i = 0; i < rays.size(); ++i) {
         const ExactPoint *a = rays[i], *b = rays[(i + 1) % rays.size()];
-        if (frame.turn(a, b) > 0) split(pool, &plane, a, b);
+        if (frame.turn(a, b) > 0) turns.emplace_back(a, b);
+      }
+      if (cell.dimension == 3) {
+        for (const auto& [a, b] : turns) split(pool, &plane, a, b);
+      } else if (turns.size() < rays.size()) {
+        const Plane* below =
+            pool.plane(vertex(cell.facets[f][1]), vertex(cell.facets[f][0]), vertex(cell.facets[f][2]));
+        for (const auto& [a, b] : turns) {
+          sectors_.push_back({&plane, a, b, {}, {}});
+          sectors_.push_back({below, b, a, {}, {}});
+        }
       }
     }
+    flat_ = cell.dimension < 3;
     return;
   }
   std::vector<std::vector<int>> seen;  // a facet of V seen edge-on is met once for each of its edges
@@ -73,7 +86,12 @@ void Apex::find_sectors(Pool& pool) {
         if (frame.turn(w, first) > 0) first = w;
         if (frame.turn(last, w) > 0) last = w;
       }
-      split(pool, plane, first, last);
+      if (cell.lies_in(*plane)) {
+        flat_ = true;
+        sectors_.push_back({plane, first, last, {}, {}});
+      } else {
+        split(pool, plane, first, last);
+      }
     }
   }
 }
@@ -117,8 +135,18 @@ void Apex::split(Pool& pool, const Plane* plane, const ExactPoint* ray0, const E
   }
 }
 
+bool Apex::has_piece_in_plane() const {
+  return flat_ && std::any_of(arcs_.begin(), arcs_.end(),
+                              [&](const LocalArc& arc) { return scene_->cell.lies_in(scene_->planes[arc.piece]); });
+}
+
 std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) const {
   if (sectors_.empty() || probes.empty()) return {};
+  if (flat_) {
+    std::vector<std::uint32_t> all(sectors_.size());
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+  }
   return decide<Integer>([&]<class NT>() { return existing_in<NT>(probes); });
 }
 

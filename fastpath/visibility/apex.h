@@ -50,7 +50,12 @@ class Apex {
   std::uint32_t id() const { return id_; }
   const std::vector<ApexSector>& sectors() const { return sectors_; }
 
-  // The sectors that exist given these probes, ascending.
+  // Whether A(x) is flat: x and V lie in one plane, and the sectors on either side of it only separate (T10).
+  bool flat() const { return flat_; }
+  // Whether x, where A(x) is flat, has a piece in that plane: then it is seen from just off the plane, past the piece.
+  bool has_piece_in_plane() const;
+
+  // The sectors that exist given these probes, ascending. Where A(x) is flat all of them do: one too many cuts, and shows nothing.
   std::vector<std::uint32_t> existing(const std::vector<Probe>& probes) const;
 
   // At a mesh vertex: whether the cell is seen from x without an incident piece between any two of the sight lines.
@@ -76,6 +81,7 @@ class Apex {
   const ExactPoint* x_;
   std::vector<LocalArc> arcs_;
   std::vector<ApexSector> sectors_;
+  bool flat_ = false;
 };
 
 }  // namespace clues::fastpath

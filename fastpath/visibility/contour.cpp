@@ -81,8 +81,9 @@ std::vector<ContourEdge> contours_of(const LocalScene& scene, std::uint32_t id, 
     // With the plane's surface on both sides the edge is a seam of a flat surface: a wedge that reaches it runs on over it.
     if (!in_h_plus || (left && right)) continue;
     const Plane* other = supports.size() == 2 ? supports[1 - k].plane : nullptr;
-    if (!supports[k].left.empty()) contour.push_back({id, plane, supports[k].left, other});
-    if (!supports[k].right.empty()) contour.push_back({id, plane, supports[k].right, other});
+    const bool holds_cell = scene.cell.lies_in(*plane);
+    if (!supports[k].left.empty()) contour.push_back({id, plane, supports[k].left, other, holds_cell});
+    if (!supports[k].right.empty()) contour.push_back({id, plane, supports[k].right, other, holds_cell});
   }
   return contour;
 }

@@ -14,6 +14,7 @@ struct ContourEdge {
   const Plane* plane = nullptr;  // V in the closed negative side H+; so are the pieces at the edge
   std::vector<int> touching;     // cell vertices on the plane, on one side of the edge's line
   const Plane* other = nullptr;  // the other supporting plane through the edge, if there is one and it differs
+  bool holds_cell = false;       // all of V lies in the plane: its wedges only separate (T10)
 };
 
 // All contour edges, by edge. The workers keep the planes. O(edges * cell vertices).

@@ -56,14 +56,12 @@ LocalScene::LocalScene(const exact::Complex& complex, const exact::ConvexCell& w
   cell.dimension = given.dimension();
   for (const exact::Point3& s : given.vertices()) cell.vertices.push_back(taken_over(s));
   cell.edges = given.edges();
-  if (cell.dimension == 3) {
-    for (const exact::CellFacet& f : given.facets()) {
-      const auto at = [&](std::size_t i) -> const ExactPoint& {
-        return cell.vertices[static_cast<std::size_t>(f.corners[i])];
-      };
-      cell.facets.push_back(f.corners);
-      cell.facet_planes.emplace_back(at(0), at(1), at(2));
-    }
+  for (const exact::CellFacet& f : given.facets()) {
+    const auto at = [&](std::size_t i) -> const ExactPoint& {
+      return cell.vertices[static_cast<std::size_t>(f.corners[i])];
+    };
+    cell.facets.push_back(f.corners);
+    cell.facet_planes.emplace_back(at(0), at(1), at(2));
   }
 
   bounds = cell.vertices.front().approximate();
@@ -84,6 +82,11 @@ bool LocalCell::interior_contains(const ExactPoint& p) const {
     if (f.side(p) >= 0) return false;
   }
   return true;
+}
+
+bool LocalCell::lies_in(const Plane& plane) const {
+  return dimension < 3 &&
+         std::all_of(vertices.begin(), vertices.end(), [&](const ExactPoint& s) { return plane.side(s) == 0; });
 }
 
 bool LocalCell::contains(const ExactPoint& p) const {

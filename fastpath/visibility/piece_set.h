@@ -18,6 +18,7 @@ struct ValidPiece {
   const ExactPoint *ray0 = nullptr, *ray1 = nullptr;    // points of the two rays
   const ExactPoint *near0 = nullptr, *near1 = nullptr;  // the whole near edge; none for an apex
   int blocker = -1;                                     // index into on->blockers
+  bool holds_cell = false;                              // all of V lies in its plane: no sight line crosses it (T10)
   IntervalBox box{};                                    // of the part within the bounds
 };
 
@@ -53,6 +54,7 @@ class PieceSet {
     for (const Batch& b : batches_) {
       if (b.begin < first) continue;
       const bool found = b.tree.any(test, [&](std::uint32_t i) {
+        if (pieces_[b.begin + i].holds_cell) return false;
         const Crossing c = crosses(pieces_[b.begin + i], m, p, starts_on, leaves_out);
         if (c == Crossing::touch) result = c;
         return c == Crossing::yes;

@@ -228,6 +228,7 @@ class Search::Work {
     std::vector<ValidPiece> pieces;
     ValidPiece piece;
     piece.on = &on;
+    piece.holds_cell = scene.cell.lies_in(*on.plane);
     const ExactPoint *lo = job.lo, *hi = job.hi;
     if (job.touching < 0) {
       piece.kind = PieceKind::se_mv;

@@ -29,17 +29,25 @@ std::vector<Sources::OfVertex> Sources::beside_vertex(std::uint32_t v, Pool& poo
     std::optional<OfVertex> s = towards(
         v, view, [&](const ExactPoint& beside) { return apex.in_one_face(beside, view); }, pool);
     found.push_back(s ? std::move(*s) : unresolved(v, view, pool));
+    found.back().separates = apex.flat();
   };
+  if (apex.has_piece_in_plane()) {
+    found.push_back(unresolved(v, inside, pool));
+    found.back().separates = true;
+    return found;
+  }
   try {
     if (apex.sees_cell_in_one_part()) {
       add(inside);
       return found;
     }
     for (const ExactPoint& view : apex.views_of_cell(inside)) add(view);
+    if (apex.flat()) return found;
   } catch (const scene::Error& error) {
     if (error.code() != scene::ErrorCode::internal) throw;
     contacts_.corner(v)->has_all_sectors = true;
     found.assign(1, unresolved(v, inside, pool));
+    found.back().separates = apex.flat();
   }
   // Not needed, but the more directions are known to be visible, the fewer sectors bound anything: those to V's vertices.
   for (std::size_t i = 0; i < scene_.cell.vertices.size(); ++i) {
@@ -166,9 +174,14 @@ Sources::Numbers Sources::newly_lit(std::size_t first) {
 }
 
 std::uint64_t Sources::unresolved() const {
-  const auto is_unresolved = [](const auto& s) { return s.walk.end == Walk::End::unresolved; };
-  return static_cast<std::uint64_t>(std::count_if(of_edges_.begin(), of_edges_.end(), is_unresolved) +
-                                    std::count_if(of_vertices_.begin(), of_vertices_.end(), is_unresolved));
+  // A wedge that only separates makes nothing visible, also where it should not exist.
+  const auto edges = std::count_if(of_edges_.begin(), of_edges_.end(), [&](const OfEdge& s) {
+    return s.walk.end == Walk::End::unresolved && !contours_[s.contour].holds_cell;
+  });
+  const auto vertices = std::count_if(of_vertices_.begin(), of_vertices_.end(), [](const OfVertex& s) {
+    return s.walk.end == Walk::End::unresolved && !s.separates;
+  });
+  return static_cast<std::uint64_t>(edges + vertices);
 }
 
 }  // namespace clues::fastpath

@@ -35,6 +35,7 @@ class Sources {
     std::uint64_t seed = 0xa7;
     Walk walk;
     bool lit = false;
+    bool separates = false;  // its wedges do nothing else (T10): in doubt it is lit, and nothing is lost by it
   };
 
   // Keeps references. `pieces` must be empty until the first round.

@@ -1,6 +1,7 @@
 #include "fastpath/visibility/walker.h"
 
 #include <algorithm>
+#include <set>
 
 #include "fastpath/visibility/near_enough.h"
 
@@ -76,16 +77,54 @@ const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::
   return nullptr;
 }
 
-const LocalEdge* Walker::common_edge(std::uint32_t piece, std::uint32_t other) const {
-  for (const std::uint32_t id : scene_->pieces[piece].edges) {
-    const LocalEdge& e = scene_->edges[id];
-    if (std::find(e.pieces.begin(), e.pieces.end(), other) != e.pieces.end()) return &e;
+bool Walker::is_wall(std::uint32_t piece, const Surface& of, const Surface& other) const {
+  const auto& c = scene_->pieces[piece].corners;
+  if (piece != of.piece) {
+    const Plane& h = scene_->planes[of.piece];
+    if (!std::all_of(c.begin(), c.end(), [&](std::uint32_t i) { return h.side(scene_->points[i]) == 0; })) return false;
   }
-  return nullptr;
+  return std::any_of(c.begin(), c.end(), [&](std::uint32_t i) { return height_sign(other, scene_->points[i]) > 0; });
 }
 
-Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b) const {
-  const LocalEdge* common = common_edge(a.piece, b.piece);
+std::vector<std::uint32_t> Walker::common_edges(const Surface& a, const Surface& b) const {
+  std::vector<std::uint32_t> found, wall{a.piece};
+  std::set<std::uint32_t> met{a.piece};
+  for (std::size_t i = 0; i < wall.size(); ++i) {
+    for (const std::uint32_t id : scene_->pieces[wall[i]].edges) {
+      const auto& pieces = scene_->edges[id].pieces;
+      if (std::any_of(pieces.begin(), pieces.end(), [&](std::uint32_t t) { return is_wall(t, b, a); })) {
+        found.push_back(id);
+        continue;
+      }
+      for (const std::uint32_t t : pieces) {
+        if (is_wall(t, a, b) && met.insert(t).second) wall.push_back(t);
+      }
+    }
+  }
+  return found;
+}
+
+std::array<std::uint32_t, 2> Walker::ends_of_chain(const std::vector<std::uint32_t>& edges) const {
+  std::array<std::uint32_t, 2> ends{scene_->edges[edges[0]].a, scene_->edges[edges[0]].b};
+  std::vector<bool> used(edges.size(), false);
+  used[0] = true;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const LocalEdge& e = scene_->edges[edges[i]];
+      for (std::uint32_t& end : ends) {
+        if (used[i] || (e.a != end && e.b != end)) continue;
+        end = e.a == end ? e.b : e.a;
+        used[i] = grown = true;
+      }
+    }
+  }
+  return ends;
+}
+
+Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b,
+                                      const std::vector<std::uint32_t>& common) const {
+  const std::array<std::uint32_t, 2> ends = common.empty() ? std::array<std::uint32_t, 2>{} : ends_of_chain(common);
   const auto& vertices = scene_->cell.vertices;
   return decide([&]<class NT>() {
     const auto height = [&](const Surface& s, const ExactPoint& x) {
@@ -101,8 +140,8 @@ Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b) const 
     // Of the line of both walls, the point of V that divides the way from i to j in these parts.
     const auto touch = [&](std::size_t i, const NT& from_j, std::size_t j, const NT& from_i) {
       touches = true;
-      if (!common) return;
-      const auto x = coordinates<NT>(scene_->points[common->a]), y = coordinates<NT>(scene_->points[common->b]);
+      if (common.empty()) return;
+      const auto x = coordinates<NT>(scene_->points[ends[0]]), y = coordinates<NT>(scene_->points[ends[1]]);
       const auto past = [&](const Vec3<NT>& end) {
         const auto along = [&](std::size_t k) { return dot(y - x, coordinates<NT>(vertices[k]) - end); };
         return sign_of(NT(NT(from_j * along(i)) + NT(from_i * along(j))));
@@ -127,34 +166,66 @@ Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b) const 
         if (s == 0) touch(i, NT(-ha[j]), j, ha[i]);
       }
     }
-    return touches && !(common && upon_edge) ? Both::touch : Both::apart;
+    return touches && !(!common.empty() && upon_edge) ? Both::touch : Both::apart;
   });
 }
 
-// A groove between two walls that share an edge, into which no point of V looks: the walk would go from one wall to the other for ever, towards
-// the edge. Beside the edge all is hidden, as V touches the edge's line nowhere but upon the edge (docs/definition.md, D14); so it ends with a leg from the edge.
-bool Walker::groove_leg(Walk& walk, Pool& pool) const {
-  const Leg &last = walk.legs.back(), &one = walk.legs[walk.legs.size() - 2];
-  const LocalEdge* e = common_edge(last.piece, one.piece);
-  if (!e) return false;
-  const ExactPoint &a = scene_->points[e->a], &b = scene_->points[e->b];
-  const Point pa = a.estimate(), pb = b.estimate(), q = last.next->estimate();
-  double along = 0, length = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    along += (q[k] - pa[k]) * (pb[k] - pa[k]);
-    length += (pb[k] - pa[k]) * (pb[k] - pa[k]);
+const ExactPoint* Walker::along_groove(const ExactPoint& p, const Surface& on, const Surface& before,
+                                       Pool& pool) const {
+  const ExactPoint* far = in_front(on, nullptr, 0, pool);
+  if (!far) return nullptr;
+  // Where the closed V touches the space in front of both: a vertex, or a point where an edge or a diagonal of V leaves the space in front of the first.
+  const auto& s = scene_->cell.vertices;
+  std::optional<ExactPoint> end;
+  for (const ExactPoint& x : s) {
+    if (!end && height_sign(on, x) >= 0 && height_sign(before, x) >= 0) end = x;
   }
-  const double t = along / length;
-  if (!(t > 0 && t < 1)) return false;
-  const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
-  const bool blocked = scene_->tree.any(SegmentTest(*y, *last.next), [&](std::uint32_t i) {
-    const std::uint32_t piece = scene_->occluders[i];
-    if (std::find(e->pieces.begin(), e->pieces.end(), piece) != e->pieces.end()) return false;
-    return scene_->crosses(*y, *last.next, piece) != Crossing::no;
-  });
-  if (blocked) return false;
-  walk.legs.push_back({y, last.next, nullptr, last.piece, last.side, true});
-  return true;
+  for (std::size_t i = 0; i < s.size() && !end; ++i) {
+    for (std::size_t j = 0; j < s.size() && !end; ++j) {
+      if (height_sign(on, s[i]) <= 0 || height_sign(on, s[j]) > 0) continue;
+      const ExactPoint x = ExactPoint::on_plane(s[i], s[j], scene_->planes[on.piece]);
+      if (height_sign(before, x) >= 0) end = x;
+    }
+  }
+  if (!end) return nullptr;
+  for (int k = 3; k <= 60; k += 3) {
+    const ExactPoint v = ExactPoint::between(*end, *far, std::ldexp(1.0, -k));
+    const LocalScene::Last last = scene_->last_crossing(v, p);
+    if (!last.degenerate && last.piece != before.piece) return pool.keep(v);
+  }
+  return nullptr;
+}
+
+// A groove between two walls that meet in an edge, into which no point of V looks: the walk would go from one wall to the other for ever, towards
+// the edge. Beside the edge all is hidden, as V touches the edge's line nowhere but upon the edge (docs/definition.md, D14); so it ends with a leg from the edge.
+bool Walker::groove_leg(Walk& walk, const Surface& on, const Surface& before, const std::vector<std::uint32_t>& common,
+                        Pool& pool) const {
+  const Leg& last = walk.legs.back();
+  for (const std::uint32_t id : common) {
+    const LocalEdge& e = scene_->edges[id];
+    const ExactPoint &a = scene_->points[e.a], &b = scene_->points[e.b];
+    const Point pa = a.estimate(), pb = b.estimate(), q = last.next->estimate();
+    double along = 0, length = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      along += (q[k] - pa[k]) * (pb[k] - pa[k]);
+      length += (pb[k] - pa[k]) * (pb[k] - pa[k]);
+    }
+    const double t = along / length;
+    if (!(t > 0 && t < 1)) continue;
+    const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
+    const bool blocked = scene_->tree.any(SegmentTest(*y, *last.next), [&](std::uint32_t i) {
+      const std::uint32_t piece = scene_->occluders[i];
+      if (std::find(e.pieces.begin(), e.pieces.end(), piece) != e.pieces.end()) return false;
+      return scene_->crosses(*y, *last.next, piece) != Crossing::no;
+    });
+    if (blocked) return false;
+    const auto at_edge =
+        std::find_if(e.pieces.begin(), e.pieces.end(), [&](std::uint32_t t2) { return is_wall(t2, on, before); });
+    if (at_edge == e.pieces.end()) continue;
+    walk.legs.push_back({y, last.next, nullptr, *at_edge, last.side, true});
+    return true;
+  }
+  return false;
 }
 
 Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
@@ -166,12 +237,19 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
   std::optional<Surface> on, before;
   for (std::int64_t depth = 0; depth < longest_; ++depth) {
     bool both = false;
+    const ExactPoint* along = nullptr;
     if (before) {
-      const Both how = in_front_of_both(*on, *before);
-      both = how == Both::meet;
       const std::size_t n = walk.legs.size();
-      if (how == Both::apart && n >= 4 && walk.legs[n - 1].piece == walk.legs[n - 3].piece &&
-          walk.legs[n - 2].piece == walk.legs[n - 4].piece && groove_leg(walk, pool)) {
+      Both how = in_front_of_both(*on, *before, {});
+      std::vector<std::uint32_t> common;
+      if (how != Both::meet && n >= 4) {  // by now it may be a groove
+        common = common_edges(*on, *before);
+        how = in_front_of_both(*on, *before, common);
+      }
+      both = how == Both::meet;
+      if (how == Both::touch && n >= 4) along = along_groove(*p, *on, *before, pool);
+      if (how == Both::apart && n >= 4 && is_wall(walk.legs[n - 3].piece, *on, *before) &&
+          is_wall(walk.legs[n - 4].piece, *before, *on) && groove_leg(walk, *on, *before, common, pool)) {
         walk.end = Walk::End::surface;
         return walk;
       }
@@ -181,7 +259,7 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
       const std::uint64_t number = mix(seed * 1000003 + static_cast<std::uint64_t>(depth * 1009 + attempt));
       const ExactPoint* v = viewpoint(number);
       if (on) {
-        v = both ? in_front(*on, &*before, number, pool) : nullptr;
+        v = both ? in_front(*on, &*before, number, pool) : attempt == 0 ? along : nullptr;
         if (!v) v = in_front(*on, nullptr, number, pool);
         if (!v) {
           const auto& s = scene_->cell.vertices;

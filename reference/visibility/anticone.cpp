@@ -10,24 +10,32 @@ using exact::Vector3;
 
 namespace {
 
-// x on the border of a cell with interior: A(x) is the cone opposite to V at x, bounded by the planes of the cell's facets at x. In each the directions
-// that do not point into the facet's own angle at x, turned round, in parts of less than a half turn.
+// The sectors of a plane that holds a facet of V (or all of a flat V) in which x looks away from that facet: the directions from its points to x, corner by corner, so that
+// each sector is less than a half turn.
+void add_sectors(const Point3& x, const exact::ConvexCell& cell, const exact::CellFacet& f,
+                 std::vector<AnticoneFacet>& facets) {
+  std::vector<Vector3> rays;
+  for (const int c : f.corners) {
+    const Vector3 away = x - cell.vertices()[static_cast<std::size_t>(c)];
+    if (away != CGAL::NULL_VECTOR) rays.push_back(away);
+  }
+  const Vector3 n = f.plane.orthogonal_vector();
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Vector3 &a = rays[i], &b = rays[(i + 1) % rays.size()];
+    if (CGAL::is_positive(n * CGAL::cross_product(a, b))) facets.push_back({f.plane, a, b});
+  }
+}
+
+// x on the border of V: A(x) is the cone opposite to V at x. That of a solid cell is bounded by the planes of the facets at x. That of a polygon is flat, and bounded by either side
+// of the cell's plane. A segment's is a ray, and bounds nothing.
 std::vector<AnticoneFacet> facets_on_border(const Point3& x, const exact::ConvexCell& cell) {
   std::vector<AnticoneFacet> facets;
-  const std::vector<Point3>& s = cell.vertices();
   for (const exact::CellFacet& f : cell.facets()) {
-    if (f.plane.oriented_side(x) != CGAL::ON_ORIENTED_BOUNDARY) continue;
-    // The facet seen from x, corner by corner; where x lies on an edge of it or inside it, that is a half turn or a whole turn.
-    std::vector<Vector3> rays;
-    for (const int c : f.corners) {
-      const Vector3 away = x - s[static_cast<std::size_t>(c)];
-      if (away != CGAL::NULL_VECTOR) rays.push_back(away);
-    }
-    const Vector3 n = f.plane.orthogonal_vector();
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Vector3 &a = rays[i], &b = rays[(i + 1) % rays.size()];
-      if (CGAL::is_positive(n * CGAL::cross_product(a, b))) facets.push_back({f.plane, a, b});
-    }
+    if (f.plane.has_on(x)) add_sectors(x, cell, f, facets);
+  }
+  if (cell.dimension() == 2) {
+    for (std::size_t i = 0, n = facets.size(); i < n; ++i)
+      facets.push_back({facets[i].plane.opposite(), facets[i].ray1, facets[i].ray0});
   }
   return facets;
 }
@@ -37,7 +45,7 @@ std::vector<AnticoneFacet> facets_on_border(const Point3& x, const exact::Convex
 std::vector<AnticoneFacet> anticone_facets(const Point3& x, const exact::ConvexCell& cell) {
   std::vector<AnticoneFacet> facets;
   if (cell.contains(x)) {
-    if (cell.dimension() == 3 && !cell.interior_contains(x)) return facets_on_border(x, cell);
+    if (!cell.interior_contains(x)) return facets_on_border(x, cell);
     return facets;
   }
   const std::vector<Point3>& s = cell.vertices();

@@ -1,4 +1,4 @@
-// D12: the facets of the anti-cone A(x) of a point x outside the cell, or on its border. Each is a planar sector with apex x, spanned by the
+// D12: the facets of the anti-cone A(x) of a point x outside the cell, or on its relative border. Each is a planar sector with apex x, spanned by the
 // reflections of two extreme cell vertices (a silhouette edge of V seen from x); its plane supports V.
 //
 // All facets are found by plane sides alone: no sweep along the cell's contour, so no start, no direction and no
@@ -17,8 +17,9 @@ struct AnticoneFacet {
   exact::Vector3 ray0, ray1;  // x - s0, x - s1; counter-clockwise about the plane's normal
 };
 
-// x may lie on the border of a cell with interior: then the facets are parts of the planes of V's facets at x. Empty when x lies inside V, or anywhere in
-// a flat V, or V is a point. O(cell edges * cell vertices).
+// x may lie on the border of a solid cell or of a polygon: then the facets are parts of the planes of V's facets at x, or of either side of the polygon's plane.
+// Empty when x lies inside V, or in the line of a segment, or V is a point: then A(x) is nothing, a ray, or all of the polygon's plane, with V on every side of x.
+// O(cell edges * cell vertices).
 std::vector<AnticoneFacet> anticone_facets(const exact::Point3& x, const exact::ConvexCell& cell);
 
 // D17: the anti-cones of the apexes whose wedges a limit left out. What those wedges could show, and all that follows from it, lies in the closed anti-cones: if y is in A(x), A(y) is. So a

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "exact/cell_plane.h"
 #include "reference/visibility/anticone.h"
 
 namespace clues::reference {
@@ -27,9 +28,12 @@ Apex Apex::at_edge(const exact::Complex& complex, const exact::ConvexCell& cell,
 Apex::Apex(const exact::ConvexCell& cell, const Point3& x, LocalStar star) : x_(x), star_(std::move(star)) {
   for (const Point3& s : cell.vertices()) anticone_.push_back(x - s);
   for (const AnticoneFacet& f : anticone_facets(x, cell)) {
-    const Vector3 n = f.plane.orthogonal_vector();
-    const Vector3 inwards =
-        CGAL::is_positive(n * (x - cell.center())) ? x - cell.center() : n;  // n: V lies in the plane
+    if (exact::lies_in(cell, f.plane)) {
+      flat_ = true;
+      sectors_.push_back({f.plane, f.ray0, f.ray1, {}, {}, {}, nullptr, false});
+      continue;
+    }
+    const Vector3 n = f.plane.orthogonal_vector(), inwards = x - cell.center();
     const auto turns_left = [&](const Vector3& u, const Vector3& w) {
       return CGAL::is_positive(n * CGAL::cross_product(u, w));
     };
@@ -50,6 +54,7 @@ Apex::Apex(const exact::ConvexCell& cell, const Point3& x, LocalStar star) : x_(
 }
 
 Probe Apex::probe(const Vector3& limit, const Vector3& aside, const Vector3& off) const {
+  if (flat_) return {{limit, aside, off}, limit, CGAL::NULL_VECTOR};
   const Vector3 actual = aside == CGAL::NULL_VECTOR ? star_.nudged(limit, off) : star_.nudged(limit, aside, off);
   return {{limit, aside == CGAL::NULL_VECTOR ? off : aside, off}, actual, CGAL::NULL_VECTOR, false};
 }
@@ -61,6 +66,7 @@ bool Apex::spreads(const Probe& p, const ApexSector& s) const {
 std::vector<Vector3> Apex::into_cell(const exact::ConvexCell& cell, const std::vector<Vector3>& known) const {
   std::vector<Vector3> found;
   if (sectors_.empty()) return found;
+  if (flat_) return star_.into_cell(x_, cell);
   std::vector<std::vector<int>> faces;
   for (const Vector3& d : known) faces.push_back(star_.face_of(d));
   for (const Vector3& d : star_.into_cell(x_, cell)) {
@@ -76,7 +82,9 @@ bool Apex::has_sector_in(const std::vector<int>& face) const {
   return std::any_of(sectors_.begin(), sectors_.end(), [&](const ApexSector& s) { return s.face == face; });
 }
 
-bool Apex::has_sector_facing(const Vector3& d) const { return !sectors_.empty() && has_sector_in(star_.face_of(d)); }
+bool Apex::has_sector_facing(const Vector3& d) const {
+  return !sectors_.empty() && (flat_ || has_sector_in(star_.face_of(d)));
+}
 
 void Apex::start_round() {
   probes_.clear();
@@ -90,10 +98,17 @@ std::vector<std::size_t> Apex::new_sectors() {
   if (!fresh_) return found;
   fresh_ = false;
   std::vector<std::vector<int>> faces;
-  for (const Probe& p : probes_) faces.push_back(star_.face_of(p.actual));
+  if (!flat_) {
+    for (const Probe& p : probes_) faces.push_back(star_.face_of(p.actual));
+  }
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
     ApexSector& s = sectors_[i];
     if (s.built) continue;
+    if (flat_) {
+      s.built = true;
+      found.push_back(i);
+      continue;
+    }
     const Vector3 n = s.plane.orthogonal_vector();
     bool exists = false, bounds_nothing = false;
     for (std::size_t k = 0; k < probes_.size(); ++k) {

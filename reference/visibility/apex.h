@@ -4,6 +4,8 @@
 // visible space near x, known by a few probes, lies in the same local face as the points just off w in H-: a sight line that
 // reaches x there goes on in every direction of A(x) that no piece is in the way of. It is left out where that same visible space surely reaches the other side (H+)
 // of the wedge as well: such a piece bounds nothing. Building too many pieces would be correct too, only slower (D12).
+//
+// Where x and V lie in one plane A(x) is flat, and both sides of it are sectors. They only separate (T10): all of them are built as soon as x is known, or suspected, to be visible.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +51,10 @@ class Apex {
     probes_.push_back(p);
     fresh_ = true;
   }
-  // Directions into int V, one in each local face from which V is seen, in which a sector starts and in which none of `known` is.
+  // Whether A(x) is flat: its sectors lie in a plane that holds V.
+  bool flat() const { return flat_; }
+  // Directions into int V, one in each local face from which V is seen, in which a sector starts and in which none of `known` is. Where A(x) is flat: one in each part that pieces
+  // which are not in its plane cut the way to V into.
   std::vector<exact::Vector3> into_cell(const exact::ConvexCell& cell, const std::vector<exact::Vector3>& known) const;
   bool in_one_face(const exact::Vector3& d, const exact::Vector3& e) const {
     return star_.face_of(d) == star_.face_of(e);
@@ -78,6 +83,7 @@ class Apex {
   exact::Point3 x_;
   LocalStar star_;
   std::vector<exact::Vector3> anticone_;  // its rays: away from the cell's vertices
+  bool flat_ = false;
   bool on_edge_ = false;
   std::uint32_t id_ = 0;
   std::vector<ApexSector> sectors_;

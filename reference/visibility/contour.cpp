@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "exact/cell_plane.h"
+
 namespace clues::reference {
 
 using exact::Point3;
@@ -69,7 +71,7 @@ std::vector<ContourEdge> contour_edges(const exact::Complex& complex, const exac
     for (SupportingPlane& support : supporting_planes(a, b, cell)) {
       const Vector3 n = support.plane.orthogonal_vector();
       const CGAL::Sign cell_side = beside(a, b, n, cell.vertices()[static_cast<std::size_t>(support.touching.front())]);
-      ContourEdge found{e, support.plane, support.touching, std::nullopt};
+      ContourEdge found{e, support.plane, support.touching, std::nullopt, exact::lies_in(cell, support.plane)};
       bool in_h_plus = true, beyond = false;
       for (const std::uint32_t t : edge.pieces) {
         const auto& c = complex.pieces[t].corners;

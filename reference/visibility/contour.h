@@ -22,7 +22,8 @@ struct ContourEdge {
   exact::Plane3 plane;        // V in the closed negative side H+
   std::vector<int> touching;  // cell vertices on the plane: one (SV-ME), or an edge or facet of V (SE-ME)
   std::optional<std::uint32_t>
-      cover;  // a piece lying in the plane between the edge and V: it covers the near side of the edge
+      cover;                // a piece lying in the plane between the edge and V: it covers the near side of the edge
+  bool holds_cell = false;  // all of V lies in the plane: its wedges only separate (T10)
 };
 
 // Of points that span at most a half turn about the line ab, the index of the last in that sense; none if all are on the line.

@@ -24,6 +24,8 @@ namespace {
 
 using Job = PieceMaker::Job;
 
+constexpr int kOtherWalks = 100;  // for the label of an edge piece; then it counts as visible
+
 class Search {
  public:
   Search(const exact::SceneQuery& scene, const Options& options, Statistics& statistics)
@@ -83,7 +85,7 @@ class Search {
       wedges_.add(maker_.build(next_batch(waiting)));
       for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
       for (VertexSource& s : vertex_sources_) {
-        if (!s.lit && walker_.visible(start_of(s), s.walk, wedges_, first) == Meets::yes) light_vertex(s);
+        if (!s.lit && reached(s, first)) light_vertex(s);
       }
       const std::vector<Job> jobs = light(newly_lit(first));
       waiting.insert(waiting.end(), jobs.begin(), jobs.end());
@@ -105,6 +107,18 @@ class Search {
       if (is_contour_.contains(static_cast<std::uint32_t>(e))) changed = true;
     }
     return changed;
+  }
+
+  // Whether the pieces from index `first` on make the source visible.
+  bool reached(VertexSource& s, std::size_t first) {
+    Meets label = walker_.visible(start_of(s), s.walk, wedges_, first);
+    for (int attempt = 1; label == Meets::degenerate && !s.separates && attempt < kViews; ++attempt) {
+      if (!look_again(scene_, *corner(s.point), s, attempt)) continue;
+      s.walk = walker_.walk(start_of(s), kSourceSeed);
+      label = walker_.visible(start_of(s), s.walk, wedges_, 0);
+    }
+    s.walk.unresolved |= label == Meets::degenerate;
+    return label != Meets::no;
   }
 
   // Takes what is built before the next look at what it lights: all, but for a dial.
@@ -133,8 +147,13 @@ class Search {
       Source& s = sources_[i];
       if (s.lit) return;
       label[i] = walker_.visible(start_of(s, contours_), s.walk, wedges_, first);
-      for (int attempt = 0; label[i] == Meets::degenerate && attempt < 100;
-           ++attempt) {  // walk elsewhere, and ask all pieces
+      for (int attempt = 0; label[i] == Meets::degenerate; ++attempt) {  // walk elsewhere, and ask all pieces
+        if (attempt == kOtherWalks) {
+          s.walk.unresolved = true;
+          label[i] = Meets::yes;
+          break;
+        }
+        if (attempt % 4 == 3) ask_elsewhere(s, attempt);
         s.walk = walker_.walk(start_of(s, contours_), ++s.seed);
         label[i] = walker_.visible(start_of(s, contours_), s.walk, wedges_, 0);
       }
@@ -142,8 +161,6 @@ class Search {
     std::vector<std::size_t> lit;
     for (std::size_t i = 0; i < label.size(); ++i) {
       if (label[i] == Meets::yes) lit.push_back(i);
-      if (label[i] == Meets::degenerate)
-        throw scene::Error(scene::ErrorCode::internal, "fixpoint: an edge piece without a walk in general position");
     }
     return lit;
   }
@@ -303,8 +320,11 @@ class Search {
           std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
     for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
     statistics_.conservative_fallbacks += left_out_.size();
-    for (const Source& s : sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
-    for (const VertexSource& s : vertex_sources_) statistics_.conservative_fallbacks += s.walk.unresolved;
+    // A wedge that only separates makes nothing visible, also where it should not exist.
+    for (const Source& s : sources_)
+      statistics_.conservative_fallbacks += s.walk.unresolved && !contours_[s.contour].holds_cell;
+    for (const VertexSource& s : vertex_sources_)
+      statistics_.conservative_fallbacks += s.walk.unresolved && !s.separates;
   }
 
   void find_lit(Fixpoint& out) const {

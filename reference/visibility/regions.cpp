@@ -24,6 +24,7 @@ using exact::Point3;
 
 namespace {
 
+constexpr std::size_t kSamples = 8;  // points of a region that are asked before it counts as visible
 constexpr std::uint64_t kRegionSeed = 0x1d, kSecondSeed = 0x7a3;
 
 using Segment3 = std::pair<Point3, Point3>;
@@ -218,7 +219,7 @@ class SideMapper {
       ++out.walks;
       try {
         const Walker::Label label = walker_.label(start, fixpoint_.wedges, kRegionSeed + which);
-        if (label.fallback && which < 4) continue;  // another point of the region may be easier to decide
+        if (label.fallback && which < kSamples) continue;  // another point of the region may be easier to decide
         r.visible = label.visible;
         out.fallbacks += label.fallback;
         if (options_.check_two_walks) {
@@ -227,8 +228,9 @@ class SideMapper {
           out.disagreements += !label.fallback && !second.fallback && second.visible != label.visible;
         }
       } catch (const scene::Error&) {
-        if (which < 8) continue;  // the sample itself lies in special position: take another
-        throw;
+        if (which < kSamples) continue;  // the sample itself lies in special position: take another
+        r.visible = true;
+        ++out.fallbacks;
       }
       break;
     }

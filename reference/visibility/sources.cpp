@@ -2,9 +2,11 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 
+#include "exact/cell_plane.h"
 #include "exact/simple_point.h"
 
 namespace clues::reference {
@@ -14,22 +16,36 @@ using exact::Vector3;
 
 namespace {
 
-// x seen along d, or along a direction nearby in the same local face if that sight line is in special position.
 VertexSource vertex_source(const exact::SceneQuery& scene, std::uint32_t point, const Apex& apex, const Vector3& d) {
-  constexpr int kAttempts = 12;
   const Point3& x = scene.complex().points[point];
-  const std::size_t n = scene.cell().vertices().size();
-  VertexSource s{point, x, x + d, {}, {}, false};
-  exact::FT pull(1);
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    if (!scene.crossings(s.v, x).degenerate && (attempt == 0 || apex.in_one_face(d, s.v - x))) break;
-    std::vector<int> weights;
-    for (std::size_t j = 0; j < n; ++j) weights.push_back(1 + (attempt * 7 + static_cast<int>(j) * 5) % 11);
-    pull = pull / exact::FT(8);
-    s.v = exact::collapsed(x + d + pull * (scene.cell().interior_point(weights) - (x + d)));
+  VertexSource s{point, x,     d,    x + d, {{d, CGAL::NULL_VECTOR, CGAL::NULL_VECTOR}, d, CGAL::NULL_VECTOR},
+                 {},    false, false};
+  for (int attempt = 0; attempt < kViews; ++attempt) {
+    if (look_again(scene, apex, s, attempt)) break;
   }
-  s.probe = {{s.v - x, CGAL::NULL_VECTOR, CGAL::NULL_VECTOR}, s.v - x, CGAL::NULL_VECTOR, false};
   return s;
+}
+
+// x in one plane with V: one sight line for each part that the pieces at x cut the way to V into. Beside a piece in that plane x is seen from just off it: that is not looked at,
+// and x counts as visible.
+void flat_sources(const exact::SceneQuery& scene, std::uint32_t point, const Apex& apex,
+                  std::vector<VertexSource>& sources) {
+  const exact::Complex& complex = scene.complex();
+  const auto& pieces = complex.point_pieces[point];
+  const auto add = [&](const Vector3& d) {
+    const Point3& x = complex.points[point];
+    sources.push_back(
+        {point, x, d, x + d, {{d, CGAL::NULL_VECTOR, CGAL::NULL_VECTOR}, d, CGAL::NULL_VECTOR}, {}, false, true});
+  };
+  const std::vector<Vector3> directions = apex.into_cell(scene.cell(), {});
+  if (directions.empty() || std::any_of(pieces.begin(), pieces.end(), [&](std::uint32_t t) {
+        return exact::lies_in(scene.cell(), complex.planes[t]);
+      })) {
+    add(scene.cell().center() - complex.points[point]);
+    sources.back().walk.unresolved = true;
+    return;
+  }
+  for (const Vector3& d : directions) add(d);
 }
 
 }  // namespace
@@ -71,10 +87,37 @@ std::vector<Source> edge_sources(const exact::SceneQuery& scene, const Walker& w
     }
   }
   tbb::parallel_for(std::size_t{0}, unknown.size(), [&](std::size_t i) {
-    unknown[i]->walk = walker.walk(start_of(*unknown[i], contours), unknown[i]->seed);
+    Source& s = *unknown[i];
+    s.walk = walker.walk(start_of(s, contours), s.seed);
+    for (int attempt = 1; attempt < 4 && s.walk.special; ++attempt) {
+      ask_elsewhere(s, attempt);
+      s.walk = walker.walk(start_of(s, contours), s.seed);
+    }
   });
   walks += unknown.size();
   return sources;
+}
+
+bool look_again(const exact::SceneQuery& scene, const Apex& apex, VertexSource& s, int attempt) {
+  Point3 v = s.x + s.towards;
+  if (attempt > 0) {
+    std::vector<int> weights;
+    for (std::size_t j = 0; j < scene.cell().vertices().size(); ++j)
+      weights.push_back(1 + (attempt * 7 + static_cast<int>(j) * 5) % 11);
+    exact::FT pull(1);
+    for (int i = 0; i < attempt; ++i) pull = pull / exact::FT(8);
+    v = exact::collapsed(v + pull * (scene.cell().interior_point(weights) - v));
+    if (!apex.in_one_face(s.towards, v - s.x)) return false;
+  }
+  if (scene.crossings(v, s.x).degenerate) return false;
+  s.v = v;
+  s.probe = {{v - s.x, CGAL::NULL_VECTOR, CGAL::NULL_VECTOR}, v - s.x, CGAL::NULL_VECTOR};
+  return true;
+}
+
+void ask_elsewhere(Source& s, int attempt) {
+  s.y = s.lo + exact::FT(29 * attempt % 64 + 1) / exact::FT(67) * (s.hi - s.lo);
+  s.y = exact::collapsed(s.y);
 }
 
 std::vector<VertexSource> vertex_sources(const exact::SceneQuery& scene, const Walker& walker,
@@ -87,6 +130,10 @@ std::vector<VertexSource> vertex_sources(const exact::SceneQuery& scene, const W
     if (complex.point_pieces[p].empty()) continue;  // of a part of a complex, or inside the cell
     const Apex& apex = corner(p);
     const Point3& x = complex.points[p];
+    if (apex.flat()) {
+      flat_sources(scene, p, apex, sources);
+      continue;
+    }
     std::vector<Vector3> directions;
     for (std::size_t i = 0; i < cell.size(); ++i) {
       std::vector<int> weights;
@@ -98,8 +145,9 @@ std::vector<VertexSource> vertex_sources(const exact::SceneQuery& scene, const W
     for (const Vector3& d : apex.into_cell(scene.cell(), directions)) directions.push_back(d);
     for (const Vector3& d : directions) sources.push_back(vertex_source(scene, p, apex, d));
   }
-  tbb::parallel_for(std::size_t{0}, sources.size(),
-                    [&](std::size_t i) { sources[i].walk = walker.walk(start_of(sources[i]), kSourceSeed); });
+  tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
+    if (!sources[i].walk.unresolved) sources[i].walk = walker.walk(start_of(sources[i]), kSourceSeed);
+  });
   walks += sources.size();
   return sources;
 }

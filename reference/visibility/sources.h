@@ -30,10 +30,13 @@ struct Source {
 // from the cell).
 struct VertexSource {
   std::uint32_t point = 0;
-  exact::Point3 x, v;
+  exact::Point3 x;
+  exact::Vector3 towards;  // from x into int V
+  exact::Point3 v;         // there, or beside it in the same local face
   Probe probe;
   Walk walk;
   bool lit = false;
+  bool separates = false;  // its wedges do nothing else (T10): in doubt it is lit, and nothing is lost by it
 };
 
 inline Start start_of(const Source& s, const std::vector<ContourEdge>& contours) {
@@ -48,8 +51,17 @@ std::vector<Source> edge_sources(const exact::SceneQuery& scene, const Walker& w
                                  const std::vector<std::vector<exact::Point3>>& cuts, std::vector<Source> known,
                                  std::uint64_t& walks);
 
+// The same piece of an edge, asked at another point: the first may be in special position with all that is seen from it.
+void ask_elsewhere(Source& s, int attempt);
+
+inline constexpr int kViews = 12;  // of a vertex in one direction
+
+// Looks from another v, beside the direction in which x is seen and in the same local face: the better, the lower the attempt is; 0 is the direction itself. False if that sight line
+// is in special position: then all is as it was.
+bool look_again(const exact::SceneQuery& scene, const Apex& apex, VertexSource& s, int attempt);
+
 // Every mesh vertex, once for each sight line from near a cell vertex that arrives in a local face where a sector starts, and once for every
-// other such face from which the cell is seen. `corner` gives the apex of a point. Walked; adds their number to `walks`.
+// other such face from which the cell is seen. A vertex in a plane with all of V and with a piece at it is lit. `corner` gives the apex of a point. Walked; adds their number to `walks`.
 std::vector<VertexSource> vertex_sources(const exact::SceneQuery& scene, const Walker& walker,
                                          const std::function<const Apex&(std::uint32_t)>& corner, std::uint64_t& walks);
 

@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "exact/cell_plane.h"
+
 namespace clues::reference {
 
 using exact::Point3;
@@ -105,10 +107,11 @@ std::vector<ValidPiece> PieceMaker::pieces_of(const Job& job) const {
     if (CGAL::orientation(on->center, lo.q, hi.q) == CGAL::RIGHT_TURN) std::swap(lo, hi);
     strips = strips_between(*on, lo, hi);
   }
+  const bool holds_cell = exact::lies_in(scene_.cell(), sector.plane);
   std::vector<ValidPiece> pieces;
   for (const Strip& strip : strips) {
     if (planted_bug_ == PlantedBug::rounded_comparison && is_narrow(strip, sector.center)) continue;
-    ValidPiece piece{{}, on, strip};
+    ValidPiece piece{{}, on, strip, holds_cell};
     Wedge& w = piece.wedge;
     w.kind = job.touching < 0                             ? WedgeKind::se_mv
              : contours_[job.contour].touching.size() > 1 ? WedgeKind::se_me

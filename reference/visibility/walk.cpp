@@ -1,6 +1,7 @@
 #include "reference/visibility/walk.h"
 
 #include <algorithm>
+#include <set>
 
 #include "exact/simple_point.h"
 #include "scene/error.h"
@@ -100,6 +101,39 @@ std::optional<Point3> Walker::end_of_groove(const SurfaceSide& one, const Surfac
   return found;
 }
 
+bool Walker::is_wall(std::uint32_t piece, const SurfaceSide& in, const SurfaceSide& before) const {
+  const exact::Complex& complex = scene_->complex();
+  const auto& c = complex.pieces[piece].corners;
+  return std::all_of(c.begin(), c.end(), [&](auto i) { return CGAL::is_zero(height(in, complex.points[i])); }) &&
+         std::any_of(c.begin(), c.end(), [&](auto i) { return CGAL::is_positive(height(before, complex.points[i])); });
+}
+
+bool Walker::carries_both(const exact::Edge& e, const SurfaceSide& one, const SurfaceSide& two) const {
+  const auto any = [&](const SurfaceSide& in, const SurfaceSide& before) {
+    return std::any_of(e.pieces.begin(), e.pieces.end(), [&](auto t) { return is_wall(t, in, before); });
+  };
+  return any(one, two) && any(two, one);
+}
+
+std::vector<std::uint32_t> Walker::common_edges(const SurfaceSide& one, const SurfaceSide& two) const {
+  const exact::Complex& complex = scene_->complex();
+  std::vector<std::uint32_t> found, wall{one.piece};
+  std::set<std::uint32_t> met{one.piece};
+  for (std::size_t i = 0; i < wall.size(); ++i) {
+    for (const std::uint32_t id : complex.piece_edges[wall[i]]) {
+      const exact::Edge& e = complex.edges[id];
+      if (carries_both(e, one, two)) {
+        found.push_back(id);
+        continue;
+      }
+      for (const std::uint32_t t : e.pieces) {
+        if (is_wall(t, one, two) && met.insert(t).second) wall.push_back(t);
+      }
+    }
+  }
+  return found;
+}
+
 bool Walker::touches_only_the_edge(const SurfaceSide& one, const SurfaceSide& two) const {
   std::vector<Point3> shared;  // by V and the closed groove: what is extreme among it, and more
   bool on_line = true;
@@ -114,24 +148,11 @@ bool Walker::touches_only_the_edge(const SurfaceSide& one, const SurfaceSide& tw
   leaves(one, [&](const Point3&, const Point3& x) { return note(x); });
   if (!on_line) return false;
 
+  // From a common edge on, both ways along its line, as far as both walls stand.
   const exact::Complex& complex = scene_->complex();
-  const auto is_wall = [&](std::uint32_t piece, const SurfaceSide& in, const SurfaceSide& before) {
-    const auto& c = complex.pieces[piece].corners;
-    return std::all_of(c.begin(), c.end(), [&](auto i) { return CGAL::is_zero(height(in, complex.points[i])); }) &&
-           std::any_of(c.begin(), c.end(),
-                       [&](auto i) { return CGAL::is_positive(height(before, complex.points[i])); });
-  };
-  const auto carries_both = [&](const exact::Edge& e) {
-    const auto any = [&](const SurfaceSide& in, const SurfaceSide& before) {
-      return std::any_of(e.pieces.begin(), e.pieces.end(), [&](auto t) { return is_wall(t, in, before); });
-    };
-    return any(one, two) && any(two, one);
-  };
-  // From the common edge on, both ways along its line, as far as both walls stand.
-  const auto& own = complex.piece_edges[one.piece];
-  const auto common = std::find_if(own.begin(), own.end(), [&](auto id) { return carries_both(complex.edges[id]); });
-  if (common == own.end()) return false;
-  std::array<std::uint32_t, 2> ends{complex.edges[*common].a, complex.edges[*common].b};
+  const std::vector<std::uint32_t> common = common_edges(one, two);
+  if (common.empty()) return false;
+  std::array<std::uint32_t, 2> ends{complex.edges[common[0]].a, complex.edges[common[0]].b};
   const auto next = [&](std::uint32_t end, std::uint32_t other) -> std::optional<std::uint32_t> {
     for (const std::uint32_t t : complex.point_pieces[end]) {
       for (const std::uint32_t id : complex.piece_edges[t]) {
@@ -139,7 +160,7 @@ bool Walker::touches_only_the_edge(const SurfaceSide& one, const SurfaceSide& tw
         if (e.a != end && e.b != end) continue;
         const std::uint32_t beyond = e.a == end ? e.b : e.a;
         const Point3 &x = complex.points[other], &y = complex.points[end], &z = complex.points[beyond];
-        if (CGAL::collinear(x, y, z) && CGAL::collinear_are_ordered_along_line(x, y, z) && carries_both(e))
+        if (CGAL::collinear(x, y, z) && CGAL::collinear_are_ordered_along_line(x, y, z) && carries_both(e, one, two))
           return beyond;
       }
     }
@@ -172,19 +193,21 @@ std::optional<Leg> Walker::groove_leg(const Walk& walk) const {
   const std::size_t n = walk.legs.size();
   if (n < 4) return std::nullopt;
   const Leg &last = walk.legs[n - 1], &one = walk.legs[n - 2], &two = walk.legs[n - 3], &three = walk.legs[n - 4];
-  if (last.piece != two.piece || one.piece != three.piece) return std::nullopt;
+  const SurfaceSide wall{last.piece, last.front}, other{one.piece, one.front};
+  if (!is_wall(two.piece, wall, other) || !is_wall(three.piece, other, wall)) return std::nullopt;
   const exact::Complex& complex = scene_->complex();
-  for (const std::uint32_t id : complex.piece_edges[last.piece]) {
+  const Point3 q = exact::collapsed(CGAL::midpoint(last.m, one.m));
+  for (const std::uint32_t id : common_edges(wall, other)) {
     const exact::Edge& e = complex.edges[id];
-    if (std::find(e.pieces.begin(), e.pieces.end(), one.piece) == e.pieces.end()) continue;
     const Point3 &a = complex.points[e.a], &b = complex.points[e.b];
-    const Point3 q = exact::collapsed(CGAL::midpoint(last.m, one.m));
     const FT t = ((q - a) * (b - a)) / ((b - a) * (b - a));
-    if (!CGAL::is_positive(t) || t >= FT(1)) return std::nullopt;
+    if (!CGAL::is_positive(t) || t >= FT(1)) continue;
     const Point3 y = exact::collapsed(a + t * (b - a));  // the foot of q on the edge
     const exact::SegmentAnswer between = scene_->crossings(q, y);
     if (between.degenerate || !between.hits.empty()) return std::nullopt;
-    return Leg{y, q, last.piece, last.front, true};
+    const auto at_edge =
+        *std::find_if(e.pieces.begin(), e.pieces.end(), [&](auto i) { return is_wall(i, wall, other); });
+    return Leg{y, q, at_edge, last.front, true};
   }
   return std::nullopt;
 }
@@ -215,6 +238,8 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   const exact::Complex& complex = scene_->complex();
   const exact::ConvexCell& cell = scene_->cell();
   Walk walk;
+  // Only a wedge piece upon the covering surface can light this edge (D14, rule 2), also where it lies on V: the surface may be one on V's border, and is meant from outside.
+  if (start.contour && start.contour->cover) return walk;
   if (cell.contains(start.p)) {
     walk.ends_at_cell = true;
     return walk;
@@ -222,8 +247,6 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   Point3 p = start.p;
   std::optional<SurfaceSide> surface = start.surface;
   const ContourEdge* contour = start.contour;
-  if (contour && contour->cover)
-    return walk;  // only a wedge piece upon the covering surface can light this edge (D14, rule 2)
   for (int depth = 0;; ++depth) {
     if (depth == longest_) {
       walk.unresolved = true;
@@ -277,16 +300,17 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     Point3 v;
     int attempt = 0;
     do {
-      if (attempt == kAttempts) {
+      if (attempt == (cell.dimension() == 0 ? 1 : kAttempts)) {
         // A flat cell, or a point, in a plane with what is before it: every sight line runs in that plane, along the edges that lie in it.
-        walk.unresolved = true;
+        walk.unresolved = walk.special = true;
         return walk;
       }
       if (depth == 0 && start.from) {
         v = *start.from;
         answer = scene_->crossings(v, p);
-        if (answer.degenerate) return walk;
-        break;
+        if (!answer.degenerate) break;
+        walk.unresolved = true;
+        return walk;
       }
       if (along && attempt == 0) {
         v = *along;
@@ -363,7 +387,8 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
         }
       }
       if (h.oriented_side(leg.p) != CGAL::ON_ORIENTED_BOUNDARY) return false;
-      if (!at_start) return true;  // p is the m of the leg before, and was looked at there
+      if (!at_start) return true;   // p is the m of the leg before, and was looked at there
+      if (start.from) return true;  // p stands for what is just before it
       if (start.contour)
         return on_plane(complex.edges[start.contour->edge].a) && on_plane(complex.edges[start.contour->edge].b);
       return start.surface && holds_piece(start.surface->piece);

@@ -38,7 +38,8 @@ struct Leg {
 struct Walk {
   bool ends_at_cell = false;
   bool unresolved = false;  // never ends: the label is visible, as a counted fallback
-  std::vector<Leg> legs;    // from p towards the cell
+  bool special = false;   // for want of a sight line in general position to where it starts; another start may have one
+  std::vector<Leg> legs;  // from p towards the cell
 };
 
 // The side of a piece on which a point is asked for.
@@ -88,6 +89,12 @@ class Walker {
   std::optional<exact::Point3> anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const;
   // A point of the closed V in both closed half spaces, for two walls that no point of V is strictly in front of at once; none if V keeps away.
   std::optional<exact::Point3> end_of_groove(const SurfaceSide& one, const SurfaceSide& two) const;
+  // Whether the piece lies in the plane of the side `in` and in front of `before`, at least in part.
+  bool is_wall(std::uint32_t piece, const SurfaceSide& in, const SurfaceSide& before) const;
+  // Whether pieces of both walls of a groove meet in the edge.
+  bool carries_both(const exact::Edge& e, const SurfaceSide& one, const SurfaceSide& two) const;
+  // Such edges of the wall that the first side belongs to: the flat surface around it, which others may cut into many pieces.
+  std::vector<std::uint32_t> common_edges(const SurfaceSide& one, const SurfaceSide& two) const;
   // Whether V and the closed groove between two walls share nothing but points of their common edge, and of the edges that carry both walls on along
   // its line.
   bool touches_only_the_edge(const SurfaceSide& one, const SurfaceSide& two) const;

@@ -21,6 +21,7 @@ struct ValidPiece {
   Wedge wedge;
   std::shared_ptr<const OnWedge> on_wedge;
   Strip strip;
+  bool holds_cell = false;  // all of V lies in its plane: no sight line crosses it, it only separates (T10)
 };
 
 // Whether x, a point of the piece's plane, lies in the piece: degenerate on its outline.
@@ -53,7 +54,7 @@ class WedgeSet {
       if (b.begin < first) continue;
       for (const std::uint32_t i : b.tree.candidates(test)) {
         const ValidPiece& piece = pieces_[b.begin + i];
-        if (skip(piece)) continue;
+        if (piece.holds_cell || skip(piece)) continue;
         const Meets r = crosses(piece, m, p, off);
         if (r == Meets::yes) return r;
         if (r == Meets::degenerate) worst = r;

@@ -25,7 +25,8 @@ class ReferencePart : public fastpath::PartialMap {
         fixpoint_(reference::find_wedges(scene_, options_, statistics_)),
         walker_(scene_, true) {
     // The pieces as triangles; what is unbounded is cut far outside of the scene.
-    for (const auto& [wedge, on_wedge, strip] : fixpoint_.wedges.pieces()) {
+    for (const reference::ValidPiece& piece : fixpoint_.wedges.pieces()) {
+      const reference::Wedge& wedge = piece.wedge;
       const auto far = [&](const Point3& on_ray) {
         return wedge.center + (on_ray - wedge.center) * exact::FT(1 << 30);
       };

@@ -40,7 +40,7 @@ class FileSizeLimit {
 const std::string long_text(5000, 'x');
 
 TEST(AtomicFile, WritesAndReplaces) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const std::string bytes("a\0b\r\n", 5);
   write_file_atomically(folder.file("out"), long_text);
   write_file_atomically(folder.file("out"), bytes);
@@ -51,7 +51,7 @@ TEST(AtomicFile, WritesAndReplaces) {
 }
 
 TEST(AtomicFile, ARelativeNameIsInTheCurrentFolder) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto before = std::filesystem::current_path();
   std::filesystem::current_path(folder.path());
   write_file_atomically("out", "text");
@@ -60,7 +60,7 @@ TEST(AtomicFile, ARelativeNameIsInTheCurrentFolder) {
 }
 
 TEST(AtomicFile, KeepsPermissionsAndLinks) {
-  const TestFolder folder;
+  const SceneFolder folder;
   folder.write("real", "old");
   chmod(folder.file("real").c_str(), 0640);
   std::filesystem::create_symlink("real", folder.path() / "link");
@@ -73,7 +73,7 @@ TEST(AtomicFile, KeepsPermissionsAndLinks) {
 }
 
 TEST(AtomicFile, AWriteThatFailsLeavesNoFile) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const FileSizeLimit limit(1000);
   const auto thrown = thrown_by([&] { write_file_atomically(folder.file("out"), long_text); });
   EXPECT_EQ(thrown.code, ErrorCode::file_unwritable);
@@ -82,7 +82,7 @@ TEST(AtomicFile, AWriteThatFailsLeavesNoFile) {
 }
 
 TEST(AtomicFile, AWriteThatFailsLeavesTheOldFile) {
-  const TestFolder folder;
+  const SceneFolder folder;
   folder.write("out", "old");
   const FileSizeLimit limit(1000);
   EXPECT_EQ(thrown_by([&] { write_file_atomically(folder.file("out"), long_text); }).code, ErrorCode::file_unwritable);
@@ -91,7 +91,7 @@ TEST(AtomicFile, AWriteThatFailsLeavesTheOldFile) {
 }
 
 TEST(AtomicFile, MissingFolder) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto thrown = thrown_by([&] { write_file_atomically(folder.path() / "none" / "out", "text"); });
   EXPECT_EQ(thrown.code, ErrorCode::file_unwritable);
   EXPECT_THAT(thrown.text, HasSubstr("No such file or directory"));
@@ -106,7 +106,7 @@ TEST(AtomicFile, UnwritableFolder) {
 }
 
 TEST(AtomicFile, TargetsThatAreNoFile) {
-  const TestFolder folder;
+  const SceneFolder folder;
   std::filesystem::create_directory(folder.path() / "sub");
   for (const auto& path : {folder.file("sub"), folder.file("sub/"), folder.file("new/"), std::string(),
                            std::string("/dev/full"), std::string("/dev/null")}) {
@@ -119,7 +119,7 @@ TEST(AtomicFile, TargetsThatAreNoFile) {
 
 // What a killed run left behind is neither used nor removed.
 TEST(AtomicFile, AnOldTemporaryIsNoObstacle) {
-  const TestFolder folder;
+  const SceneFolder folder;
   folder.write(".clues-0.tmp", "left behind");
   write_file_atomically(folder.file("out"), "text");
   EXPECT_EQ(read_all(folder.file("out")), "text");

@@ -25,7 +25,7 @@ void PrintTo(const BadScene& scene, std::ostream* out) { *out << scene.name; }
 class BadSceneTest : public testing::TestWithParam<BadScene> {};
 
 TEST_P(BadSceneTest, IsRefusedAtItsPlace) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto path = folder.write(GetParam().file, GetParam().bytes);
   const auto thrown = thrown_by([&] { scene::read_mesh(path); });
   EXPECT_EQ(thrown.code, GetParam().code) << thrown.text;
@@ -191,14 +191,14 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 
 TEST(BadFile, Missing) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto thrown = thrown_by([&] { scene::read_mesh(folder.file("nothing.obj")); });
   EXPECT_EQ(thrown.code, ErrorCode::file_not_found);
   EXPECT_THAT(thrown.text, HasSubstr(folder.file("nothing.obj")));
 }
 
 TEST(BadFile, Folder) {
-  const TestFolder folder;
+  const SceneFolder folder;
   std::filesystem::create_directory(folder.path() / "folder.obj");
   EXPECT_EQ(thrown_by([&] { scene::read_mesh(folder.file("folder.obj")); }).code, ErrorCode::file_unreadable);
 }

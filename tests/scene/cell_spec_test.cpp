@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST(CellFile, VerticesWithoutFaces) {
-  const TestFolder folder;
+  const SceneFolder folder;
   for (const auto& path :
        {folder.write("c.obj", "v 0 0 0\nv 1 0 0\n"), folder.write("c.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n"),
         folder.write("c.ply",
@@ -90,7 +90,7 @@ TEST(CellFile, VerticesWithoutFaces) {
 }
 
 TEST(CellFile, WithoutAPoint) {
-  const TestFolder folder;
+  const SceneFolder folder;
   for (const auto& path : {folder.write("c.obj", "# nothing\n"), folder.write("c.off", "OFF\n0 0 0\n"),
                            folder.write("c.stl", "solid\nendsolid\n")}) {
     const auto thrown = thrown_by([&] { parse_cell(path); });
@@ -100,7 +100,7 @@ TEST(CellFile, WithoutAPoint) {
 }
 
 TEST(CellFile, WithNan) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto path = folder.write("c.obj", "v 0 0 0\nv 0 nan 0\n");
   const auto thrown = thrown_by([&] { parse_cell(path); });
   EXPECT_EQ(thrown.code, ErrorCode::non_finite);

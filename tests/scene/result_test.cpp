@@ -134,19 +134,19 @@ TEST(ResultText, FileNamesThatAreNotUtf8) {
 }
 
 TEST(Pvs, RoundTripOfAResult) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto path = folder.write("a.clues.json", scene::to_json_text(result_with_map()));
   EXPECT_THAT(read_pvs(path, 10), ElementsAre(1, 5, 9));
 }
 
 TEST(Pvs, RoundTripOfAList) {
-  const TestFolder folder;
+  const SceneFolder folder;
   EXPECT_EQ(scene::to_pvs_text({1, 5, 9}), "1\n5\n9\n");
   EXPECT_THAT(read_pvs(folder.write("a.pvs", scene::to_pvs_text({1, 5, 9})), 10), ElementsAre(1, 5, 9));
 }
 
 TEST(Pvs, ListsMayBeUntidy) {
-  const TestFolder folder;
+  const SceneFolder folder;
   EXPECT_THAT(read_pvs(folder.write("a.txt", "# mine\r\n\r\n 9\n5 # five\n007\n5\n"), 10), ElementsAre(5, 7, 9));
   EXPECT_TRUE(read_pvs(folder.write("b.txt", ""), 10).empty());
 }
@@ -164,7 +164,7 @@ void PrintTo(const BadPvs& pvs, std::ostream* out) { *out << pvs.name; }
 class BadPvsTest : public testing::TestWithParam<BadPvs> {};
 
 TEST_P(BadPvsTest, IsRefusedAtItsPlace) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto path = folder.write(GetParam().file, GetParam().bytes);
   const auto thrown = thrown_by([&] { read_pvs(path, 10); });
   EXPECT_EQ(thrown.code, GetParam().code) << thrown.text;
@@ -197,14 +197,14 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST(Pvs, MissingFileAndFolder) {
-  const TestFolder folder;
+  const SceneFolder folder;
   EXPECT_EQ(thrown_by([&] { read_pvs(folder.file("none.json"), 1); }).code, ErrorCode::file_not_found);
   EXPECT_EQ(thrown_by([&] { read_pvs(folder.path(), 1); }).code, ErrorCode::file_unreadable);
 }
 
 // The two examples of FIPS 180-4, the empty text, and a million times 'a'.
 TEST(Sha256, KnownDigests) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto digest = [&](std::string_view bytes) { return scene::sha256_of_file(folder.write("file", bytes)); };
   EXPECT_EQ(digest("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(digest("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
@@ -214,7 +214,7 @@ TEST(Sha256, KnownDigests) {
 }
 
 TEST(Sha256, MissingFileAndFolder) {
-  const TestFolder folder;
+  const SceneFolder folder;
   EXPECT_EQ(thrown_by([&] { scene::sha256_of_file(folder.file("none")); }).code, ErrorCode::file_not_found);
   EXPECT_EQ(thrown_by([&] { scene::sha256_of_file(folder.path()); }).code, ErrorCode::file_unreadable);
 }

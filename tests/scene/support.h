@@ -19,7 +19,7 @@
 
 namespace clues::tests {
 
-class TestFolder : public scene::TemporaryFolder {
+class SceneFolder : public scene::TemporaryFolder {
  public:
   std::string write(const std::string& name, std::string_view bytes) const {
     std::ofstream(file(name), std::ios::binary) << bytes;
@@ -39,7 +39,7 @@ inline std::string read_all(const std::filesystem::path& path) {
 }
 
 inline scene::TriangleMesh mesh_of(const std::string& name, std::string_view bytes) {
-  const TestFolder folder;
+  const SceneFolder folder;
   return scene::read_mesh(folder.write(name, bytes));
 }
 
