@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/progress.h"
 #include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/dials.h"
 #include "fuzz/campaign/finding_folder.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/campaign/oracle.h"
@@ -42,6 +43,7 @@ struct FuzzRequest {
   std::string subject = "reference";
   std::vector<std::string> scenes;
   std::uint64_t cases = 0, seconds = 0;
+  bool no_dials = false;
 };
 
 int run_fuzz(FuzzRequest& request) {
@@ -49,6 +51,7 @@ int run_fuzz(FuzzRequest& request) {
   if (request.cases > 0) options.cases = request.cases;
   if (request.seconds > 0) options.time = std::chrono::seconds(request.seconds);
   if (!options.cases && !options.time) options.time = std::chrono::seconds(60);
+  options.dials = !request.no_dials;
   const auto subject = fuzz::make_subject(request.subject);
   options.given = fuzz::read_given_scenes(request.scenes);
   ProgressBar bar("clues fuzz");
@@ -137,6 +140,8 @@ std::string fuzz_footer() {
       "                 files are appended. It has 60 s, and must exit with 0.\n"
       "\nGENERATORS\n";
   for (const auto& g : fuzz::all_generators({})) text += fmt::format("  {:<22} {}\n", g.name, g.degeneracy);
+  text += "\nDIALS (turned in every other case, one to three of them)\n";
+  for (const auto& d : fuzz::all_dials()) text += fmt::format("  {:<22} {}\n", d.name, d.what);
   text += "\nORACLES\n";
   for (const auto& o : fuzz::all_oracles()) text += fmt::format("  {:<22} {}\n", o->name(), o->what());
   return text +
@@ -184,6 +189,8 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   fuzz->add_option("--scenes", request->scenes,
                    "A mesh, a vector file or a folder of them, to be cut up or mutated; may be repeated")
       ->type_name("PATH");
+  fuzz->add_flag("--no-dials", request->no_dials,
+                 "All settings of the engines as usual, all scenes where they are made");
   fuzz->add_option("--oracle", options.oracles, "Only this oracle; may be repeated")->type_name("NAME");
   fuzz->add_option("--errors", options.errors, "Stop at this many different findings; 0: never (default)")
       ->type_name("N");

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "fuzz/campaign/dials.h"
 #include "fuzz/campaign/finding_folder.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/campaign/oracle.h"
@@ -25,6 +26,7 @@ std::string plan_of(const CampaignOptions& options, const std::vector<NamedGener
                     const std::vector<const Oracle*>& oracles, const Subject& subject) {
   json plan{
       {"seed", options.seed}, {"first", options.first}, {"subject", subject.name()}, {"scenes", options.given.hashes}};
+  if (options.dials) plan["dials"] = true;
   for (const auto& g : generators) plan["generators"].push_back(g.name);
   for (const Oracle* o : oracles) plan["oracles"].push_back(o->name());
   return plan.dump();
@@ -71,7 +73,8 @@ class Campaign {
 
   Case make(std::uint64_t number) const {
     const auto& g = generators_[number % generators_.size()];
-    return g.make(options_.seed, options_.first + number / generators_.size());
+    Case made = g.make(options_.seed, options_.first + number / generators_.size());
+    return options_.dials ? with_dials(std::move(made), subject_.takes_dials()) : made;
   }
 
   void run_cases() {
@@ -170,6 +173,10 @@ class Campaign {
     for (const auto& g : generators_) needed.push_back("cases of " + g.name);
     for (const Oracle* o : oracles_) {
       for (const char* name : o->needs()) needed.emplace_back(name);
+    }
+    for (const NamedDial& d : all_dials()) {
+      if (options_.dials && (d.of == NamedDial::Of::scene || subject_.takes_dials()))
+        needed.push_back(std::string("dial ") + d.name);
     }
     std::vector<std::string> missing;
     for (const auto& name : needed) {

@@ -21,6 +21,7 @@ struct CampaignOptions {
   std::uint64_t seed = 1, first = 0;
   std::vector<std::string> generators, oracles;  // empty: all
   GivenScenes given;
+  bool dials = false;                        // turn dials in half of the cases (dials.h)
   std::optional<std::uint64_t> cases;        // in all, those of earlier runs included
   std::optional<std::chrono::seconds> time;  // of this run, before shrinking
   int jobs = 1;

@@ -21,6 +21,7 @@ json to_json(const Finding& f) {
            {"triangles", f.where.mesh.triangles},
            {"explanation", f.explanation}};
   if (f.where.solid) out["solid"] = true;
+  if (!f.where.dials.empty()) out["dials"] = f.where.dials;
   if (f.triangle) out["triangle"] = *f.triangle;
   if (f.witness) {
     out["witness"] = {
@@ -41,6 +42,7 @@ Finding to_finding(const json& in) {
   in.at("cell").get_to(f.where.cell);
   in.at("explanation").get_to(f.explanation);
   f.where.solid = in.value("solid", false);
+  f.where.dials = in.value("dials", CaseDials{});
   for (const auto& t : f.where.mesh.triangles) {
     f.where.mesh.face_of.push_back(static_cast<std::uint32_t>(f.where.mesh.face_of.size()));
     for (const auto corner : t) {

@@ -13,12 +13,16 @@
 
 namespace clues::fuzz {
 
+// Settings of the engines and of the scene that were turned for a case, and to what (dials.h).
+using CaseDials = std::map<std::string, std::int64_t>;
+
 struct Case {
   std::string generator;
   std::uint64_t seed = 0, index = 0;
   scene::TriangleMesh mesh;
   std::vector<scene::Point> cell;
   bool solid = false;  // asked in solid mode (D4): only fronts count
+  CaseDials dials{};   // what the scene's have done is done
 };
 
 // A sight line that proves triangle `triangle` visible on its front or back side: v in int V, p on the triangle (D5, D6).

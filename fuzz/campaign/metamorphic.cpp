@@ -9,6 +9,7 @@
 
 #include "exact/scene_query.h"
 #include "exact/witness.h"
+#include "fuzz/campaign/dials.h"
 #include "fuzz/campaign/oracle.h"
 #include "fuzz/generators/parts.h"
 
@@ -290,8 +291,9 @@ class Metamorphic : public Oracle {
           return;
       }
     }
-    // Refined maps depend on where the cell was cut.
-    if (!answer->map || answer->map->method != "first-order" || answer->map->statistics.conservative_fallbacks > 0)
+    // Refined maps depend on where the cell was cut, limited ones on what was left out.
+    if (is_limited(exam.scene().dials) || !answer->map || answer->map->method != "first-order" ||
+        answer->map->statistics.conservative_fallbacks > 0)
       return;
     for (std::uint32_t t = 0; t < changed.heirs.size(); ++t) {
       if (changed.heirs[t].empty()) continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "exact/scene_query.h"
+#include "fuzz/campaign/dials.h"
 #include "fuzz/campaign/oracle.h"
 #include "scene/error.h"
 #include "validate/visible_set.h"
@@ -107,7 +108,7 @@ class Agreement : public Oracle {
   const char* name() const override { return "agreement"; }
   const char* what() const override { return "the PVS is the reference's, triangle by triangle (fast path only)"; }
   void examine(Exam& exam) const override {
-    if (!exam.answer().fallbacks) return;
+    if (!exam.answer().fallbacks || is_limited(exam.scene().dials)) return;
     exam.count("answers compared with the reference");
     exam.count("fallbacks of the subject", *exam.answer().fallbacks);
     const std::vector<std::uint32_t>& omega = exam.map().visible;
@@ -190,6 +191,7 @@ Finding without_answer(const Case& scene, const std::string& why) {
 Outcome judge_case(const Case& scene, const Subject& subject, const std::vector<const Oracle*>& oracles) {
   Outcome outcome;
   outcome.counters["cases of " + scene.generator] = 1;
+  for (const auto& [name, value] : scene.dials) outcome.counters["dial " + name] = 1;
   try {
     Exam exam(scene, subject, outcome);
     for (const Oracle* oracle : oracles) oracle->examine(exam);

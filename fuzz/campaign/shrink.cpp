@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "exact/witness.h"
+#include "fuzz/campaign/dials.h"
 #include "fuzz/campaign/oracle.h"
 #include "scene/error.h"
 
@@ -105,6 +106,7 @@ class Shrinker {
       smaller = fewer_triangles();
       smaller = fewer_cell_points() || smaller;
       smaller = shorter_coordinates() || smaller;
+      smaller = fewer_dials() || smaller;
     }
     return {std::move(best_), steps_};
   }
@@ -173,6 +175,18 @@ class Shrinker {
     for (std::size_t i = best_.where.cell.size(); i-- > 0 && best_.where.cell.size() > 1 && !spent();) {
       Case candidate = best_.where;
       candidate.cell.erase(candidate.cell.begin() + static_cast<std::ptrdiff_t>(i));
+      any = accept(candidate, best_.triangle) || any;
+    }
+    return any;
+  }
+
+  // Those of the engine; what those of the scene have done is in the coordinates.
+  bool fewer_dials() {
+    bool any = false;
+    for (const NamedDial& dial : all_dials()) {
+      if (dial.of != NamedDial::Of::engine || !best_.where.dials.contains(dial.name)) continue;
+      Case candidate = best_.where;
+      candidate.dials.erase(dial.name);
       any = accept(candidate, best_.triangle) || any;
     }
     return any;

@@ -8,6 +8,7 @@
 
 #include "fastpath/visibility/first_order.h"
 #include "fastpath/visibility/refinement.h"
+#include "fuzz/campaign/dials.h"
 #include "fuzz/campaign/files.h"
 #include "reference/visibility/bounds.h"
 #include "scene/atomic_file.h"
@@ -36,13 +37,14 @@ const std::map<std::string, PlantedBug> planted_bugs{{"wrong_wedge_side", Plante
   throw NoAnswer(error.what());
 }
 
-// A subject of this process.
+// A subject of this process; an engine of ours takes dials.
 class FunctionSubject : public Subject {
  public:
-  FunctionSubject(std::string name, std::function<Answer(const Case&)> answer)
-      : name_(std::move(name)), answer_(std::move(answer)) {}
+  FunctionSubject(std::string name, bool engine, std::function<Answer(const Case&)> answer)
+      : name_(std::move(name)), engine_(engine), answer_(std::move(answer)) {}
 
   Answer answer(const Case& scene) const override {
+    const exact::TurnedProcessDials turned(engine_ ? process_dials(scene.dials) : exact::ProcessDials{});
     try {
       return answer_(scene);
     } catch (const Error& error) {
@@ -50,14 +52,16 @@ class FunctionSubject : public Subject {
     }
   }
   std::string name() const override { return name_; }
+  bool takes_dials() const override { return engine_; }
 
  private:
   std::string name_;
+  bool engine_;
   std::function<Answer(const Case&)> answer_;
 };
 
-std::unique_ptr<Subject> answering(const std::string& name, std::function<Answer(const Case&)> answer) {
-  return std::make_unique<FunctionSubject>(name, std::move(answer));
+std::unique_ptr<Subject> engine(const std::string& name, std::function<Answer(const Case&)> answer) {
+  return std::make_unique<FunctionSubject>(name, true, std::move(answer));
 }
 
 Answer answer_of(reference::VisibilityMap map) {
@@ -70,12 +74,15 @@ Answer answer_of(reference::VisibilityMap map) {
 reference::Options reference_options(const Case& scene) {
   reference::Options options;
   options.threads = 1;
+  options.dials = map_dials(scene.dials);
+  if (by_traversal(scene.dials)) options.formulation = reference::Formulation::traversal;
   if (scene.solid) options.mode = reference::Mode::solid;
   return options;
 }
 
 fastpath::LocalMapOptions fast_options(const Case& scene) {
   fastpath::LocalMapOptions options;
+  options.dials = map_dials(scene.dials);
   if (scene.solid) {
     fastpath::require_solid(scene.mesh);
     options.mode = fastpath::SideMode::solid;
@@ -84,7 +91,7 @@ fastpath::LocalMapOptions fast_options(const Case& scene) {
 }
 
 std::unique_ptr<Subject> reference_subject(const std::string& name, PlantedBug bug) {
-  return answering(name, [bug](const Case& scene) {
+  return engine(name, [bug](const Case& scene) {
     reference::Options options = reference_options(scene);
     options.planted_bug = bug;
     return answer_of(
@@ -95,15 +102,15 @@ std::unique_ptr<Subject> reference_subject(const std::string& name, PlantedBug b
 // The reference, refined (D20, D21): hidden regions of its map are judged like those of the first-order map.
 std::unique_ptr<Subject> refined_subject(const std::string& name, validate::Refinement by) {
   constexpr int kDepth = 2;
-  return answering(name, [name, by](const Case& scene) {
+  return engine(name, [name, by](const Case& scene) {
     reference::Bounds bounds(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), reference_options(scene));
-    validate::refine(bounds, by, {kDepth, 0});
+    validate::refine(bounds, by, {refinement_depth(scene.dials, kDepth), 0});
     return answer_of(bounds.refined_map(name));
   });
 }
 
 std::unique_ptr<Subject> fast_subject(const std::string& name) {
-  return answering(name, [](const Case& scene) {
+  return engine(name, [](const Case& scene) {
     const fastpath::FirstOrder found =
         fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene));
     return Answer{found.visible, std::nullopt, found.conservative_fallbacks};
@@ -112,11 +119,13 @@ std::unique_ptr<Subject> fast_subject(const std::string& name) {
 
 std::unique_ptr<Subject> refined_fast_subject(const std::string& name, fastpath::RefineBy by) {
   constexpr int kDepth = 3;
-  return subject_of(name, [by](const Case& scene) {
+  return engine(name, [by](const Case& scene) {
     fastpath::RefinementOptions refinement;
     refinement.by = by;
-    refinement.max_depth = kDepth;
-    return fastpath::refined_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene), refinement).visible;
+    refinement.max_depth = refinement_depth(scene.dials, kDepth);
+    return Answer{
+        fastpath::refined_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene), refinement).visible,
+        std::nullopt, std::nullopt};
   });
 }
 
@@ -169,7 +178,7 @@ class CommandSubject : public Subject {
 }  // namespace
 
 std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<std::uint32_t>(const Case&)> pvs) {
-  return answering(name, [pvs = std::move(pvs)](const Case& scene) {
+  return std::make_unique<FunctionSubject>(std::move(name), false, [pvs = std::move(pvs)](const Case& scene) {
     return Answer{pvs(scene), std::nullopt, std::nullopt};
   });
 }

@@ -38,6 +38,7 @@ class Subject {
   virtual ~Subject() = default;
   virtual Answer answer(const Case& scene) const = 0;  // throws NoAnswer
   virtual std::string name() const = 0;                // make_subject(name()) is the same subject
+  virtual bool takes_dials() const { return false; }   // answers as the dials of the case say (dials.h)
 };
 
 // "reference": the exact reference. "reference:BUG": with a planted bug, for the tests. "fast": the fast path. "subdivided",

@@ -11,6 +11,7 @@
 #include "exact/witness.h"
 #include "fastpath/visibility/first_order.h"
 #include "fastpath/visibility/refinement.h"
+#include "fuzz/campaign/dials.h"
 #include "fuzz/campaign/oracle.h"
 #include "fuzz/generators/random.h"
 #include "reference/visibility/backprojection.h"
@@ -98,14 +99,14 @@ class Judge {
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), kernel) == wanted.end()) return;
     const double begin = processor_seconds();
     try {
+      const exact::TurnedProcessDials turned(fuzz::process_dials(scene_.dials));
       KernelAnswer answer = ask();
       answer.kernel = kernel;
       if (settings_.planted_bug) settings_.planted_bug(answer);
       count("answers of " + kernel);
       if (answer.fallbacks > 0) {
         count("scenes with fallbacks of " + kernel);
-        const bool limited = settings_.generation_limit || settings_.csv_limit;
-        if (!limited && answer.first_order && scene_.mesh.triangles.size() <= 10)
+        if (!fuzz::is_limited(scene_.dials) && answer.first_order && scene_.mesh.triangles.size() <= 10)
           flaw("fallback of " + kernel, std::to_string(answer.fallbacks) + " of them");
       }
       answers_.push_back(std::move(answer));
@@ -120,14 +121,12 @@ class Judge {
   reference::Options reference_options() const {
     reference::Options options;
     options.threads = 1;
-    if (settings_.generation_limit) options.dials.generation_limit = *settings_.generation_limit;
-    if (settings_.csv_limit) options.dials.csv_limit = *settings_.csv_limit;
+    options.dials = fuzz::map_dials(scene_.dials);
     return options;
   }
   fastpath::LocalMapOptions fast_options() const {
     fastpath::LocalMapOptions options;
-    if (settings_.generation_limit) options.dials.generation_limit = *settings_.generation_limit;
-    if (settings_.csv_limit) options.dials.csv_limit = *settings_.csv_limit;
+    options.dials = fuzz::map_dials(scene_.dials);
     return options;
   }
 
@@ -538,6 +537,7 @@ std::string to_obj_text(const fuzz::Case& scene) {
     faces.push_back(face);
   }
   for (const auto& f : faces) text << "f " << f[0] << ' ' << f[1] << ' ' << f[2] << '\n';
+  for (const auto& [name, value] : scene.dials) text << "# dial " << name << ' ' << value << '\n';
   scene::Point lo, hi;
   if (is_box(scene.cell, lo, hi)) {
     text << "--cell box:" << lo[0] << ',' << lo[1] << ',' << lo[2] << ',' << hi[0] << ',' << hi[1] << ',' << hi[2]

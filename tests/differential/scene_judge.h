@@ -1,5 +1,6 @@
 // One small scene, asked of every kernel, and every answer judged by what shares no algorithm with them: sight lines in plain rationals (D5, D6), point
-// occlusion (D18), the exact visible set, and each other (D9, D15). Nothing is thrown and nothing stops at the first flaw.
+// occlusion (D18), the exact visible set, and each other (D9, D15). The dials of the case are turned while the kernels work. Nothing is thrown and nothing stops
+// at the first flaw.
 #pragma once
 
 #include <cstdint>
@@ -26,8 +27,6 @@ struct KernelAnswer {
 };
 
 struct JudgeSettings {
-  std::optional<int> generation_limit;  // D17; none: as usual
-  std::optional<std::size_t> csv_limit;
   bool refined = false;      // ask the refinements too (D20, D21)
   bool visible_set = false;  // decide the scene completely
   std::size_t points_per_region = 3;
