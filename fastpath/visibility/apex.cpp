@@ -8,21 +8,21 @@
 namespace clues::fastpath {
 
 Apex::Apex(const LocalScene& scene, Pool& pool, bool on_edge, std::uint32_t id, const ExactPoint* x)
-    : scene_(&scene), on_edge_(on_edge), id_(id), x_(x) {
-  find_arcs();
+    : scene_(&scene), on_edge_(on_edge), id_(id), x_(x), arcs_(arcs_around(scene, on_edge, id)) {
   find_sectors(pool);
 }
 
-void Apex::find_arcs() {
-  const auto& incident = on_edge_ ? scene_->edges[id_].pieces : scene_->point_pieces[id_];
-  for (const std::uint32_t t : incident) {
-    const LocalPiece& piece = scene_->pieces[t];
+std::vector<LocalArc> arcs_around(const LocalScene& scene, bool on_edge, std::uint32_t id) {
+  std::vector<LocalArc> arcs;
+  for (const std::uint32_t t : on_edge ? scene.edges[id].pieces : scene.point_pieces[id]) {
+    const LocalPiece& piece = scene.pieces[t];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t e = piece.edges[i], a = piece.corners[i], b = piece.corners[(i + 1) % 3];
-      if (on_edge_ ? e == id_ : a == id_ || b == id_) continue;
-      arcs_.push_back({a, b, e, t});
+      if (on_edge ? e == id : a == id || b == id) continue;
+      arcs.push_back({a, b, e, t});
     }
   }
+  return arcs;
 }
 
 void Apex::find_sectors(Pool& pool) {

@@ -71,7 +71,6 @@ class Apex {
   std::vector<std::uint32_t> existing_in(const std::vector<Probe>& probes) const;
 
   bool may_meet_cone(const LocalArc& arc) const;  // the directions from x to V; filtered
-  void find_arcs();
   void find_sectors(Pool& pool);
   void split(Pool& pool, const Plane* plane, const ExactPoint* ray0, const ExactPoint* ray1);
 

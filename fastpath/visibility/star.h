@@ -21,6 +21,9 @@ struct LocalArc {
   std::uint32_t a = 0, b = 0, edge = 0, piece = 0;
 };
 
+// Of mesh vertex `id`, or of a point inside mesh edge `id`.
+std::vector<LocalArc> arcs_around(const LocalScene& scene, bool on_edge, std::uint32_t id);
+
 // The first sign that is not zero.
 template <class NT>
 int leading(const NT& a, const NT& b, const NT& c) {
@@ -141,6 +144,20 @@ class Star {
       name.push_back(face_[idx(side)]);
     }
     return name;
+  }
+
+  // The directions in which the arcs that border this face end.
+  std::vector<V> border_of(const std::vector<int>& face) const {
+    std::vector<V> ends;
+    for (std::size_t i = 0; i < arcs_.size(); ++i) {
+      const auto is_side = [&](std::size_t side) {
+        return std::find(face.begin(), face.end(), face_[side]) != face.end();
+      };
+      if (!is_side(2 * i) && !is_side(2 * i + 1)) continue;
+      ends.push_back(nodes_[idx(arcs_[i].a)]);
+      ends.push_back(nodes_[idx(arcs_[i].b)]);
+    }
+    return ends;
   }
 
   // Whether the great circle arc (the way) from d0, just beside d0.limit and on no arc, to d1 surely meets no

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "fastpath/visibility/corner.h"
 #include "fastpath/visibility/near_enough.h"
 
 namespace clues::fastpath {
@@ -222,7 +223,33 @@ bool Walker::groove_leg(Walk& walk, const Surface& on, const Surface& before, co
     const auto at_edge =
         std::find_if(e.pieces.begin(), e.pieces.end(), [&](std::uint32_t t2) { return is_wall(t2, on, before); });
     if (at_edge == e.pieces.end()) continue;
-    walk.legs.push_back({y, last.next, nullptr, *at_edge, last.side, true});
+    walk.legs.push_back({y, last.next, nullptr, *at_edge, last.side, true, false});
+    return true;
+  }
+  return false;
+}
+
+// Several walls that meet in a corner, into which no point of V looks.
+bool Walker::corner_leg(Walk& walk) const {
+  constexpr std::size_t kTurns = 6;
+  const std::size_t n = walk.legs.size();
+  if (n < kTurns || n % 3 != 0) return false;
+  const Leg& last = walk.legs.back();
+  for (const std::uint32_t corner : scene_->pieces[last.piece].corners) {
+    const bool of_all = std::all_of(walk.legs.end() - kTurns, walk.legs.end(), [&](const Leg& leg) {
+      const auto& c = scene_->pieces[leg.piece].corners;
+      return std::find(c.begin(), c.end(), corner) != c.end();
+    });
+    if (!of_all) continue;
+    const ExactPoint& y = scene_->points[corner];
+    const auto& incident = scene_->point_pieces[corner];
+    const bool blocked = scene_->tree.any(SegmentTest(y, *last.next), [&](std::uint32_t i) {
+      const std::uint32_t piece = scene_->occluders[i];
+      if (std::find(incident.begin(), incident.end(), piece) != incident.end()) return false;
+      return scene_->crosses(y, *last.next, piece) != Crossing::no;
+    });
+    if (blocked || !is_dark_corner(*scene_, corner, *last.next)) continue;
+    walk.legs.push_back({&y, last.next, nullptr, last.piece, last.side, false, true});
     return true;
   }
   return false;
@@ -236,6 +263,10 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
   }
   std::optional<Surface> on, before;
   for (std::int64_t depth = 0; depth < longest_; ++depth) {
+    if (corner_leg(walk)) {
+      walk.end = Walk::End::surface;
+      return walk;
+    }
     bool both = false;
     const ExactPoint* along = nullptr;
     if (before) {
@@ -303,9 +334,10 @@ Crossing Walker::leg_crossed(const Leg& leg, std::size_t first) const {
   const auto holds = [&](const Plane& h, std::uint32_t point) { return h.side(scene_->points[point]) == 0; };
   const auto holds_piece = [&](const Plane& h) {
     const auto& c = scene_->pieces[leg.piece].corners;
-    return !leg.from_edge && holds(h, c[0]) && holds(h, c[1]) && holds(h, c[2]);
+    return !leg.from_edge && !leg.from_corner && holds(h, c[0]) && holds(h, c[1]) && holds(h, c[2]);
   };
   const auto holds_edge = [&](const Plane& h) {  // a wedge through the edge itself runs outside the groove
+    if (leg.from_corner) return true;            // the leg leaves its plane
     if (!leg.from_edge) return false;
     const auto& edges = scene_->pieces[leg.piece].edges;
     return std::any_of(edges.begin(), edges.end(),

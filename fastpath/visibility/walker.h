@@ -17,8 +17,9 @@ struct Leg {
   const ExactPoint* p = nullptr;
   const ExactPoint* next = nullptr;  // beside m: the p of the next leg; none for the last
   std::uint32_t piece = 0;
-  int side = 1;            // of the piece, that p is on: 1 front, -1 back
-  bool from_edge = false;  // m is on an edge of the piece, the bottom of a groove in which all is hidden
+  int side = 1;              // of the piece, that p is on: 1 front, -1 back
+  bool from_edge = false;    // m is on an edge of the piece, the bottom of a groove in which all is hidden
+  bool from_corner = false;  // m is a corner of the piece, and all next to it is hidden (corner.h)
 };
 
 struct Walk {
@@ -67,6 +68,7 @@ class Walker {
   Both in_front_of_both(const Surface& a, const Surface& b, const std::vector<std::uint32_t>& common) const;
   // A point of int V in front of `on`, from which the sight line to p comes in past the other wall, where the closed V touches the groove.
   const ExactPoint* along_groove(const ExactPoint& p, const Surface& on, const Surface& before, Pool& pool) const;
+  bool corner_leg(Walk& walk) const;
   bool groove_leg(Walk& walk, const Surface& on, const Surface& before, const std::vector<std::uint32_t>& common,
                   Pool& pool) const;
 

@@ -91,7 +91,10 @@ std::vector<ContourEdge> contour_edges(const exact::Complex& complex, const exac
         }
       }
       // With the plane's surface on both sides the edge is a seam inside a flat surface: a wedge that reaches it runs on over it.
-      if (in_h_plus && !(found.cover && beyond)) contour.push_back(std::move(found));
+      if (!in_h_plus || (found.cover && beyond)) continue;
+      // From a cell in that plane sight lines to the edge run just off the surface, which does not cover it then.
+      if (found.holds_cell) found.cover.reset();
+      contour.push_back(std::move(found));
     }
   }
   return contour;

@@ -16,7 +16,8 @@ namespace {
 fuzz::Case scene_of(const std::string& file, const std::string& cell) {
   fuzz::Case scene{file, 0, 0, {}, {}, false};
   scene.mesh = scene::read_mesh(std::string(CLUES_TEST_DATA) + "/found/" + file);
-  scene.cell = scene::parse_cell(cell).points;
+  const bool is_file = cell.ends_with(".obj");
+  scene.cell = scene::parse_cell(is_file ? std::string(CLUES_TEST_DATA) + "/found/" + cell : cell).points;
   return scene;
 }
 
@@ -29,7 +30,8 @@ void expect_list(const std::string& file, const std::string& cell, const std::ve
       EXPECT_EQ(a.visible, expected) << a.kernel;
     }
   };
-  for (const Flaw& f : judge_scene(scene_of(file, cell), settings).flaws) ADD_FAILURE() << f.category << ": " << f.detail;
+  for (const Flaw& f : judge_scene(scene_of(file, cell), settings).flaws)
+    ADD_FAILURE() << f.category << ": " << f.detail;
 }
 
 // Triangle 6 was missing: the anti-cone of a vertex on the rim of a flat cell has two sides.
@@ -62,6 +64,21 @@ TEST(Found, AnEdgeThatStartsInASegmentCell) {
 
 // The reference listed triangle 4 as well, which is not in Omega.
 TEST(Found, WallsOnTwoFacesOfTheCell) { expect_list("more-than-omega.obj", "box:0,1,-2,1,2,-1", {0, 1, 2, 3}); }
+
+// The reference saw all of triangle 2.
+TEST(Found, ATriangleInAPlaneWithAPointCell) {
+  expect_list("triangle-in-a-plane-with-a-point-cell.obj", "box:-1,1,0,-1,1,0", {0, 1, 2});
+}
+
+// The fast path listed triangle 0.
+TEST(Found, AWedgeInDoubtEndsAtASide) {
+  expect_list("wedge-in-doubt-ends-at-a-side.obj", "wedge-in-doubt-ends-at-a-side.cell.obj", {1, 2});
+}
+
+// Walks of 64 legs; fallbacks in both kernels.
+TEST(Found, ACornerOfThreeWalls) {
+  expect_list("corner-of-three-walls.obj", "corner-of-three-walls.cell.obj", {0, 1, 2});
+}
 
 }  // namespace
 }  // namespace clues::tests
