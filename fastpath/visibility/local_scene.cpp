@@ -140,6 +140,26 @@ ExactPoint LocalCell::interior_point(const std::vector<double>& weights) const {
   return combination(weights);
 }
 
+std::optional<ExactPoint> LocalCell::foot(const ExactPoint& p) const {
+  if (dimension != 1 && dimension != 2) return std::nullopt;
+  const Exact3 a = vertices[0].exact(), way = p.exact() - a;
+  if (dimension == 1) {
+    const Exact3 along = vertices[1].exact() - a;
+    const Rational t = Rational(dot(way, along)) / Rational(dot(along, along));
+    if (t <= 0 || t >= 1) return std::nullopt;
+    return ExactPoint(a + t * along);
+  }
+  const Exact3& n = facet_planes[0].normal_exact();
+  const Exact3 x = p.exact() - Rational(Rational(dot(way, n)) / Rational(dot(n, n))) * n;
+  const std::vector<int>& polygon = facets[0];
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Exact3 &from = vertices[static_cast<std::size_t>(polygon[i])].exact(),
+                 &to = vertices[static_cast<std::size_t>(polygon[(i + 1) % polygon.size()])].exact();
+    if (dot(n, cross(to - from, x - from)) <= 0) return std::nullopt;
+  }
+  return ExactPoint(x);
+}
+
 ExactPoint LocalCell::combination(const std::vector<double>& weights) const {
   Exact3 sum{0, 0, 0};
   Rational total = 0;

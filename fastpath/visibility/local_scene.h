@@ -37,6 +37,8 @@ struct LocalCell {
   // A point of int V near the combination of the vertices with these positive weights. Doubles if the cell has dimension 3 and rounding
   // stays inside, else exactly that combination.
   ExactPoint interior_point(const std::vector<double>& weights) const;
+  // The point of a flat cell or a segment that is nearest to p, if that is in int V.
+  std::optional<ExactPoint> foot(const ExactPoint& p) const;
   // Exactly that combination.
   ExactPoint combination(const std::vector<double>& weights) const;
 };

@@ -285,6 +285,16 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
         return walk;
       }
     }
+    if (on) {  // next to a flat cell or a segment few points of V may see p: those right beneath it
+      const std::optional<ExactPoint> beneath = scene_->cell.foot(*p);
+      if (beneath && height_sign(*on, *beneath) > 0) {
+        const LocalScene::Last last = scene_->last_crossing(*beneath, *p);
+        if (!last.degenerate && !last.piece) {
+          walk.end = Walk::End::cell;
+          return walk;
+        }
+      }
+    }
     bool found = false;
     for (int attempt = 0; attempt < kAttempts && !found; ++attempt) {
       const std::uint64_t number = mix(seed * 1000003 + static_cast<std::uint64_t>(depth * 1009 + attempt));

@@ -47,6 +47,21 @@ Point3 Walker::choose(std::uint64_t seed, const std::optional<Point3>& anchor, c
   }
 }
 
+std::optional<Point3> Walker::foot(const Point3& p) const {
+  const exact::ConvexCell& cell = scene_->cell();
+  std::optional<Point3> x;
+  if (cell.dimension() == 2) {
+    const exact::Plane3& h = cell.facets()[0].plane;
+    const exact::Vector3 n = h.orthogonal_vector();
+    x = p - exact::value_at(h, p) / (n * n) * n;
+  } else if (cell.dimension() == 1) {
+    const Point3 &a = cell.vertices()[0], &b = cell.vertices()[1];
+    x = a + ((p - a) * (b - a)) / ((b - a) * (b - a)) * (b - a);
+  }
+  if (!x || !cell.interior_contains(*x)) return std::nullopt;
+  return exact::collapsed(*x);
+}
+
 FT Walker::height(const SurfaceSide& on, const Point3& x) const {
   const FT d = exact::value_at(scene_->complex().planes[on.piece], x);
   return on.front ? d : FT(-d);
@@ -321,6 +336,16 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
           return at_s == CGAL::COPLANAR || CGAL::orientation(a, b, complex.points[third], v) == at_s;
         });
       };
+    }
+    if (surface) {  // next to a flat cell or a segment few points of V may see p: those right beneath it
+      const std::optional<Point3> beneath = foot(p);
+      if (beneath && good(*beneath)) {
+        const exact::SegmentAnswer straight = scene_->crossings(*beneath, p);
+        if (!straight.degenerate && straight.hits.empty()) {
+          walk.ends_at_cell = true;
+          return walk;
+        }
+      }
     }
     exact::SegmentAnswer answer;
     Point3 v;

@@ -81,6 +81,8 @@ class Walker {
   using Good = std::function<bool(const exact::Point3&)>;
   // A point v of int V near `anchor` (or anywhere) that satisfies the predicate; it must hold near the anchor.
   exact::Point3 choose(std::uint64_t seed, const std::optional<exact::Point3>& anchor, const Good& good) const;
+  // The point of a flat cell or a segment that is nearest to p, if that is in int V.
+  std::optional<exact::Point3> foot(const exact::Point3& p) const;
   // A multiple of the distance of x from the piece's plane, positive on the given side.
   exact::FT height(const SurfaceSide& on, const exact::Point3& x) const;
   // Calls visit(s, x) for each edge or diagonal of V that leaves the open side at x, a point of its plane, from the vertex s; until it says true.
