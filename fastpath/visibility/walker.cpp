@@ -62,17 +62,21 @@ const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::
     if (const auto v = near_enough(kLevels, place, good)) return pool.keep(*v);
   }
   if (!also) return nullptr;
-  // An edge or a diagonal of V may cross the space between the planes.
+  // An edge or a diagonal of V may cross the space between the planes: where it leaves the first, and a little before; and beside that, inside V.
   for (std::size_t i = 0; i < s.size(); ++i) {
     for (std::size_t j = 0; j < s.size(); ++j) {
-      if (height_sign(on, s[i]) <= 0 || height_sign(*also, s[j]) <= 0) continue;
-      for (int k = 1; k < 16; ++k) {
-        std::vector<double> weights(s.size(), 0x1p-40);
-        weights[i] = k;
-        weights[j] = 16 - k;
-        const ExactPoint* v = pool.keep(scene_->cell.interior_point(weights));
-        if (good(*v)) return v;
-      }
+      if (height_sign(on, s[i]) <= 0 || height_sign(on, s[j]) > 0) continue;
+      const ExactPoint x = ExactPoint::on_plane(s[i], s[j], scene_->planes[on.piece]);
+      if (height_sign(*also, x) <= 0) continue;
+      const auto nearer = [&](const ExactPoint& from, const ExactPoint& to, std::uint64_t first) {
+        return near_enough(
+            200,
+            [&](int k) { return ExactPoint::between(from, to, std::ldexp(1.0, -static_cast<int>(first) - 2 * k)); },
+            good);
+      };
+      const auto between = nearer(x, s[i], 1);
+      const auto v = between ? nearer(*between, *viewpoint(seed), 1 + mix(seed) % 3) : std::nullopt;
+      if (v) return pool.keep(*v);
     }
   }
   return nullptr;
