@@ -363,7 +363,8 @@ RefinedVisibility refined_visibility(const Bvh& bvh, const std::vector<Point>& c
     RefinedVisibility result = Refiner(moved, range.moved_in(cell), options, in_range).run();
     move_back(result.first_order.regions, range);
     for (RefinementFigures& f : result.depths) {
-      for (double* area : {&f.first_order_area, &f.witnessed_area, &f.refined_area}) *area = range.area_moved_back(*area);
+      for (double* area : {&f.first_order_area, &f.witnessed_area, &f.refined_area})
+        *area = range.area_moved_back(*area);
     }
     return result;
   });
