@@ -162,11 +162,11 @@ class Search::Work {
       while (j < parts.size() && parts[j].contour == parts[i].contour && parts[j].lit) ++j;
       if (j > i) {
         const std::size_t c = parts[i].contour;
-        const bool in_doubt =
+        const bool unproved =
             std::any_of(parts.begin() + static_cast<std::ptrdiff_t>(i), parts.begin() + static_cast<std::ptrdiff_t>(j),
                         [](const Sources::OfEdge& s) { return s.walk.end == Walk::End::unresolved; });
         for (int k = 0; k < static_cast<int>(contours[c].touching.size()); ++k)
-          jobs.push_back({c, k, parts[i].part.lo, parts[j - 1].part.hi, nullptr, 0, in_doubt});
+          jobs.push_back({c, k, parts[i].part.lo, parts[j - 1].part.hi, nullptr, 0, unproved});
       }
       i = std::max(j, i + 1);
     }

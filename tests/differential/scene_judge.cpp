@@ -2,6 +2,8 @@
 
 #include <time.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -31,8 +33,8 @@ using Triangle3 = exact::Kernel::Triangle_3;
 constexpr double kSlow = 2;  // seconds of one kernel on at most 10 triangles
 
 std::string text_of(const Point3& p) {
-  return "(" + exact::to_string_exact(p.x()) + ", " + exact::to_string_exact(p.y()) + ", " +
-         exact::to_string_exact(p.z()) + ")";
+  return fmt::format("({}, {}, {})", exact::to_string_exact(p.x()), exact::to_string_exact(p.y()),
+                     exact::to_string_exact(p.z()));
 }
 
 // The first line, and of files only their names.
@@ -106,7 +108,8 @@ class Judge {
       count("answers of " + kernel);
       if (answer.fallbacks > 0) {
         count("scenes with fallbacks of " + kernel);
-        if (!fuzz::is_limited(scene_.dials) && answer.first_order && scene_.mesh.triangles.size() <= 10)
+        if (settings_.no_fallbacks && !fuzz::is_limited(scene_.dials) && answer.first_order &&
+            scene_.mesh.triangles.size() <= 10)
           flaw("fallback of " + kernel, std::to_string(answer.fallbacks) + " of them");
       }
       answers_.push_back(std::move(answer));
@@ -115,7 +118,7 @@ class Judge {
       flaw("exception of " + kernel + ": " + one_line(error.what()), "");
     }
     if (count_time(kernel, begin) > kSlow && scene_.mesh.triangles.size() <= 10)
-      flaw("slow: more than " + std::to_string(static_cast<int>(kSlow)) + " s for " + kernel, "");
+      count("slow scenes of " + kernel);  // a figure, and no flaw: machines differ
   }
 
   reference::Options reference_options() const {

@@ -27,8 +27,9 @@ struct KernelAnswer {
 };
 
 struct JudgeSettings {
-  bool refined = false;      // ask the refinements too (D20, D21)
-  bool visible_set = false;  // decide the scene completely
+  bool refined = false;       // ask the refinements too (D20, D21)
+  bool visible_set = false;   // decide the scene completely
+  bool no_fallbacks = false;  // in scenes of up to ten triangles, without limits, they are flaws
   std::size_t points_per_region = 3;
   int sight_lines = 6;                               // to each triangle that somebody does not list
   std::vector<std::string> kernels{};                // only these; empty: all

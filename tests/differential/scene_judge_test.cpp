@@ -29,7 +29,7 @@ bool has(const Judgement& j, const std::string& category) {
 
 Judgement judged_with(const std::string& kernel, const std::function<void(KernelAnswer&)>& bug) {
   JudgeSettings settings;
-  settings.visible_set = true;
+  settings.visible_set = settings.no_fallbacks = true;
   settings.planted_bug = [&](KernelAnswer& a) {
     if (a.kernel == kernel) bug(a);
   };
