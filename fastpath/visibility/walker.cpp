@@ -66,16 +66,18 @@ const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::
   for (std::size_t i = 0; i < s.size(); ++i) {
     for (std::size_t j = 0; j < s.size(); ++j) {
       if (height_sign(on, s[i]) <= 0 || height_sign(on, s[j]) > 0) continue;
-      const ExactPoint x = ExactPoint::on_plane(s[i], s[j], scene_->planes[on.piece]);
-      if (height_sign(*also, x) <= 0) continue;
+      // A point refers to those that it is made of: they are kept.
+      const ExactPoint* x = pool.keep(ExactPoint::on_plane(s[i], s[j], scene_->planes[on.piece]));
+      if (height_sign(*also, *x) <= 0) continue;
       const auto nearer = [&](const ExactPoint& from, const ExactPoint& to, std::uint64_t first) {
         return near_enough(
             200,
             [&](int k) { return ExactPoint::between(from, to, std::ldexp(1.0, -static_cast<int>(first) - 2 * k)); },
             good);
       };
-      const auto between = nearer(x, s[i], 1);
-      const auto v = between ? nearer(*between, *viewpoint(seed), 1 + mix(seed) % 3) : std::nullopt;
+      const auto between = nearer(*x, s[i], 1);
+      if (!between) continue;
+      const auto v = nearer(*pool.keep(*between), *viewpoint(seed), 1 + mix(seed) % 3);
       if (v) return pool.keep(*v);
     }
   }
@@ -181,15 +183,15 @@ const ExactPoint* Walker::along_groove(const ExactPoint& p, const Surface& on, c
   if (!far) return nullptr;
   // Where the closed V touches the space in front of both: a vertex, or a point where an edge or a diagonal of V leaves the space in front of the first.
   const auto& s = scene_->cell.vertices;
-  std::optional<ExactPoint> end;
+  const ExactPoint* end = nullptr;
   for (const ExactPoint& x : s) {
-    if (!end && height_sign(on, x) >= 0 && height_sign(before, x) >= 0) end = x;
+    if (!end && height_sign(on, x) >= 0 && height_sign(before, x) >= 0) end = &x;
   }
   for (std::size_t i = 0; i < s.size() && !end; ++i) {
     for (std::size_t j = 0; j < s.size() && !end; ++j) {
       if (height_sign(on, s[i]) <= 0 || height_sign(on, s[j]) > 0) continue;
-      const ExactPoint x = ExactPoint::on_plane(s[i], s[j], scene_->planes[on.piece]);
-      if (height_sign(before, x) >= 0) end = x;
+      const ExactPoint* x = pool.keep(ExactPoint::on_plane(s[i], s[j], scene_->planes[on.piece]));
+      if (height_sign(before, *x) >= 0) end = x;
     }
   }
   if (!end) return nullptr;
