@@ -66,7 +66,7 @@ double area_of(const fuzz::Case& scene) {
 
 TEST(Dials, WhatLimitsNothingChangesNothing) {
   std::uint64_t scenes = 0;
-  for (const fuzz::Case& scene : small_scenes(2, 40)) {
+  for (const fuzz::Case& scene : small_scenes(1, 40)) {
     SCOPED_TRACE(scene.generator + "-" + std::to_string(scene.seed) + "-" + std::to_string(scene.index));
     const Answer reference = reference_answer(scene, {}), fast = fast_answer(scene, {});
     const Answer traversal = reference_answer(scene, {}, reference::Formulation::traversal);
@@ -80,12 +80,12 @@ TEST(Dials, WhatLimitsNothingChangesNothing) {
     }
   }
   std::cout << scenes << " scenes\n";
-  EXPECT_GT(scenes, 5U);
+  EXPECT_GT(scenes, 2U);
 }
 
 TEST(Dials, ShortWalksMakeMoreVisibleNeverLess) {
   std::uint64_t fallbacks[2] = {0, 0}, more = 0;
-  for (const fuzz::Case& scene : small_scenes(3, 40)) {
+  for (const fuzz::Case& scene : small_scenes(1, 40)) {
     SCOPED_TRACE(scene.generator + "-" + std::to_string(scene.seed) + "-" + std::to_string(scene.index));
     const Ids omega = reference_answer(scene, {}).visible;
     for (const int legs : {0, 1, 2, 3}) {

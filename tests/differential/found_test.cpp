@@ -1,8 +1,7 @@
 // Scenes on which a kernel was wrong, gave up, or took minutes (found/): by hand, with the cells of points, segments and polygons and small whole coordinates.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <fstream>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,10 +13,11 @@ namespace clues::tests {
 namespace {
 
 fuzz::Case scene_of(const std::string& file, const std::string& cell) {
+  const std::filesystem::path folder = std::filesystem::path(CLUES_TEST_DATA) / "found";
   fuzz::Case scene{file, 0, 0, {}, {}, false};
-  scene.mesh = scene::read_mesh(std::string(CLUES_TEST_DATA) + "/found/" + file);
+  scene.mesh = scene::read_mesh(folder / file);
   const bool is_file = cell.ends_with(".obj");
-  scene.cell = scene::parse_cell(is_file ? std::string(CLUES_TEST_DATA) + "/found/" + cell : cell).points;
+  scene.cell = scene::parse_cell(is_file ? (folder / cell).string() : cell).points;
   return scene;
 }
 
@@ -31,7 +31,7 @@ void expect_list(const std::string& file, const std::string& cell, const std::ve
     }
   };
   for (const Flaw& f : judge_scene(scene_of(file, cell), settings).flaws)
-    ADD_FAILURE() << f.category << ": " << f.detail;
+    ADD_FAILURE() << f.category << ' ' << f.detail;
 }
 
 // Triangle 6 was missing: the anti-cone of a vertex on the rim of a flat cell has two sides.

@@ -330,11 +330,11 @@ TEST(LocalMap, SaysWhichBoxesItsPiecesMayTouch) {
   const LocalMap map = make_local_map(mesh, exact::ConvexCell::from_doubles(corners), {}, &outside);
   EXPECT_EQ(map.visible(), (Ids{0, 1}));
   EXPECT_FALSE(map.pieces().empty());
-  EXPECT_EQ(map.label({0, 0, -1}), LocalMap::Label::hidden);
-  EXPECT_EQ(map.label({5, 0, -1}), LocalMap::Label::visible);
+  EXPECT_EQ(map.label(Point{0, 0, -1}), LocalMap::Label::hidden);
+  EXPECT_EQ(map.label(Point{5, 0, -1}), LocalMap::Label::visible);
   // At z = -4 the umbra ends at |x| = 1 + 4 (1 - 0.5) / 5 = 1.4: what is seen from (0.5, 5) past the edge at x = 1.
-  EXPECT_EQ(map.label({1.39, 0.1, -4}), LocalMap::Label::hidden);
-  EXPECT_EQ(map.label({1.41, 0.1, -4}), LocalMap::Label::visible);
+  EXPECT_EQ(map.label(Point{1.39, 0.1, -4}), LocalMap::Label::hidden);
+  EXPECT_EQ(map.label(Point{1.41, 0.1, -4}), LocalMap::Label::visible);
   EXPECT_TRUE(map.piece_may_touch(Box{{1.3, 0, -4}, {1.5, 0.1, -4}}));
   EXPECT_FALSE(map.piece_may_touch(Box{{-0.5, -0.5, -4}, {0.5, 0.5, -2}}));
   EXPECT_FALSE(map.piece_may_touch(Box{{10, 10, 1}, {12, 12, 3}}));
