@@ -12,6 +12,7 @@
 #include <map>
 
 #include "exact/convex_cell.h"
+#include "exact/standard_range.h"
 #include "fastpath/visibility/contour.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/generators/random_scenes.h"
@@ -97,7 +98,9 @@ TEST(LocalMap, FindsExactlyOmegaInTheSuite) {
   for (const validate::VectorCase& c : validate::read_suite(CLUES_SOURCE_DIR "/vectors")) {
     SCOPED_TRACE(c.id);
     const bool solid = c.mode == validate::CaseMode::solid;
-    const LocalMap map = fast_map(c.mesh, exact::ConvexCell::from_doubles(c.cell), solid);
+    const exact::StandardRange range(c.mesh, c.cell);
+    const LocalMap map =
+        fast_map(range.moved_in(c.mesh), exact::ConvexCell::from_doubles(range.moved_in(c.cell)), solid);
     EXPECT_EQ(missing_from(c.expect->first_order_visible, map.visible()), Ids{});
     const Ids more = missing_from(map.visible(), c.expect->first_order_visible);
     if (map.counts().conservative_fallbacks == 0) {
@@ -265,7 +268,9 @@ TEST(LocalMap, RegionsHaveTheAreasOfTheReferenceInTheSuite) {
   AreaTally tally;
   for (const validate::VectorCase& c : validate::read_suite(CLUES_SOURCE_DIR "/vectors")) {
     SCOPED_TRACE(c.id);
-    compare_areas(c.mesh, exact::ConvexCell::from_doubles(c.cell), c.mode == validate::CaseMode::solid, tally);
+    const exact::StandardRange range(c.mesh, c.cell);
+    compare_areas(range.moved_in(c.mesh), exact::ConvexCell::from_doubles(range.moved_in(c.cell)),
+                  c.mode == validate::CaseMode::solid, tally);
   }
   EXPECT_GT(tally.partly, 0U);
   std::cout << tally.scenes << " cases, " << tally.partly << " sides visible in part, " << tally.fallbacks
