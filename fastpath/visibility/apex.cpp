@@ -234,7 +234,7 @@ std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) c
       if (on_edge_ && !star.spreads(l.beside, inner, anticone, along)) continue;
       exists = true;
       // A point of the visible part of a crossed edge reaches whatever its face allows.
-      if (!l.doubtful && l.lit_end && s.plane->side(*l.lit_end) < 0) bounds_nothing = true;
+      if (l.lit_end && s.plane->side(*l.lit_end) < 0) bounds_nothing = true;
     }
     if (exists && !bounds_nothing) found.push_back(i);
   }

@@ -29,7 +29,7 @@ struct Probe {
   const Plane* plane = nullptr;         // contour, csv
   int aside = 0;                        // csv: +1 counter-clockwise about the plane's normal, -1 clockwise
   const ExactPoint* lit_end = nullptr;  // csv on an edge: the edge's end in H-
-  // In a map in which a source is visible only because nothing is known: walks from elsewhere may call the space hidden that follows from it. So what is visible makes sectors, and leaves none out.
+  // Visible only because nothing is known (a source without a walk to an end): walks from elsewhere may call the same space hidden. So it makes sectors, and leaves none out.
   bool doubtful = false;
   bool operator==(const Probe&) const = default;
 };

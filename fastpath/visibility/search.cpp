@@ -56,7 +56,6 @@ class Search::Work {
     csvs_met.clear();
     contacts.start_round();
     sources.start_round(cuts);
-    in_doubt |= sources.unresolved() > 0;
     counts.sources = std::max<std::uint64_t>(counts.sources, sources.of_edges().size());
     new_cuts.assign(scene.edges.size(), {});
     for (std::vector<Job> waiting = light(0); !waiting.empty();) {
@@ -70,7 +69,7 @@ class Search::Work {
     std::vector<ValidPiece> merged = build(merged_jobs());
     cut_coplanar(merged);
 
-    bool changed = !in_doubt && sources.unresolved() > 0;  // a source that was walked to again
+    bool changed = false;
     for (std::uint32_t e = 0; e < cuts.size(); ++e) {
       if (!is_contour[e]) continue;
       for (const ExactPoint* p : new_cuts[e]) changed |= insert_cut(e, p);
@@ -113,9 +112,10 @@ class Search::Work {
   // The wedges that sources make which the pieces from number `first` on light: their own (D10, D11), and those at the contour vertices they light (D12).
   std::vector<Job> light(std::size_t first) {
     const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first);
+    const auto is_doubtful = [](const auto& source) { return source.walk.end == Walk::End::unresolved; };
     for (const std::size_t i : newly_lit_vertices) {
       const Sources::OfVertex& v = sources.of_vertices()[i];
-      contacts.add(contacts.corner(v.point), {Probe::Kind::sight, v.beside, {}, nullptr, 0, nullptr, in_doubt});
+      contacts.add(contacts.corner(v.point), {Probe::Kind::sight, v.beside, {}, nullptr, 0, nullptr, is_doubtful(v)});
     }
     std::vector<Job> jobs;
     for (const std::size_t i : newly_lit_edges) {
@@ -125,8 +125,8 @@ class Search::Work {
         jobs.push_back({s.contour, k, s.part.lo, s.part.hi, nullptr, 0});
       const LocalEdge& e = scene.edges[c.edge];
       const auto probe_along = [&](std::uint32_t to) {
-        return Probe{
-            Probe::Kind::contour, &scene.points[to], {SpotName::Kind::vertex, to}, c.plane, 0, nullptr, in_doubt};
+        return Probe{Probe::Kind::contour, &scene.points[to], {SpotName::Kind::vertex, to}, c.plane, 0, nullptr,
+                     is_doubtful(s)};
       };
       if (s.part.lo == &scene.points[e.a]) contacts.add(contacts.corner(e.a), probe_along(e.b));
       if (s.part.hi == &scene.points[e.b]) contacts.add(contacts.corner(e.b), probe_along(e.a));
@@ -297,7 +297,7 @@ class Search::Work {
   void meet(const ValidPiece& piece, const Meeting& m, bool after, bool before) {
     const OnWedge& on = *piece.on;
     Contact* c = m.at_vertex ? contacts.corner(m.id) : contacts.csv(m.at);
-    Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr, in_doubt};
+    Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr, false};
     if (!m.at_vertex) {
       new_cuts[m.id].push_back(c->x);
       const int generation = piece.generation + 1;
@@ -386,7 +386,6 @@ class Search::Work {
   Contacts contacts;
   Sources sources;
   std::vector<std::vector<std::unique_ptr<OnWedge>>> edge_wedges;  // per contour edge and touching vertex
-  bool in_doubt = false;  // a source of this round or an earlier one is visible only because nothing is known
   std::vector<bool> is_contour;
   std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
   std::map<std::tuple<const OnWedge*, const ExactPoint*, std::uint32_t>, const ExactPoint*> coplanar_cuts;

@@ -24,8 +24,7 @@ struct Probe {
   Beside beside;
   exact::Vector3 actual;
   exact::Vector3 lit_edge = CGAL::NULL_VECTOR;  // at a CSV: the direction of the visible part of the crossed edge
-  // In a map in which a source is visible only because its walk does not end: walks from elsewhere may call the space hidden that follows from it. So what is visible makes
-  // sectors, and leaves none out.
+  // Visible only because its source's walk does not end: walks from elsewhere may call the same space hidden. So it makes sectors, and leaves none out.
   bool doubtful = false;
 };
 

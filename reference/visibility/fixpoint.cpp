@@ -70,7 +70,6 @@ class Search {
     new_cuts_.assign(complex_.edges.size(), {});
     sources_ = edge_sources(scene_, walker_, contours_, cuts_, std::move(sources_), statistics_.walks);
 
-    in_doubt_ |= unresolved() > 0;
     std::vector<std::size_t> lit;
     for (std::size_t i = 0; i < sources_.size(); ++i) {
       if (sources_[i].walk.ends_at_cell || sources_[i].walk.unresolved) lit.push_back(i);
@@ -99,7 +98,7 @@ class Search {
       for (const std::uint32_t e : piece.on_wedge->coplanar_edges) cut_coplanar(piece, e);
     }
 
-    bool changed = !in_doubt_ && unresolved() > 0;  // a source that was walked to again
+    bool changed = false;
     for (std::size_t e = 0; e < cuts_.size(); ++e) {
       std::set<Point3, decltype(&before)> all(cuts_[e].begin(), cuts_[e].end(), &before);
       all.insert(new_cuts_[e].begin(), new_cuts_[e].end());
@@ -136,7 +135,7 @@ class Search {
   void light_vertex(VertexSource& s) {
     s.lit = true;
     Apex* apex = corner(s.point);
-    s.probe.doubtful = in_doubt_;
+    s.probe.doubtful = s.walk.unresolved;
     apex->add_probe(s.probe);
     touched_.insert(apex);
   }
@@ -181,7 +180,7 @@ class Search {
         Apex* apex = corner(end);
         const Vector3 along = complex_.points[other] - x;
         Probe probe = apex->probe(along, CGAL::NULL_VECTOR, c.plane.orthogonal_vector());
-        probe.doubtful = in_doubt_;
+        probe.doubtful = s.walk.unresolved;
         apex->add_probe(probe);
         touched_.insert(apex);
       }
@@ -259,7 +258,6 @@ class Search {
     const OnWedge& on = *piece.on_wedge;
     const auto add = [&](const Vector3& aside) {
       Probe probe = apex->probe(back, aside, n);
-      probe.doubtful = in_doubt_;
       if (apex->on_edge()) {
         const Vector3 along = complex_.points[complex_.edges[c.id].b] - complex_.points[complex_.edges[c.id].a];
         probe.lit_edge = CGAL::is_positive(n * along) ? along : -along;
@@ -322,17 +320,11 @@ class Search {
           std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
     for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
     statistics_.conservative_fallbacks += left_out_.size();
-    statistics_.conservative_fallbacks += unresolved();
-  }
-
-  // Sources that count as visible. A wedge that only separates makes nothing visible, also where it should not exist.
-  std::uint64_t unresolved() const {
-    const auto edges = std::count_if(sources_.begin(), sources_.end(), [&](const Source& s) {
-      return s.walk.unresolved && !contours_[s.contour].holds_cell;
-    });
-    const auto vertices = std::count_if(vertex_sources_.begin(), vertex_sources_.end(),
-                                        [](const VertexSource& s) { return s.walk.unresolved && !s.separates; });
-    return static_cast<std::uint64_t>(edges + vertices);
+    // A wedge that only separates makes nothing visible, also where it should not exist.
+    for (const Source& s : sources_)
+      statistics_.conservative_fallbacks += s.walk.unresolved && !contours_[s.contour].holds_cell;
+    for (const VertexSource& s : vertex_sources_)
+      statistics_.conservative_fallbacks += s.walk.unresolved && !s.separates;
   }
 
   void find_lit(Fixpoint& out) const {
@@ -371,7 +363,6 @@ class Search {
   std::map<std::uint32_t, std::unique_ptr<Apex>> corners_;
   std::set<Apex*> touched_;
   std::set<const Apex*> csvs_met_;  // in this round
-  bool in_doubt_ = false;  // a source of this round or an earlier one is visible only because its walk does not end
   std::set<const Apex*> left_out_;  // by a limit, in this round
 };
 
