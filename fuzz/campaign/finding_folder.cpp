@@ -109,7 +109,9 @@ void save_finding(const SavedFinding& saved, const fs::path& folder) {
              {"shrink_steps", saved.steps},
              {"triangles", f.where.mesh.triangles.size()},
              {"triangles_original", saved.original.where.mesh.triangles.size()}};
+  const CaseDials& of_original = saved.original.where.dials;  // shrinking turns some of them back
   if (!f.where.dials.empty()) about["dials"] = f.where.dials;
+  if (!of_original.empty()) about["dials_original"] = of_original;
   write_case(f, part, about["sha256"]);
   write_case(saved.original, part / "original", about["sha256_original"]);
   scene::write_file_atomically(part / "finding.json", about.dump(2) + "\n");
@@ -120,7 +122,7 @@ void save_finding(const SavedFinding& saved, const fs::path& folder) {
       fmt::format("# verify this finding:\nclues replay {}\n# make the original again:\n"
                   "clues fuzz --subject {} --seed {} --generator {} --first {} --cases 1{}{}{} --out again\n",
                   folder.filename().string(), quoted(saved.subject), f.where.seed, f.where.generator, f.where.index,
-                  f.oracle == "subject" ? "" : " --oracle " + f.oracle, f.where.dials.empty() ? " --no-dials" : "",
+                  f.oracle == "subject" ? "" : " --oracle " + f.oracle, of_original.empty() ? " --no-dials" : "",
                   scenes));
   fs::remove_all(folder, error);
   fs::rename(part, folder, error);
@@ -141,8 +143,9 @@ SavedFinding load_finding(const fs::path& folder) {
       about.at("seed").get_to(f->where.seed);
       about.at("index").get_to(f->where.index);
       f->where.solid = about.at("mode") == "solid";
-      f->where.dials = about.value("dials", CaseDials{});
     }
+    saved.finding.where.dials = about.value("dials", CaseDials{});
+    saved.original.where.dials = about.value("dials_original", CaseDials{});
     about.at("subject").get_to(saved.subject);
     about.at("scenes").get_to(saved.scenes);
     about.at("shrink_steps").get_to(saved.steps);
