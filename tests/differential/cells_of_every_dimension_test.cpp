@@ -27,7 +27,7 @@ fuzz::Case scene_number(std::uint64_t seed, std::uint64_t n) {
 
 const std::map<std::string, std::uint64_t> none;
 
-// Without a fallback, where that is asked: about one scene in a hundred still has one.
+// Without a fallback, where that is asked: about one scene in twenty still has one.
 void nothing_hidden_is_seen(std::uint64_t from, std::uint64_t scenes, bool no_fallbacks) {
   const Series series{number_from("CLUES_SEED", kSeed), scene_number, [no_fallbacks](std::uint64_t n) {
                         JudgeSettings settings;
