@@ -55,7 +55,7 @@ const std::vector<NamedDial>& all_dials() {
       {"first_guess", "the part that is mapped first: nothing (1), everything (2)", Of::engine, {1, 2}},
       {"sight_rays", "rays that look for more of it, and for witnesses", Of::engine, {0, 1, 7}},
       {"batch", "wedges before the next look, failed proofs before the next map", Of::engine, {1, 2}},
-      {"threads", "threads of one map", Of::engine, {1, 3}},
+      {"threads", "threads of one map", Of::engine, {1, 2}},
       {"traversal", "the reference by its other formulation", Of::engine, {1}},
       {"depth", "of a refinement", Of::engine, {0, 1, 4}},
       {"unsure_doubles", "the double filter of segment queries never knows", Of::engine, {1}},

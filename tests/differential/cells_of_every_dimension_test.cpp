@@ -27,12 +27,14 @@ fuzz::Case scene_number(std::uint64_t seed, std::uint64_t n) {
 
 const std::map<std::string, std::uint64_t> none;
 
-// Without a fallback, where that is asked: about one scene in twenty still has one.
+// Without a fallback, where that is asked: about one scene in twenty still has one. The other formulation of the
+// reference, which is the slowest of the kernels, is asked in one scene of eight where the series is long.
 void nothing_hidden_is_seen(std::uint64_t from, std::uint64_t scenes, bool no_fallbacks) {
-  const Series series{number_from("CLUES_SEED", kSeed), scene_number, [no_fallbacks](std::uint64_t n) {
+  const Series series{number_from("CLUES_SEED", kSeed), scene_number, [=](std::uint64_t n) {
                         JudgeSettings settings;
                         settings.visible_set = n % 10 == 0;
                         settings.no_fallbacks = no_fallbacks;
+                        if (scenes > 100 && n % 8 != n / 8 % 8) settings.kernels = {"plain reference", "fast path"};
                         return settings;
                       }};
   const Totals totals = judge_series(series, from, scenes);

@@ -1,5 +1,6 @@
 // The judge of scenes finds what is planted: each thing that an answer can get wrong, and a kernel that throws.
 #include "tests/differential/scene_judge.h"
+#include "tests/differential/scene_shrinking.h"
 
 #include <gtest/gtest.h>
 

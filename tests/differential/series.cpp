@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "exact/convex_cell.h"
+#include "tests/differential/scene_shrinking.h"
 #include "validate/workers.h"
 
 namespace clues::tests {
@@ -41,7 +42,8 @@ class Campaign {
     const auto width =
         static_cast<int>(number_from("CLUES_THREADS", std::max(1U, std::thread::hardware_concurrency())));
     validate::Workers workers(
-        width, [this](std::uint64_t task) { return worked(task); }, kTimeForOne);
+        width, [this](std::uint64_t task) { return worked(task); },
+        std::chrono::seconds(number_from("CLUES_TIME_FOR_ONE", 60)));
     for (std::uint64_t next = from; next < from + count || !to_shrink_.empty() || !workers.empty();) {
       while (workers.idle() && (next < from + count || !to_shrink_.empty())) {
         if (to_shrink_.empty()) {
@@ -59,7 +61,6 @@ class Campaign {
 
  private:
   static constexpr std::uint64_t kTasks = 64;  // of each scene: 0 judges it, i + 1 shrinks its flaw i
-  static constexpr std::chrono::seconds kTimeForOne{60};
   const std::uint64_t shrunk_of_each_ = number_from("CLUES_SHRUNK", 12);  // of each category and dimension
 
   fuzz::Case scene(std::uint64_t n) const { return series_.scene(series_.seed, n); }

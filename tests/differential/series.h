@@ -1,6 +1,6 @@
 // Long series of scenes, each put to the judge of scenes in a process of its own: a crash, or a scene without end, is a flaw like any other. Flaws are made smaller
 // and printed, or written to the file CLUES_FINDINGS; totals are printed at the end. CLUES_THREADS: how many processes; CLUES_SHRUNK: how many flaws of each
-// category and dimension of the cell are made smaller (12).
+// category and dimension of the cell are made smaller (12); CLUES_TIME_FOR_ONE: seconds of processor time for a scene (60).
 #pragma once
 
 #include <cstdint>
