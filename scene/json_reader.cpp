@@ -81,8 +81,9 @@ class Builder : public nlohmann::json_sax<Json> {
   bool parse_error(std::size_t, const std::string& last_token, const nlohmann::detail::exception& error) override {
     constexpr int number_out_of_range = 406;
     flaw = error.id == number_out_of_range ? "the number " + in_quotes(last_token) + " is too large for a double"
-           : last_token.empty()            ? "this is not JSON: it ends too early"
-                                           : "this is not JSON: wrong at " + in_quotes(last_token);
+           : std::string_view(error.what()).find("unexpected end of input") != std::string_view::npos
+               ? "this is not JSON: it ends too early"
+               : "this is not JSON: wrong at " + in_quotes(last_token);
     return false;
   }
 

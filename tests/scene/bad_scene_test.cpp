@@ -90,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScene{"FreeLayoutWithANumberTooMany", "a.off", "OFF 3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2 7",
                              malformed, ":1", "counts"},
                     BadScene{"FreeLayoutWithANumberMissing", "a.off", "OFF\n3 1 0\n0 0 0 1 0 0 0 1\n3 0 1 2\n",
-                             malformed, ":4", "vertex 2 of 3"},
+                             malformed, ":5", "vertex 2 of 3"},
                     BadScene{"NegativeCount", "a.off", "OFF\n-3 1 0\n", malformed, ":2", "counts"},
                     BadScene{"NoTriangles", "a.off", "OFF\n1 0 0\n0 0 0\n", malformed, "", "no triangles"},
                     BadScene{"FewerVertices", "a.off", "OFF\n3 1 0\n0 0 0\n", malformed, "", "vertex 1 of 3"},
@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadScene{"StripWithAnotherNegativeIndex", "a.ply",
                  ply_vertices + "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" + ply_points +
                      "4 0 1 2 -2\n",
-                 out_of_range, ":12", "vertex -2"},
+                 out_of_range, ":13", "vertex -2"},
         BadScene{"HugeCountWithoutProperty", "a.ply", ply_vertices + "element rest 9000000000000000000\nend_header\n",
                  malformed, ":8", "rest"},
         BadScene{"Nan", "a.ply", ply + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n", non_finite, ":11", "nan"},

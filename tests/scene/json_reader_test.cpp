@@ -107,31 +107,5 @@ TEST(JsonReader, AnExcerptIsShortAndFlat) {
   EXPECT_LT(scene::json_excerpt(json(std::string(100000, 'x'))).size(), 80U);
 }
 
-TEST(Printable, EscapesWhatATerminalWouldObey) {
-  struct Row {
-    std::string text, shown;
-  };
-  for (const auto& [text, shown] :
-       {Row{"plain ~", "plain ~"}, Row{"\x1b[31mred", "\\x1b[31mred"}, Row{std::string("a\0b", 3), "a\\x00b"},
-        Row{"a\nb\tc\rd", "a\\nb\\tc\\x0dd"}, Row{"\x7f\x08", "\\x7f\\x08"}, Row{"Übung ☃ 𝄞", "Übung ☃ 𝄞"},
-        Row{"\xc2\x9b"
-            "2J",
-            "\\u{009b}2J"},
-        Row{"\x9b"
-            "2J",
-            "\\x9b2J"},
-        Row{"a\xe2\x80\xae"
-            "b",
-            "a\\u{202e}b"},
-        Row{"\xe2\x80\xa8", "\\u{2028}"}, Row{"\xc0\xaf", "\\xc0\\xaf"}, Row{"\xed\xa0\x80", "\\xed\\xa0\\x80"},
-        Row{"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80"}, Row{"\xe2\x82", "\\xe2\\x82"}}) {
-    EXPECT_EQ(scene::printable(text), shown);
-  }
-  EXPECT_EQ(scene::printable_lines("a\r\nb\tc\x1b\n"), "a\nb\tc\\x1b\n");
-  EXPECT_EQ(scene::printable("abcdef", 3), "abc...");
-  EXPECT_EQ(scene::printable("ab\x1b", 3), "ab...");
-  EXPECT_EQ(scene::printable("abc", 3), "abc");
-}
-
 }  // namespace
 }  // namespace clues::tests
