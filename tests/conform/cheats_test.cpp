@@ -45,8 +45,9 @@ Conformed try_cheat(const std::string& mode, const std::string& id, const std::s
     done.report = nlohmann::json::parse(read_all(folder.file("report.json")));
     for (const auto& test : done.report["cases"]) done.outcomes[test["id"]] = test["outcome"];
   }
-  if (mode != "everything-visible")  // other tests may be about that one just now
+  if (mode != "everything-visible") {  // other tests may be about that one just now
     EXPECT_EQ(processes_with(mode), std::vector<std::string>()) << "outlived the run";
+  }
   return done;
 }
 
