@@ -50,8 +50,11 @@ int run_check(const CheckRequest& request) {
     around.areas = validate::area_weights(judgement, mesh);
     around.first_order_fractions = validate::first_order_fractions(mesh, map);
   }
-  std::fputs((request.json ? validate::to_json_text(judgement, around) : validate::to_text(judgement, around)).c_str(),
-             stdout);
+  if (request.json) {
+    std::fputs(validate::to_json_text(judgement, around).c_str(), stdout);
+  } else {
+    print(validate::to_text(judgement, around));
+  }
   if (!judgement.contradictions.empty()) return oracle_contradiction;
   switch (judgement.verdict) {
     case validate::Verdict::sound:

@@ -164,7 +164,7 @@ int run_conform(const ConformRequest& request) {
   context.repeat = repeat_command(request, folder);
   if (!request.json.empty()) scene::write_file_atomically(request.json, validate::to_json_text(run, context));
   if (!request.junit.empty()) scene::write_file_atomically(request.junit, validate::to_junit_text(run, context));
-  std::fputs(validate::to_text(run, context, request.every_case).c_str(), stdout);
+  print(validate::to_text(run, context, request.every_case));
   if (run.executed() == 0) std::fputs("clues: nothing was executed: not one case was answered\n", stderr);
   return validate::exit_code(run);
 }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/common.h"
 #include "app/progress.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/dials.h"
@@ -67,7 +68,7 @@ int run_fuzz(FuzzRequest& request) {
   options.stop = &interrupted;
   const auto summary = fuzz::run_campaign(options, *subject);
   bar.clear();
-  std::fputs(to_text(summary, options.out).c_str(), stdout);
+  print(to_text(summary, options.out));
   std::fprintf(stderr, "clues fuzz: %.1f s, %.1f cases a second\n", summary.seconds_now,
                static_cast<double>(summary.cases_now) / std::max(summary.seconds_now, 0.001));
   return summary.exit_code();

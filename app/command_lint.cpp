@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "app/commands.h"
+#include "app/common.h"
 #include "app/progress.h"
 #include "scene/error.h"
 #include "validate/vectors/lint.h"
@@ -30,7 +31,11 @@ int run_lint(const LintRequest& request) {
     options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("cases", done, total); };
     report = validate::lint_suite(request.folder, options);
   }
-  std::fputs((request.json ? validate::to_json_text(report) : validate::to_text(report)).c_str(), stdout);
+  if (request.json) {
+    std::fputs(validate::to_json_text(report).c_str(), stdout);
+  } else {
+    print(validate::to_text(report));
+  }
   bool malformed = false, contradiction = false;
   for (const auto& finding : report.findings) {
     malformed |= finding.kind == validate::LintKind::malformed;

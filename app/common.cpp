@@ -6,10 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "exact/area.h"
 #include "reference/visibility/sides.h"
 #include "scene/error.h"
+#include "scene/printable.h"
 
 namespace clues::app {
 
@@ -125,6 +127,11 @@ validate::Refinement RefineChoice::refinement(validate::Refinement otherwise) co
 void RefineChoice::check_retract(validate::Refinement wanted) const {
   if (retract && wanted != validate::Refinement::backprojection && wanted != validate::Refinement::both)
     throw Error(ErrorCode::bad_argument, "--retract is about backprojection; add --refine backprojection or both");
+}
+
+void print(const std::string& text) {
+  const auto shown = scene::printable_lines(text);
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
 }
 
 void require_writable_parent(const std::filesystem::path& path) {

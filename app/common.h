@@ -42,6 +42,9 @@ struct RefineChoice {
 // The two paragraphs about SPEC and exit codes that every footer needs.
 extern const char* const cell_help;
 
+// Text for a person, on standard output: with nothing in it that a terminal would obey, wherever it came from (scene/printable.h).
+void print(const std::string& text);
+
 // Throws Error file_unwritable now, and not after an hour, when a file could not be made at `path`.
 void require_writable_parent(const std::filesystem::path& path);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -12,6 +11,7 @@
 
 #include "fuzz/campaign/finding_folder.h"
 #include "scene/error.h"
+#include "scene/json_reader.h"
 #include "scene/mesh_io.h"
 #include "validate/vectors/reader.h"
 
@@ -175,8 +175,7 @@ ReportSection finding_section(const fs::path& folder) {
 }
 
 std::optional<ReportSection> section_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const json j = json::parse(in, nullptr, false);
+  const json j = scene::read_json_file(file);
   if (!j.is_object() || !j.contains("format")) return std::nullopt;
   try {
     if (j.at("format") == "clues-judgement/1") return judgement_section(j);

@@ -6,8 +6,12 @@
 
 #include "app/commands.h"
 #include "scene/error.h"
+#include "scene/printable.h"
+#include "scene/warning.h"
 
 namespace {
+
+using namespace clues;
 
 constexpr const char* footer = R"(EXAMPLES
   clues map town.obj --cell box:0,0,1,2,2,2 -o town.clues.json
@@ -25,14 +29,16 @@ EXIT CODES
 `clues COMMAND --help` explains each command.)";
 
 int fail(const std::string& message, int code) {
-  std::fprintf(stderr, "clues: error: %s\n", message.c_str());
+  std::fprintf(stderr, "clues: error: %s\n", scene::printable(message).c_str());
   return code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace clues;
+  scene::warning_listener() = [](const std::string& warning) {
+    std::fprintf(stderr, "clues: warning: %s\n", scene::printable(warning).c_str());
+  };
   CLI::App program{
       "clues - what can be seen from a region of space, exactly.\n"
       "Takes a triangle scene and a convex view cell; computes the first-order visibility map in exact arithmetic, and "

@@ -9,6 +9,7 @@
 #include "scene/formats/file_bytes.h"
 #include "scene/formats/line_reader.h"
 #include "scene/formats/number.h"
+#include "scene/json_reader.h"
 #include "scene/result.h"
 
 namespace clues::scene {
@@ -34,29 +35,18 @@ std::vector<std::uint32_t> list_ids(std::string_view bytes, const std::string& f
   std::vector<std::uint32_t> ids;
   while (lines.next()) {
     const auto& tokens = lines.tokens();
-    if (tokens.size() != 1 || !is_whole_number(tokens[0])) {
-      fail_at(lines.place(), ErrorCode::malformed,
-              excerpt(tokens.size() > 1 ? tokens[1] : tokens[0]) +
-                  " is not what a PVS holds; write one triangle id a line");
+    for (const auto token : tokens) {
+      if (!is_whole_number(token)) {
+        fail_at(
+            lines.place(), ErrorCode::malformed,
+            excerpt(token) + " is not what a PVS holds; write triangle ids, with blanks or ends of lines between them");
+      }
+      const auto id = parse_integer(token);
+      ids.push_back(checked_id(id ? static_cast<std::uint64_t>(*id) : std::numeric_limits<std::uint64_t>::max(),
+                               triangles, lines.place()));
     }
-    const auto id = parse_integer(tokens[0]);
-    ids.push_back(checked_id(id ? static_cast<std::uint64_t>(*id) : std::numeric_limits<std::uint64_t>::max(),
-                             triangles, lines.place()));
   }
   return ids;
-}
-
-Json parse_json(std::string_view bytes, const std::string& file) {
-  try {
-    return Json::parse(bytes);
-  } catch (const Json::parse_error& error) {
-    const auto read = std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, bytes.size());
-    const auto line = 1 + std::count(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(read), '\n');
-    fail_at({file, {}, static_cast<std::uint64_t>(line)}, ErrorCode::malformed,
-            "this is not JSON; the file is truncated or was edited, write it again");
-  } catch (const Json::exception&) {  // such as a number like 1e999
-    fail_in(file, ErrorCode::malformed, "the JSON holds a number that cannot be read; write it again");
-  }
 }
 
 void check_head(const Json& json, const std::string& file, std::uint64_t triangles) {
@@ -71,10 +61,10 @@ void check_head(const Json& json, const std::string& file, std::uint64_t triangl
   const auto scene = json.find("scene");
   if (scene == json.end() || !scene->is_object()) return;
   const auto count = scene->find("triangles");
-  if (count != scene->end() && count->is_number() && *count != triangles) {
+  if (count != scene->end() && (!count->is_number_unsigned() || *count != triangles)) {
     fail_in(file, ErrorCode::malformed,
             fmt::format("the result is of a scene of {} triangles, but this one has {}; give the matching scene",
-                        count->dump(), triangles));
+                        json_excerpt(*count), triangles));
   }
 }
 
@@ -89,7 +79,7 @@ std::vector<std::uint32_t> result_ids(std::string_view bytes, const std::string&
   for (const auto& entry : *visible) {
     const Place place{file, "visible, entry", ids.size()};
     if (!entry.is_number_unsigned()) {
-      fail_at(place, ErrorCode::malformed, excerpt(entry.dump()) + " is not a triangle id; give whole numbers");
+      fail_at(place, ErrorCode::malformed, json_excerpt(entry) + " is not a triangle id; give whole numbers");
     }
     ids.push_back(checked_id(entry.get<std::uint64_t>(), triangles, place));
   }
@@ -113,7 +103,8 @@ std::vector<std::uint32_t> parse_result_pvs(std::string_view bytes, const std::s
 }
 
 std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, std::uint64_t triangles) {
-  const auto bytes = read_file_bytes(path);
+  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
+  const auto bytes = read_file_bytes(path, most_bytes);
   return path.extension() == ".json" ? parse_result_pvs(bytes, path.string(), triangles)
                                      : parse_pvs_list(bytes, path.string(), triangles);
 }

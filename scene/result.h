@@ -77,7 +77,7 @@ struct Result {
 // Keys sorted, two-space indent, trailing newline; the same Result gives the same bytes.
 std::string to_json_text(const Result& result);
 
-// A PVS from a result file (*.json) or a plain list (one id a line, '#' comments, blank lines allowed).
+// A PVS from a result file (*.json) or a plain list (ids with blanks or ends of lines between them, '#' comments).
 // Sorted and unique. Throws Error: file errors, malformed (file and line), index_out_of_range when an id is
 // >= triangles.
 std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, std::uint64_t triangles);

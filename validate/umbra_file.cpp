@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/error.h"
-#include "scene/formats/file_bytes.h"
+#include "scene/json_reader.h"
 #include "scene/mesh_io.h"
 #include "validate/vectors/words.h"
 
@@ -50,27 +50,21 @@ scene::Point rounded(const RVector& p) { return exact::to_double_estimate(to_poi
 
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, std::uint64_t triangles) : file_(path.string()), triangles_(triangles) {
-    try {
-      json_ = json::parse(scene::read_file_bytes(path));
-    } catch (const json::exception&) {
-      fail("this is not JSON; the file is truncated or was edited, write it again");
-    }
-  }
+  Reader(const std::filesystem::path& path, std::uint64_t triangles)
+      : file_(path.string()), triangles_(triangles), json_(scene::read_json_file(path)) {}
 
   UmbraRecord read() const {
     if (!json_.is_object() || !json_.contains("format") || !json_["format"].is_string())
       fail("no \"format\"; an umbra has \"format\": \"clues-umbra/1\"");
     if (json_["format"] != format_name) {
-      throw Error(ErrorCode::unsupported, file_ + ": the format " +
-                                              json_["format"].dump(-1, ' ', true, json::error_handler_t::replace) +
+      throw Error(ErrorCode::unsupported, file_ + ": the format " + scene::json_excerpt(json_["format"]) +
                                               " is not clues-umbra/1; give the file of `clues map --umbra`");
     }
     const auto scene = json_.find("scene");
     if (scene != json_.end() && scene->is_object() && scene->contains("triangles") &&
-        (*scene)["triangles"] != triangles_) {
+        (!(*scene)["triangles"].is_number_unsigned() || (*scene)["triangles"] != triangles_)) {
       fail(fmt::format("the umbra is of a scene of {} triangles, but this one has {}; give the matching scene",
-                       (*scene)["triangles"].dump(), triangles_));
+                       scene::json_excerpt((*scene)["triangles"]), triangles_));
     }
     UmbraRecord record;
     record.scene_triangles = triangles_;

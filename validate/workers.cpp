@@ -15,6 +15,7 @@
 #include <exception>
 
 #include "scene/error.h"
+#include "validate/conform/keeper.h"
 
 namespace clues::validate {
 namespace {
@@ -83,6 +84,7 @@ Workers::~Workers() {
   for (const auto& w : workers_) {
     if (w->pid <= 0) continue;
     kill(w->pid, SIGKILL);
+    forget_known(w->pid);
     waitpid(w->pid, nullptr, 0);
     close(w->socket);
   }
@@ -92,7 +94,7 @@ void Workers::launch(Worker& worker) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("no socket for a child process");
   const pid_t parent = getpid();
-  const pid_t pid = fork();
+  const pid_t pid = fork_known();
   if (pid < 0) fail("no child process could be started");
   if (pid == 0) {
     signal(SIGINT, SIG_IGN);
@@ -149,6 +151,7 @@ void Workers::start(std::uint64_t task) {
 WorkerReply Workers::lost(Worker& worker, bool late) {
   kill(worker.pid, SIGKILL);
   int status = 0;
+  forget_known(worker.pid);
   waitpid(worker.pid, &status, 0);
   close(worker.socket);
   WorkerReply reply{*worker.task, false, {}};

@@ -11,6 +11,8 @@
 #include "fuzz/campaign/generators.h"
 #include "fuzz/campaign/oracle.h"
 #include "scene/error.h"
+#include "scene/json_reader.h"
+#include "scene/printable.h"
 #include "validate/workers.h"
 
 namespace clues::fuzz {
@@ -154,7 +156,7 @@ class Campaign {
   void save(const StoredFinding& stored, const validate::WorkerReply& reply) {
     SavedFinding saved{stored.finding, stored.finding, subject_.name(), options_.given.paths, 0};
     if (reply.finished) {
-      const json in = json::parse(reply.text);
+      const json in = scene::parse_json(reply.text, "a process of clues fuzz");
       saved.finding = finding_from_json_text(in.at("finding").get<std::string>());
       saved.steps = in.at("steps").get<std::uint64_t>();
       const auto flaw = in.at("flaw").get<std::string>();
@@ -211,7 +213,7 @@ std::string to_text(const CampaignSummary& s, const fs::path& out) {
   for (const auto& f : s.findings) {
     text += fmt::format("FINDING {} (case {}: {} {} of seed {}; {} times)\n  {}\n", f.finding.signature(),
                         f.case_number, f.finding.where.generator, f.finding.where.index, f.finding.where.seed,
-                        f.occurrences, f.finding.explanation);
+                        f.occurrences, scene::printable(f.finding.explanation));
     if (const auto& w = f.finding.witness) {
       text += fmt::format("  triangle {} ({} side), witness ({}, {}, {}) - ({}, {}, {})\n", w->triangle,
                           w->front ? "front" : "back", w->v[0], w->v[1], w->v[2], w->p[0], w->p[1], w->p[2]);
@@ -219,7 +221,7 @@ std::string to_text(const CampaignSummary& s, const fs::path& out) {
     text += f.folder ? fmt::format("  repeat: clues replay {}\n", (out / *f.folder).string())
                      : "  not shrunk yet: run the same command again\n";
   }
-  for (const auto& c : s.contradictions) text += "CONTRADICTION " + c + "\n";
+  for (const auto& c : s.contradictions) text += "CONTRADICTION " + scene::printable(c) + "\n";
   for (const auto& [name, value] : s.counters) text += fmt::format("{:>14}  {}\n", value, name);
   for (const auto& name : s.never_occurred) text += "NEVER OCCURRED: " + name + "\n";
   text += fmt::format("{} cases, {} of them in this run; {} different findings{}\n", s.cases, s.cases_now,

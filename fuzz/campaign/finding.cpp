@@ -1,9 +1,11 @@
 // Findings as JSON: what the store keeps and what workers send.
 #include "fuzz/campaign/finding.h"
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "scene/error.h"
+#include "scene/json_reader.h"
 
 namespace clues::fuzz {
 namespace {
@@ -30,30 +32,40 @@ json to_json(const Finding& f) {
   return out;
 }
 
+std::uint32_t id_of(const json& value) {
+  return static_cast<std::uint32_t>(
+      scene::whole_number(value, "\"triangle\"", std::numeric_limits<std::uint32_t>::max()));
+}
+
+scene::Triangle triangle_of(const json& corners, std::size_t points) {
+  if (corners.size() != 3) throw scene::JsonError(0, "a triangle has not three corners");
+  scene::Triangle triangle{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (points == 0) throw scene::JsonError(0, "a triangle without points");
+    triangle[i] =
+        static_cast<std::uint32_t>(scene::whole_number(corners.at(i), "the corner of a triangle", points - 1));
+  }
+  return triangle;
+}
+
 Finding to_finding(const json& in) {
   Finding f;
   in.at("oracle").get_to(f.oracle);
   in.at("verdict").get_to(f.verdict);
   in.at("generator").get_to(f.where.generator);
-  in.at("seed").get_to(f.where.seed);
-  in.at("index").get_to(f.where.index);
+  f.where.seed = scene::whole_number(in.at("seed"), "\"seed\"");
+  f.where.index = scene::whole_number(in.at("index"), "\"index\"");
   in.at("points").get_to(f.where.mesh.points);
-  in.at("triangles").get_to(f.where.mesh.triangles);
+  for (const json& t : in.at("triangles")) f.where.mesh.triangles.push_back(triangle_of(t, f.where.mesh.points.size()));
   in.at("cell").get_to(f.where.cell);
   in.at("explanation").get_to(f.explanation);
   f.where.solid = in.value("solid", false);
   f.where.dials = in.value("dials", CaseDials{});
-  for (const auto& t : f.where.mesh.triangles) {
-    f.where.mesh.face_of.push_back(static_cast<std::uint32_t>(f.where.mesh.face_of.size()));
-    for (const auto corner : t) {
-      if (corner >= f.where.mesh.points.size())
-        throw scene::Error(scene::ErrorCode::malformed, "a finding has a triangle corner that is no point");
-    }
-  }
-  if (in.contains("triangle")) f.triangle = in.at("triangle").get<std::uint32_t>();
+  for (std::uint32_t face = 0; face < f.where.mesh.triangles.size(); ++face) f.where.mesh.face_of.push_back(face);
+  if (in.contains("triangle")) f.triangle = id_of(in.at("triangle"));
   if (in.contains("witness")) {
     const json& w = in.at("witness");
-    f.witness = WitnessText{w.at("triangle").get<std::uint32_t>(), w.at("front").get<bool>(),
+    f.witness = WitnessText{id_of(w.at("triangle")), w.at("front").get<bool>(),
                             w.at("v").get<std::array<std::string, 3>>(), w.at("p").get<std::array<std::string, 3>>()};
   }
   return f;
@@ -62,8 +74,10 @@ Finding to_finding(const json& in) {
 template <class Read>
 auto parsed(const std::string& text, const Read& read) {
   try {
-    return read(json::parse(text));
+    return read(scene::parse_json_text(text));
   } catch (const json::exception& error) {
+    throw scene::Error(scene::ErrorCode::malformed, std::string("this is not a finding: ") + error.what());
+  } catch (const scene::JsonError& error) {
     throw scene::Error(scene::ErrorCode::malformed, std::string("this is not a finding: ") + error.what());
   }
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -11,6 +10,7 @@
 #include "scene/atomic_file.h"
 #include "scene/cell_spec.h"
 #include "scene/error.h"
+#include "scene/json_reader.h"
 #include "scene/mesh_io.h"
 #include "scene/result.h"
 
@@ -52,17 +52,6 @@ void write_case(const Finding& f, const fs::path& folder, json& sums) {
   for (const char* name : proof_files) sums[name] = scene::sha256_of_file(folder / name);
 }
 
-json read_json(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in)
-    throw Error(ErrorCode::file_not_found, file.string() + ": there is no such file; is this the folder of a finding?");
-  try {
-    return json::parse(in);
-  } catch (const json::exception&) {
-    throw Error(ErrorCode::malformed, file.string() + ": this is not JSON; the finding was changed after it was saved");
-  }
-}
-
 void read_case(Finding& f, const fs::path& folder, const json& sums) {
   for (const char* name : proof_files) {
     if (scene::sha256_of_file(folder / name) != sums.at(name).get<std::string>()) {
@@ -71,7 +60,7 @@ void read_case(Finding& f, const fs::path& folder, const json& sums) {
   }
   f.where.mesh = scene::read_mesh(folder / "scene.off");
   f.where.cell = scene::parse_cell((folder / "cell.obj").string()).points;
-  const json w = read_json(folder / "witness.json");
+  const json w = scene::read_json_file(folder / "witness.json");
   if (w.contains("triangle")) f.triangle = w.at("triangle").get<std::uint32_t>();
   if (w.contains("v")) {
     f.witness = WitnessText{f.triangle.value(), w.at("side") == "front", w.at("v").get<std::array<std::string, 3>>(),
@@ -130,7 +119,7 @@ void save_finding(const SavedFinding& saved, const fs::path& folder) {
 }
 
 SavedFinding load_finding(const fs::path& folder) {
-  const json about = read_json(folder / "finding.json");
+  const json about = scene::read_json_file(folder / "finding.json");
   SavedFinding saved;
   try {
     if (about.at("format") != format)

@@ -25,6 +25,7 @@ def obj():
     put("obj", "relative_quad", "# c\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf -4/1/1 -3//1 -2/1 -1\n")
     put("obj", "words", "o a\ng b\ns off\nusemtl m\nmtllib m.mtl\n" + v + "f 1 2 \\\n 3\r\nl 1 2\n")
     put("obj", "numbers", "v 1e-320 0x1.8p+3 -0.0\nv +.5 5. 1E+308\nv 1 2 3 1\nf 1 2 3\n")
+    put("obj", "edges", v + "f 1/ 2/ 3/\nfo 1 2 4\nf 1 2\n\x1a")
     put("obj", "bad_index", v + "f 1 2 9\n")
 
 
@@ -34,6 +35,9 @@ def off():
     put("off", "polygon", "OFF 5 1 0 # c\n0 0 0\n1 0 0\n2 1 0\n1 2 0\n0 1 0\n5 0 1 2 3 4 255 0 0\n")
     put("off", "colours", "COFF\n3 1 0\n0 0 0 1 2 3 4\n1 0 0 1 2 3 4\n0 1 0 1 2 3 4\n3 0 1 2\n")
     put("off", "points", "OFF\n2 0 0\n0 0 0\n1 1 1\n")
+    put("off", "free", "4 4 6 " + body.replace("\n", " "))
+    put("off", "binary", b"OFF BINARY\n" + struct.pack(">3i", 4, 4, 6) + b"".join(struct.pack(">3f", *p) for p in POINTS) +
+        b"".join(struct.pack(">5i", 3, *f, 0) for f in FACES))
     put("off", "short", "OFF\n4 4 6\n0 0 0\n")
 
 
@@ -51,6 +55,9 @@ def ply():
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty uchar red\nproperty double x\nproperty double y\nproperty double z\n"
         "element edge 1\nproperty int vertex1\nproperty int vertex2\nelement face 1\nproperty list uint8 uint32 vertex_index\n"
         "property short s\nend_header\n9 0 0 0\n9 1 0 0\n9 0 1 0\n0 1\n3 0 1 2 7\n")
+    put("ply", "strips",
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement tristrips 1\n"
+        "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n8 0 1 2 3 -1 3 2 0\n")
     put("ply", "short", head % ("binary_little_endian", "float", "float", "float"))
 
 
@@ -62,6 +69,16 @@ def stl():
     triangles = b"".join(struct.pack("<12fH", 0, 0, 0, *POINTS[a], *POINTS[b], *POINTS[c], 0) for a, b, c in FACES)
     put("stl", "binary", b"solid that is none".ljust(80) + struct.pack("<I", 4) + triangles)
     put("stl", "binary_short", b"".ljust(80) + struct.pack("<I", 5) + triangles)
+
+
+def json_texts():
+    put("json", "values", '{"a": [1, -2, 0.5, 1e3, -0.0, true, null, "\\u00e4\\n"], "b": {"a": {}}, "c": [[], [[]]]}\n')
+    put("json", "number", "18446744073709551616")
+    put("json", "deep", 32 * "[" + 32 * "]")
+    put("json", "too_deep", 33 * "[" + 33 * "]")
+    put("json", "twice", '{"a": 1,\n"\\u0061": 2}')
+    put("json", "nul", b"{}\0")
+    put("json", "too_large", "[1e999]")
 
 
 def cell_and_pvs():
@@ -135,5 +152,5 @@ def scene_to_verdict():
         scene_bytes(corner, box, [(0, 1, 2), (0, 2, 3)], bytes([4, 1, 13, 255])))
 
 
-for make in (obj, off, ply, stl, cell_and_pvs, vectors, protocol, scene_to_verdict):
+for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, scene_to_verdict):
     make()

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "scene/cell_spec.h"
 #include "scene/error.h"
 #include "scene/formats/readers.h"
+#include "scene/json_reader.h"
 #include "scene/mesh_io.h"
+#include "scene/printable.h"
 #include "scene/result.h"
 #include "validate/conform/protocol.h"
 #include "validate/vectors/reader.h"
@@ -68,6 +71,25 @@ bool mesh_file(std::string_view bytes) {
     require(same_bits(mesh.points, again.points) && mesh.triangles == again.triangles,
             "a scene survives being written as OFF");
   });
+}
+
+// The reader of JSON that all the others use: what it accepts is what the library reads, and its refusals can be shown to anybody.
+bool json_text(std::string_view bytes) {
+  try {
+    const auto value = scene::parse_json_text(bytes);
+    require(nlohmann::json::accept(bytes), "what is accepted is JSON");
+    require(value == nlohmann::json::parse(bytes), "the value is that of the library");
+    require(scene::parse_json_text(value.dump()) == value, "a value survives being written");
+    const auto shown = scene::json_excerpt(value);
+    require(scene::printable(shown) == shown && shown.size() < 400, "an excerpt is short and printable");
+    return true;
+  } catch (const scene::JsonError& error) {
+    const std::string text = error.what();
+    require(scene::printable(text) == text && text.size() < 400, "a refusal is short and printable");
+    require(error.line() <= 1 + static_cast<std::uint64_t>(std::count(bytes.begin(), bytes.end(), '\n')),
+            "the line is one of the text");
+    return false;
+  }
 }
 
 // A cell as it is given on the command line. Grids of more than 9 x 9 x 9 cells are a matter of memory and not of reading.
@@ -165,6 +187,7 @@ const std::vector<Target>& all_targets() {
       {"off", "the reader of OFF files", mesh_file<scene::read_off>},
       {"ply", "the reader of PLY files, text and binary", mesh_file<scene::read_ply>},
       {"stl", "the reader of STL files, text and binary", mesh_file<scene::read_stl>},
+      {"json", "the reader of JSON", json_text},
       {"cell_and_pvs", "cells of the command line, lists of triangle ids and result files",
        [](std::string_view bytes) {
          return bytes.starts_with("box:") || bytes.starts_with("grid:") ? cell(bytes) : pvs(bytes);

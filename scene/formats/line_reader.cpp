@@ -11,6 +11,8 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; 
 LineReader::LineReader(std::string_view file, std::string_view text, LineRules rules, std::uint64_t first_line)
     : file_(file), rest_(text), rules_(rules), next_line_(first_line), line_(first_line) {
   if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
+  constexpr char end_of_text = '\x1a';  // Ctrl-Z, of DOS and its heirs
+  if (rest_.ends_with(end_of_text)) rest_.remove_suffix(1);
 }
 
 std::string_view LineReader::take_physical_line() {

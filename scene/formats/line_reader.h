@@ -17,7 +17,7 @@ struct LineRules {
 
 class LineReader {
  public:
-  // Lines end at LF, CR LF or CR. A UTF-8 byte order mark is skipped. The text must outlive the reader.
+  // Lines end at LF, CR LF or CR. A UTF-8 byte order mark and a Ctrl-Z at the end are skipped. The text must outlive the reader.
   LineReader(std::string_view file, std::string_view text, LineRules rules, std::uint64_t first_line = 1);
 
   bool next();  // false at the end of the file

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "scene/warning.h"
+
 namespace clues::scene {
 namespace {
 
@@ -26,15 +28,12 @@ void MeshBuilder::add_point(const Point& point, const Place& place) {
 }
 
 void MeshBuilder::add_face(std::span<const std::int64_t> corners, const Place& place) {
-  if (corners.size() < 3) {
-    fail_at(place, ErrorCode::malformed,
-            fmt::format("a face with {} corner{}; give it three or more, or remove it", corners.size(),
-                        corners.size() == 1 ? "" : "s"));
-  }
+  if (corners.empty())
+    fail_at(place, ErrorCode::malformed, "a face with 0 corners; give it three or more, or remove it");
   for (const auto corner : corners) {
     if (corner < 0 || corner >= static_cast<std::int64_t>(most_items)) fail_index(corner, place);
   }
-  if (corners.size() - 2 > most_items - mesh_.triangles.size()) {
+  if (corners.size() > most_items - mesh_.triangles.size()) {
     fail_at(place, ErrorCode::unsupported, "more than 2^32-1 triangles; split the scene");
   }
   const auto face = static_cast<std::uint32_t>(face_numbers_.size());
@@ -45,6 +44,9 @@ void MeshBuilder::add_face(std::span<const std::int64_t> corners, const Place& p
   }
   item_ = place.item;
   face_numbers_.push_back(place.number);
+  if (corners.size() < 3 && left_out_++ == 0)
+    first_left_out_ =
+        fmt::format("{}: a face with {} corner{}", place.text(), corners.size(), corners.size() == 1 ? "" : "s");
 }
 
 TriangleMesh MeshBuilder::take() {
@@ -52,6 +54,10 @@ TriangleMesh MeshBuilder::take() {
     for (const auto corner : mesh_.triangles[i]) {
       if (corner >= mesh_.points.size()) fail_index(corner, {file_, item_, face_numbers_[mesh_.face_of[i]]});
     }
+  }
+  if (left_out_ > 0) {
+    warn(first_left_out_ + (left_out_ == 1 ? " is no surface: left out"
+                                           : fmt::format(" is no surface: left out, and {} more", left_out_ - 1)));
   }
   return std::move(mesh_);
 }

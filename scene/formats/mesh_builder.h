@@ -21,8 +21,9 @@ class MeshBuilder {
   // Throws non_finite; unsupported past 2^32-1 points.
   void add_point(const Point& point, const Place& place);
 
-  // Corners count from 0, whatever the format. Throws malformed below three corners, index_out_of_range for what no
-  // file can hold; that a corner has a vertex is checked in take(), because the vertex may come later.
+  // Corners count from 0, whatever the format. A face with one or two corners is no surface: left out, with a warning from take(); it has its number
+  // all the same. Throws malformed without corners, index_out_of_range for what no file can hold; that a corner has a vertex is checked in take(),
+  // because the vertex may come later.
   void add_face(std::span<const std::int64_t> corners, const Place& place);
 
   // Throws index_out_of_range at the first face with a corner past the last vertex.
@@ -36,6 +37,8 @@ class MeshBuilder {
   TriangleMesh mesh_;
   std::string_view item_;                    // the places of the faces: what they count ...
   std::vector<std::uint64_t> face_numbers_;  // ... and their numbers
+  std::string first_left_out_;
+  std::uint64_t left_out_ = 0;
 };
 
 }  // namespace clues::scene

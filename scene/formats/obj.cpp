@@ -18,9 +18,9 @@ constexpr std::array no_surface = {"vt",     "vn",     "vp",       "g",         
                                    "mtllib", "l",      "p",        "mg",         "lod",       "bevel", "c_interp",
                                    "usemap", "maplib", "d_interp", "shadow_obj", "trace_obj", "ctech", "stech"};
 // Free-form geometry and files within files.
-constexpr std::array other_surface = {"surf", "curv", "curv2", "cstype", "deg", "bmat", "step", "parm",
-                                      "trim", "hole", "scrv",  "sp",     "end", "con",  "call", "csh",
-                                      "fo",   "cdc",  "cdp",   "bzp",    "bsp", "res"};
+constexpr std::array other_surface = {"surf", "curv", "curv2", "cstype", "deg", "bmat", "step",
+                                      "parm", "trim", "hole",  "scrv",   "sp",  "end",  "con",
+                                      "call", "csh",  "cdc",   "cdp",    "bzp", "bsp",  "res"};
 
 template <std::size_t n>
 bool is_in(const std::array<const char*, n>& words, std::string_view word) {
@@ -43,7 +43,7 @@ Point vertex_of(const std::vector<std::string_view>& tokens, const Place& place)
   return point;
 }
 
-// i, i/j, i//k or i/j/k: the vertex index i, with the rest checked for its form only.
+// i, i/j, i//k or i/j/k: the vertex index i, with the rest checked for its form only. Some write i/ and i// for i.
 std::int64_t corner_index(std::string_view token, const Place& place) {
   const auto first = token.substr(0, token.find('/'));
   auto rest = token.substr(first.size());
@@ -52,8 +52,7 @@ std::int64_t corner_index(std::string_view token, const Place& place) {
     rest.remove_prefix(1);
     const auto field = rest.substr(0, rest.find('/'));
     rest.remove_prefix(field.size());
-    const bool may_be_empty = part == 1 && !rest.empty();
-    well_formed = well_formed && part <= 2 && (field.empty() ? may_be_empty : parse_integer(field).has_value());
+    well_formed = well_formed && part <= 2 && (field.empty() || parse_integer(field).has_value());
   }
   const auto index = parse_integer(first);
   if (!index || !well_formed) {
@@ -88,7 +87,7 @@ TriangleMesh read_obj(std::string_view bytes, const std::string& file) {
     const auto keyword = tokens[0];
     if (keyword == "v") {
       builder.add_point(vertex_of(tokens, lines.place()), lines.place());
-    } else if (keyword == "f") {
+    } else if (keyword == "f" || keyword == "fo") {  // its name of old
       corners.clear();
       for (std::size_t i = 1; i < tokens.size(); ++i) {
         const auto index = corner_index(tokens[i], lines.place());

@@ -1,5 +1,6 @@
-// D1 from PLY: x, y, z of the element "vertex" and the index list of the element "face"; the rest is skipped.
+// D1 from PLY: x, y, z of the element "vertex", and the index lists of the elements "face" and "tristrips"; the rest is skipped.
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "scene/formats/mesh_builder.h"
@@ -13,6 +14,8 @@ namespace {
 bool is_index_list(const PlyProperty& property) {
   return property.name == "vertex_indices" || property.name == "vertex_index";
 }
+
+bool is_faces(const PlyElement& element) { return element.name == "face" || element.name == "tristrips"; }
 
 // 0, 1, 2 for x, y, z.
 std::optional<std::size_t> axis_of(const PlyProperty& property) {
@@ -36,7 +39,8 @@ void check_vertex_element(const PlyElement& element, const std::string& file) {
 void check_face_element(const PlyElement& element, const std::string& file) {
   const auto& properties = element.properties;
   if (std::count_if(properties.begin(), properties.end(), is_index_list) != 1) {
-    fail_in(file, ErrorCode::malformed, "the element 'face' must have one list vertex_indices; export it again");
+    fail_in(file, ErrorCode::malformed,
+            "the element " + excerpt(element.name) + " must have one list vertex_indices; export it again");
   }
   const auto& indices = *std::find_if(properties.begin(), properties.end(), is_index_list);
   if (!indices.is_list || !is_integer(indices.type)) {
@@ -50,10 +54,8 @@ void check_header(const PlyHeader& header, const std::string& file) {
     if (element.name == "vertex") {
       check_vertex_element(element, file);
       has_vertices = true;
-    } else if (element.name == "face" && element.count > 0) {
+    } else if (is_faces(element) && element.count > 0) {
       check_face_element(element, file);
-    } else if (element.name == "tristrips" && element.count > 0) {
-      fail_in(file, ErrorCode::unsupported, "triangle strips are not supported; export the scene as faces");
     }
   }
   if (!has_vertices) fail_in(file, ErrorCode::malformed, "there is no element 'vertex'; export it again");
@@ -80,6 +82,17 @@ void read_vertices(const PlyElement& element, PlyBody& body, MeshBuilder& builde
   }
 }
 
+// Each corner makes a triangle with the two before it, every other one turned round so that all face the same way; -1 begins anew.
+void add_strip(const std::vector<std::int64_t>& corners, const Place& place, MeshBuilder& builder) {
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (corners[i] == -1) first = i + 1;
+    if (i < first + 2 || corners[i] == -1) continue;
+    const bool turned = (i - first) % 2 == 1;
+    builder.add_face(std::array{corners[turned ? i - 1 : i - 2], corners[turned ? i - 2 : i - 1], corners[i]}, place);
+  }
+}
+
 void read_faces(const PlyElement& element, PlyBody& body, MeshBuilder& builder) {
   std::vector<std::int64_t> corners;
   for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -93,7 +106,11 @@ void read_faces(const PlyElement& element, PlyBody& body, MeshBuilder& builder) 
       for (auto& corner : corners) corner = body.read_integer(property.type, "vertex index");
     }
     body.end_item();
-    builder.add_face(corners, body.place());
+    if (element.name == "tristrips") {
+      add_strip(corners, body.place(), builder);
+    } else {
+      builder.add_face(corners, body.place());
+    }
   }
 }
 
@@ -115,7 +132,7 @@ TriangleMesh read_ply(std::string_view bytes, const std::string& file) {
   for (const auto& element : header.elements) {
     if (element.name == "vertex") {
       read_vertices(element, *body, builder);
-    } else if (element.name == "face") {
+    } else if (is_faces(element)) {
       read_faces(element, *body, builder);
     } else {
       skip_element(element, *body);

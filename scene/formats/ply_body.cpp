@@ -10,6 +10,7 @@
 
 #include "scene/formats/line_reader.h"
 #include "scene/formats/number.h"
+#include "scene/warning.h"
 
 namespace clues::scene {
 namespace {
@@ -87,11 +88,8 @@ class BinaryBody : public PlyBody {
   void end_item() override {}
 
   void finish() override {
-    if (rest_.find_first_not_of("\r\n \t") != std::string_view::npos) {
-      fail_in(file_, ErrorCode::malformed,
-              fmt::format("{} bytes after the last element; the counts of the header are wrong, export it again",
-                          rest_.size()));
-    }
+    if (rest_.find_first_not_of("\r\n \t") != std::string_view::npos)
+      warn(fmt::format("{}: {} bytes after the last element were left out", file_, rest_.size()));
   }
 
   Place place() const override { return {file_, element_, number_}; }

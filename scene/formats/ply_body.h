@@ -17,7 +17,7 @@ class PlyBody {
 
   virtual void begin_item(std::string_view element, std::uint64_t number) = 0;
   virtual void end_item() = 0;
-  virtual void finish() = 0;  // nothing but blanks may be left
+  virtual void finish() = 0;  // of text nothing but blanks may be left; bytes are left out with a warning
   virtual Place place() const = 0;
 
   virtual double read_double(PlyType type, std::string_view name) = 0;         // may be non-finite if binary

@@ -9,6 +9,7 @@
 #include "scene/formats/mesh_builder.h"
 #include "scene/formats/number.h"
 #include "scene/formats/readers.h"
+#include "scene/warning.h"
 
 namespace clues::scene {
 namespace {
@@ -96,9 +97,15 @@ class WordReader {
     return lines_.tokens()[next_++];
   }
 
+  // In lower case; "end solid" and the like count as one word.
+  std::string take_word(std::string_view expected) {
+    const auto word = lower_case(take(expected));
+    return word == "end" ? word + lower_case(take(expected)) : word;
+  }
+
   void expect(std::string_view word) {
-    const auto token = take(word);
-    if (lower_case(token) != word) {
+    const auto token = take_word(word);
+    if (token != word) {
       fail_at(place(), ErrorCode::malformed,
               fmt::format("{} stands where '{}' is expected; correct it", excerpt(token), word));
     }
@@ -128,11 +135,10 @@ void read_facet(WordReader& words, CornerTable& table, std::vector<std::int64_t>
   words.expect("loop");
   corners.clear();
   while (true) {
-    const auto token = words.take("vertex");
-    const auto word = lower_case(token);
+    const auto word = words.take_word("vertex");
     if (word == "endloop") break;
     if (word != "vertex") {
-      fail_at(words.place(), ErrorCode::malformed, excerpt(token) + " stands where 'vertex' is expected; correct it");
+      fail_at(words.place(), ErrorCode::malformed, excerpt(word) + " stands where 'vertex' is expected; correct it");
     }
     Point point{};
     for (auto& coordinate : point) {
@@ -142,6 +148,9 @@ void read_facet(WordReader& words, CornerTable& table, std::vector<std::int64_t>
     corners.push_back(table.index_of(point, words.place()));
   }
   words.expect("endfacet");
+  if (corners.size() < 3) {  // not a line, as elsewhere: a facet that was damaged
+    fail_at(place, ErrorCode::malformed, fmt::format("a facet with {} corners; export it again", corners.size()));
+  }
   builder.add_face(corners, place);
 }
 
@@ -154,11 +163,10 @@ TriangleMesh read_ascii(std::string_view bytes, const std::string& file) {
     words.expect("solid");
     words.skip_line();  // the solid's name
     while (true) {
-      const auto token = words.take("endsolid");
-      const auto word = lower_case(token);
+      const auto word = words.take_word("endsolid");
       if (word == "endsolid") break;
       if (word != "facet") {
-        fail_at(words.place(), ErrorCode::malformed, excerpt(token) + " stands where 'facet' is expected; correct it");
+        fail_at(words.place(), ErrorCode::malformed, excerpt(word) + " stands where 'facet' is expected; correct it");
       }
       read_facet(words, table, corners, builder);
     }
@@ -167,26 +175,41 @@ TriangleMesh read_ascii(std::string_view bytes, const std::string& file) {
   return builder.take();
 }
 
+// Without a byte order mark, leading blanks, and what some programs append.
+std::string_view text_of(std::string_view bytes) {
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  const auto begin = bytes.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return {};
+  const auto end = bytes.find_last_not_of(std::string_view("\0\x1a", 2));
+  return bytes.substr(begin, end + 1 - begin);
+}
+
 }  // namespace
 
-// Binary is told by its size: many a binary file begins with the word "solid" too.
+// Binary is told by its size: many a binary file begins with the word "solid" too. What is longer and no text is binary with something appended.
 TriangleMesh read_stl(std::string_view bytes, const std::string& file) {
   const bool has_header = bytes.size() >= header_size;
   const std::uint64_t count = has_header ? little_endian_word(bytes, header_size - 4) : 0;
-  if (has_header && bytes.size() == header_size + facet_size * count) return read_binary(bytes, file);
-  const auto text = bytes.substr(
-      bytes.find_first_not_of(" \t\r\n") == std::string_view::npos ? bytes.size() : bytes.find_first_not_of(" \t\r\n"));
+  const std::uint64_t needed = header_size + facet_size * count;
+  if (has_header && bytes.size() == needed) return read_binary(bytes, file);
+  const auto text = text_of(bytes);
   const bool is_text =
-      text.size() >= 5 && lower_case(text.substr(0, 5)) == "solid" && bytes.find('\0') == std::string_view::npos;
-  if (is_text) return read_ascii(bytes, file);
+      text.size() >= 5 && lower_case(text.substr(0, 5)) == "solid" && text.find('\0') == std::string_view::npos;
+  if (is_text)
+    return read_ascii(bytes.substr(0, static_cast<std::size_t>(text.data() + text.size() - bytes.data())), file);
   if (!has_header) {
     fail_in(file, ErrorCode::malformed,
             "neither ascii STL (no 'solid') nor binary STL (below 84 bytes); export it again");
   }
+  if (count > 0 && bytes.size() > needed) {
+    warn(fmt::format("{}: {} bytes after the last of the {} triangles were left out", file, bytes.size() - needed,
+                     count));
+    return read_binary(bytes, file);
+  }
   fail_in(file, ErrorCode::malformed,
           fmt::format("as binary STL its {} triangles need {} bytes, but the file has {}; it is truncated or no STL, "
                       "export it again",
-                      count, header_size + facet_size * count, bytes.size()));
+                      count, needed, bytes.size()));
 }
 
 }  // namespace clues::scene

@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadPvs{"Word", "a.txt", "1\none\n", ErrorCode::malformed, ":2"},
         BadPvs{"Negative", "a.txt", "-1\n", ErrorCode::malformed, ":1"},
         BadPvs{"Decimal", "a.txt", "1.0\n", ErrorCode::malformed, ":1"},
-        BadPvs{"TwoIds", "a.txt", "# c\n1 2\n", ErrorCode::malformed, ":2"},
+        BadPvs{"TwoIdsAndAWord", "a.txt", "# c\n1 2 x\n", ErrorCode::malformed, ":2"},
         BadPvs{"TooLarge", "a.txt", "9\n10\n", ErrorCode::index_out_of_range, ":2"},
         BadPvs{"MuchTooLarge", "a.txt", "99999999999999999999999\n", ErrorCode::index_out_of_range, ":1"},
         BadPvs{"EmptyJson", "a.json", "", ErrorCode::malformed, ":1"},

@@ -152,7 +152,8 @@ TEST(VectorReader, FieldsThatAreThereTwiceAreFound) {
   std::string text = suite.text("screens.json");
   text.insert(text.find("\"topic\""), "\"topic\": \"screens\", ");
   EXPECT_THAT(message_of([&] { parse_vector_file(text, "screens.json"); }), HasSubstr("\"topic\" is there twice"));
-  EXPECT_THAT(message_of([&] { parse_vector_file("{", "screens.json"); }), HasSubstr("screens.json: not JSON"));
+  EXPECT_THAT(message_of([&] { parse_vector_file("{", "screens.json"); }),
+              HasSubstr("screens.json:1: this is not JSON"));
 }
 
 TEST(VectorReader, TheSuiteMustAgreeWithItsIndex) {

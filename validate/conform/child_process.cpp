@@ -1,12 +1,10 @@
-// fork, exec, poll. Between fork and exec the child only makes system calls: other threads may have held any lock.
+// Pipes and poll. Deadlines hold whatever the program does: they are asked also while there is always something to read.
 #include "validate/conform/child_process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -18,6 +16,8 @@
 #include <system_error>
 
 #include "scene/error.h"
+#include "scene/printable.h"
+#include "validate/conform/keeper.h"
 
 namespace clues::validate {
 namespace {
@@ -29,13 +29,22 @@ constexpr std::size_t most_unasked = 1 << 20;  // read while it has not even bee
   throw std::system_error(errno, std::generic_category(), std::string("cannot start a program: ") + what);
 }
 
+// Where the caller has closed a standard stream, a pipe must not take its number.
+int beyond_standard(int descriptor) {
+  if (descriptor > STDERR_FILENO) return descriptor;
+  const int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  close(descriptor);
+  if (moved < 0) fail_here("pipe");
+  return moved;
+}
+
 struct Pipe {
   int read = -1, write = -1;
   Pipe() {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail_here("pipe");
-    read = ends[0];
-    write = ends[1];
+    read = beyond_standard(ends[0]);
+    write = beyond_standard(ends[1]);
   }
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
@@ -70,34 +79,6 @@ class NoSigpipe {
   sigset_t sigpipe_{}, before_{};
 };
 
-struct Wiring {
-  int in, out, err, failure;
-};
-
-[[noreturn]] void become(char* const* words, const Wiring& wiring, std::uint64_t memory_bytes) {
-  setpgid(0, 0);
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  struct sigaction usual {};
-  usual.sa_handler = SIG_DFL;
-  sigaction(SIGPIPE, &usual, nullptr);
-  sigset_t none;
-  sigemptyset(&none);
-  sigprocmask(SIG_SETMASK, &none, nullptr);
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
-  if (memory_bytes > 0) {
-    const rlimit memory{memory_bytes, memory_bytes};
-    setrlimit(RLIMIT_AS, &memory);
-  }
-  if (dup2(wiring.in, STDIN_FILENO) >= 0 && dup2(wiring.out, STDOUT_FILENO) >= 0 &&
-      dup2(wiring.err, STDERR_FILENO) >= 0) {
-    execvp(words[0], words);
-  }
-  const int error = errno;
-  if (write(wiring.failure, &error, sizeof error) < 0) _exit(126);
-  _exit(127);
-}
-
 int milliseconds_until(ChildProcess::Clock::time_point deadline) {
   const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - ChildProcess::Clock::now()).count();
   return static_cast<int>(std::clamp<std::chrono::milliseconds::rep>(left, 0, 3600 * 1000));
@@ -126,30 +107,35 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, std::uint64_t 
   std::vector<char*> raw;
   for (auto& word : copies) raw.push_back(word.data());
   raw.push_back(nullptr);
-  Pipe in, out, err, failure;
-  pid_ = fork();
-  if (pid_ < 0) fail_here("fork");
-  if (pid_ == 0) become(raw.data(), {in.read, out.write, err.write, failure.write}, memory_bytes);
-  setpgid(pid_, pid_);  // whichever of the two comes first
-  close_end(failure.write);
+  Pipe in, out, err, failure, leash, report;
+  adopt_orphans();
+  keeper_ = fork_known();
+  if (keeper_ < 0) fail_here("fork");
+  if (keeper_ == 0)
+    keep(raw.data(), {in.read, out.write, err.write, failure.write, leash.read, report.write}, memory_bytes);
+  for (int* end : {&failure.write, &leash.read, &report.write}) close_end(*end);
+  leash_ = Pipe::take(leash.write);
+  report_ = Pipe::take(report.read);
+  keeper_fd_ = static_cast<int>(syscall(SYS_pidfd_open, keeper_, 0));
+  if (keeper_fd_ < 0) {
+    const int kept = errno;
+    close_end(leash_);
+    forget_known(keeper_);
+    waitpid(keeper_, nullptr, 0);
+    errno = kept;
+    fail_here("pidfd_open (Linux 5.3 or later)");
+  }
   int error = 0;
   ssize_t got = 0;
   do got = read(failure.read, &error, sizeof error);
   while (got < 0 && errno == EINTR);
   if (got == static_cast<ssize_t>(sizeof error)) {
-    waitpid(pid_, nullptr, 0);
+    reap(true);
+    close_all();
     throw scene::Error(scene::ErrorCode::bad_argument,
                        words[0] + ": " +
                            (error == ENOENT ? "command not found" : std::generic_category().message(error)) +
                            "; give the path of a program that can be executed");
-  }
-  pid_fd_ = static_cast<int>(syscall(SYS_pidfd_open, pid_, 0));
-  if (pid_fd_ < 0) {
-    const int kept = errno;
-    kill(-pid_, SIGKILL);
-    waitpid(pid_, nullptr, 0);
-    errno = kept;
-    fail_here("pidfd_open (Linux 5.3 or later)");
   }
   in_ = Pipe::take(in.write);
   out_ = Pipe::take(out.read);
@@ -158,26 +144,28 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, std::uint64_t 
 }
 
 ChildProcess::~ChildProcess() {
-  if (pid_ > 0) reap(true);
+  if (keeper_ > 0) reap(true);
   close_all();
 }
 
 void ChildProcess::close_all() {
-  for (int* descriptor : {&in_, &out_, &err_, &pid_fd_}) close_end(*descriptor);
+  for (int* descriptor : {&in_, &out_, &err_, &keeper_fd_, &leash_, &report_}) close_end(*descriptor);
+}
+
+void ChildProcess::read_errors() {
+  read_some(err_, errors_);
+  if (errors_.size() > 2 * kept_errors) errors_.erase(0, errors_.size() - kept_errors);
 }
 
 // Waits for something to happen on the pipes, and does what can be done. False: the deadline is over.
 bool ChildProcess::pump(Clock::time_point deadline, std::size_t most_bytes) {
-  std::array<pollfd, 3> polled{{{out_, POLLIN, 0}, {err_, POLLIN, 0}, {in_, POLLOUT, 0}}};
+  std::array<pollfd, 4> polled{{{out_, POLLIN, 0}, {err_, POLLIN, 0}, {in_, POLLOUT, 0}, {keeper_fd_, POLLIN, 0}}};
   if (to_write_.empty()) polled[2].fd = -1;
   if (read_.size() > most_bytes) polled[0].fd = -1;  // it floods us; let it wait
   const int ready = poll(polled.data(), polled.size(), milliseconds_until(deadline));
   if (ready < 0) return errno == EINTR;
   if (ready == 0) return Clock::now() < deadline;
-  if (polled[1].revents != 0) {
-    read_some(err_, errors_);
-    if (errors_.size() > 2 * kept_errors) errors_.erase(0, errors_.size() - kept_errors);
-  }
+  if (polled[1].revents != 0) read_errors();
   if (polled[2].revents != 0) {
     const NoSigpipe guard;
     const auto written = write(in_, to_write_.data(), to_write_.size());
@@ -187,7 +175,11 @@ bool ChildProcess::pump(Clock::time_point deadline, std::size_t most_bytes) {
       close_end(in_);
     }
   }
-  if (polled[0].revents != 0) read_some(out_, read_);
+  if (polled[0].revents != 0) {
+    read_some(out_, read_);
+  } else if (polled[3].revents != 0 && polled[0].fd >= 0) {
+    close_end(out_);  // its keeper has ended: this is not the program that was started
+  }
   return true;
 }
 
@@ -195,7 +187,7 @@ ChildProcess::Io ChildProcess::write_line(std::string_view line, Clock::time_poi
   to_write_.append(line).push_back('\n');
   while (!to_write_.empty()) {
     if (in_ < 0) return Io::closed;
-    if (!pump(deadline, most_unasked)) return Io::late;
+    if (Clock::now() >= deadline || !pump(deadline, most_unasked)) return Io::late;
   }
   return Io::ok;
 }
@@ -214,63 +206,73 @@ ChildProcess::Io ChildProcess::read_line(std::string& line, Clock::time_point de
       read_.clear();
       return Io::closed;
     }
-    if (!pump(deadline, most_bytes)) return Io::late;
+    if (Clock::now() >= deadline || !pump(deadline, most_bytes)) return Io::late;
   }
 }
 
 ChildProcess::End ChildProcess::finish(Clock::time_point deadline) {
-  if (pid_ <= 0) return end_;
+  if (keeper_ <= 0) return end_;
   close_end(in_);
   to_write_.clear();
   bool ended = false;
-  while (!ended) {
-    std::array<pollfd, 3> polled{{{pid_fd_, POLLIN, 0}, {out_, POLLIN, 0}, {err_, POLLIN, 0}}};
-    const int ready = poll(polled.data(), polled.size(), milliseconds_until(deadline));
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready == 0 && Clock::now() < deadline) continue;
-    if (ready <= 0) break;
+  for (bool late = false; !ended && !late;) {
+    late = Clock::now() >= deadline;  // one last look, then
+    std::array<pollfd, 3> polled{{{keeper_fd_, POLLIN, 0}, {out_, POLLIN, 0}, {err_, POLLIN, 0}}};
+    const int ready = poll(polled.data(), polled.size(), late ? 0 : milliseconds_until(deadline));
+    if (ready <= 0) continue;
     std::string ignored;
     if (polled[1].revents != 0) read_some(out_, ignored);
-    if (polled[2].revents != 0) read_some(err_, errors_);
-    if (errors_.size() > 2 * kept_errors) errors_.erase(0, errors_.size() - kept_errors);
+    if (polled[2].revents != 0) read_errors();
     ended = polled[0].revents != 0;
   }
   reap(!ended);
-  // Its last words may still be in the pipe; whoever else holds the other end is dead now.
-  for (std::size_t before = errors_.size() + 1; err_ >= 0 && errors_.size() != before;) {
+  // Its last words may still be in the pipe, which holds no more than this.
+  constexpr int most_reads = 64;
+  std::size_t before = errors_.size() + 1;
+  for (int i = 0; i < most_reads && err_ >= 0 && errors_.size() != before; ++i) {
     before = errors_.size();
-    read_some(err_, errors_);
+    read_errors();
   }
   close_all();
   return end_;
 }
 
 void ChildProcess::reap(bool killed_here) {
-  kill(-pid_, SIGKILL);
-  if (killed_here) kill(pid_, SIGKILL);  // it may have left its group
-  int status = 0;
-  rusage usage{};
-  while (wait4(pid_, &status, 0, &usage) < 0 && errno == EINTR) continue;
+  constexpr int patience_ms = 10000;
+  close_end(leash_);
+  kill(keeper_, SIGCONT);  // the program may have stopped it
+  pollfd ended{keeper_fd_, POLLIN, 0};
+  if (poll(&ended, 1, patience_ms) == 0) kill(keeper_, SIGKILL);
+  KeeperReport report;
+  ssize_t got = 0;
+  forget_known(keeper_);  // before its number can belong to another
+  while (waitpid(keeper_, nullptr, 0) < 0 && errno == EINTR) continue;
+  keeper_ = -1;
+  fcntl(report_, F_SETFL, O_NONBLOCK);
+  do got = read(report_, &report, sizeof report);
+  while (got < 0 && errno == EINTR);
   end_.killed_here = killed_here;
+  if (got != static_cast<ssize_t>(sizeof report)) {
+    end_.killed_keeper = true;
+    kill_orphans();
+    return;
+  }
+  const int status = report.status;
   end_.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   end_.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  end_.peak_memory_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-  pid_ = -1;
+  end_.peak_memory_bytes = static_cast<std::uint64_t>(report.usage.ru_maxrss) * 1024;
 }
 
 std::string ChildProcess::stderr_tail() const {
   constexpr std::size_t shown = 800;
   std::string tail = errors_.size() > shown ? errors_.substr(errors_.size() - shown) : errors_;
   while (!tail.empty() && (tail.back() == '\n' || tail.back() == '\r')) tail.pop_back();
-  for (char& c : tail) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte < 0x20 && c != '\n' && c != '\t') || byte >= 0x7f) c = '?';
-  }
-  return tail;
+  return scene::printable_lines(tail);
 }
 
 std::string describe(const ChildProcess::End& end) {
   if (end.killed_here) return "did not end in time and was killed";
+  if (end.killed_keeper) return "killed the process that watches it";
   if (end.signal == 0) return fmt::format("ended with exit status {}", end.exit_code);
   return fmt::format("was killed by signal {} ({})", end.signal, strsignal(end.signal));
 }

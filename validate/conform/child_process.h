@@ -1,5 +1,5 @@
 // A program that is not trusted, at the other end of three pipes: it may crash, hang, flood its outputs or eat memory, and none of
-// that reaches the caller. It runs in a process group of its own, which is killed as a whole; it dies with the caller.
+// that reaches the caller. A keeper (keeper.h) stands between: when the program ends, or is killed, or the caller ends, all that it started is killed.
 #pragma once
 
 #include <sys/types.h>
@@ -20,8 +20,9 @@ class ChildProcess {
 
   // How it ended. All zero while it runs.
   struct End {
-    bool killed_here = false;  // it still ran at the deadline
-    int exit_code = -1;        // or -1: by a signal
+    bool killed_here = false;    // it still ran at the deadline
+    bool killed_keeper = false;  // and with it all that is known of its end
+    int exit_code = -1;          // or -1: by a signal
     int signal = 0;
     std::uint64_t peak_memory_bytes = 0;  // resident
   };
@@ -40,7 +41,7 @@ class ChildProcess {
   // end of a line. `too_long`: more than `most_bytes`.
   Io read_line(std::string& line, Clock::time_point deadline, std::size_t most_bytes);
 
-  // Closes its input, waits for its end, and kills it (and its group, in any case) at the deadline.
+  // Closes its input, waits for its end, and kills it at the deadline; what it started, in any case.
   End finish(Clock::time_point deadline);
 
   // Whether it wrote something that no read_line has taken.
@@ -51,11 +52,13 @@ class ChildProcess {
 
  private:
   bool pump(Clock::time_point deadline, std::size_t most_bytes);
+  void read_errors();
   void reap(bool killed_here);
   void close_all();
 
-  pid_t pid_ = -1;
-  int pid_fd_ = -1, in_ = -1, out_ = -1, err_ = -1;  // `in_` is the child's input
+  pid_t keeper_ = -1;
+  int keeper_fd_ = -1, leash_ = -1, report_ = -1;
+  int in_ = -1, out_ = -1, err_ = -1;  // of the program; `in_` is its input
   std::string to_write_, read_, errors_;
   End end_;
 };

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/error.h"
-#include "scene/formats/file_bytes.h"
+#include "scene/json_reader.h"
 
 namespace clues::validate {
 namespace {
@@ -39,9 +39,7 @@ bool is_address(const std::string& text) {
 }  // namespace
 
 ExpectedFailures read_expected_failures(const std::filesystem::path& file, const std::vector<VectorCase>& suite) {
-  const auto bytes = scene::read_file_bytes(file);
-  const auto json = Json::parse(bytes.begin(), bytes.end(), nullptr, false);
-  if (json.is_discarded()) fail(file, "this is not JSON; correct it");
+  const Json json = scene::read_json_file(file);
   if (!json.is_object() || json.size() != 2 || !json.contains("format") || !json.contains("cases") ||
       !json["cases"].is_array()) {
     fail(file, "not an object with just \"format\" and the list \"cases\"");

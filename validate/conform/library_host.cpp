@@ -26,6 +26,9 @@ Function load(const std::filesystem::path& library) {
   if (!std::filesystem::exists(library, ignored)) {
     throw Error(ErrorCode::file_not_found, library.string() + ": no such file; give the path of a shared library");
   }
+  if (!std::filesystem::is_regular_file(library, ignored)) {  // dlopen would wait for a pipe
+    throw Error(ErrorCode::bad_argument, library.string() + ": is no regular file; give the path of a shared library");
+  }
   // By its absolute path: dlopen would look for a bare name elsewhere. Never unloaded.
   void* const handle = dlopen(std::filesystem::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) {

@@ -1,5 +1,6 @@
-// One conversation is one process. A line that does not answer the question just put may be left over from the question before it: then the
-// same question, put to a fresh process, gets a proper answer, and the earlier one was answered twice.
+// One conversation is one process. A line that does not answer the question just put may be left over from the question before it, and a crash
+// may have come of it: then the same question, put to a fresh process, gets a proper answer, and the earlier one is to blame. What the last question
+// leaves behind shows after 'stop'.
 #include "validate/conform/program_subject.h"
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "scene/error.h"
 #include "validate/conform/child_process.h"
@@ -19,6 +21,7 @@ using Clock = ChildProcess::Clock;
 using Io = ChildProcess::Io;
 
 constexpr std::chrono::milliseconds least_time_to_start{10000};
+constexpr const char* surplus = "more than one line in reply to one 'run'";
 
 // FNV-1a: the same number for the same case in every run, and hardly ever the number of its neighbour.
 std::uint32_t sequence_number(const std::string& id) {
@@ -80,8 +83,8 @@ class Conversation {
     auto io = child_.write_line(run_request(seq, test), deadline);
     // So busy writing that it does not read: what it says is no answer to this.
     if (io == Io::late && child_.has_unread_output()) io = Io::too_long;
-    if (io == Io::ok || io == Io::closed)
-      io = child_.read_line(line, deadline, longest_reply(test.mesh.triangles.size()));
+    if (io == Io::closed) return failed(io, Clock::now());  // it did not even read the question
+    if (io == Io::ok) io = child_.read_line(line, deadline, longest_reply(test.mesh.triangles.size()));
     if (io != Io::ok) return failed(io, deadline);
     auto answer = parse_reply(line, seq, test.mesh.triangles.size());
     if (answer.kind == AnswerKind::malformed_output) child_.finish(Clock::now());
@@ -91,17 +94,24 @@ class Conversation {
     return answer;
   }
 
-  // Says 'stop'. True: a line came that nobody had asked for.
-  bool stop_and_find_surplus() {
+  // Says 'stop', and waits for the end. Why the last answer does not count after all, or nothing.
+  std::optional<Answer> stop() {
     const auto deadline = Clock::now() + limits_.time;
     std::string line;
-    if (child_.write_line(stop_request(), deadline) == Io::late) return false;
-    const auto io = child_.read_line(line, deadline, longest_reply(0));
-    child_.finish(io == Io::closed ? deadline : Clock::now());
-    return io == Io::ok || io == Io::too_long || (io == Io::closed && !line.empty());
+    auto io = child_.write_line(stop_request(), deadline);
+    if (io != Io::late) io = child_.read_line(line, deadline, longest_reply(0));
+    const auto end = child_.finish(io == Io::closed ? deadline : Clock::now());
+    std::optional<Answer> flaw;
+    if (io == Io::ok || io == Io::too_long || (io == Io::closed && !line.empty())) {
+      flaw = refusal(AnswerKind::malformed_output, surplus);
+    } else if (end.killed_here) {
+      flaw = refusal(AnswerKind::timeout, "answered, but did not end after 'stop'; killed");
+    } else if (end.killed_keeper || end.signal != 0 || end.exit_code != 0) {
+      flaw = refusal(AnswerKind::crash, "answered, and after 'stop' " + describe(end));
+    }
+    if (flaw) flaw->stderr_tail = child_.stderr_tail();
+    return flaw;
   }
-
-  std::string stderr_tail() const { return child_.stderr_tail(); }
 
  private:
   Answer failed(Io io, Clock::time_point deadline) {
@@ -113,11 +123,16 @@ class Conversation {
       child_.finish(Clock::now());
       answer = refusal(AnswerKind::timeout, "no answer in time; killed");
     } else {
-      const auto end = child_.finish(deadline);
-      const auto kind = end.killed_here                                                      ? AnswerKind::timeout
-                        : ran_out_of_memory(end, child_.stderr_tail(), limits_.memory_bytes) ? AnswerKind::resource
-                                                                                             : AnswerKind::crash;
-      answer = refusal(kind, (end.killed_here ? "closed its output, " : "") + describe(end));
+      const bool waits = deadline > Clock::now();
+      auto end = child_.finish(deadline);
+      if (!waits && end.signal != SIGKILL) end.killed_here = false;  // it was ending
+      if (end.killed_here) {
+        answer = waits ? refusal(AnswerKind::timeout, "closed its output, " + describe(end))
+                       : refusal(AnswerKind::crash, "closed its input, and was killed");
+      } else {
+        const bool no_memory = !end.killed_keeper && ran_out_of_memory(end, child_.stderr_tail(), limits_.memory_bytes);
+        answer = refusal(no_memory ? AnswerKind::resource : AnswerKind::crash, describe(end));
+      }
     }
     answer.stderr_tail = child_.stderr_tail();
     return answer;
@@ -142,9 +157,13 @@ class Block {
   void ask(const VectorCase& test) {
     const bool is_fresh = !conversation_;
     auto answer = ask_once(test);
-    if (answer.kind == AnswerKind::malformed_output && !is_fresh) {
+    if (!is_fresh && (answer.kind == AnswerKind::malformed_output || answer.kind == AnswerKind::crash)) {
       auto second = ask_once(test);
-      if (second.kind != AnswerKind::malformed_output) blame_for_surplus(answer.stderr_tail);
+      const bool is_of_another =
+          answer.kind == AnswerKind::malformed_output
+              ? second.kind != AnswerKind::malformed_output
+              : leaves_process_usable(second.kind) || second.kind == AnswerKind::malformed_output;
+      if (is_of_another) blame_last(of_the_one_before(std::move(answer)));
       answer = std::move(second);
     }
     last_ = answers_.size();
@@ -154,7 +173,9 @@ class Block {
   const std::vector<Answer>& answers() const { return answers_; }
 
   std::vector<Answer> take() {
-    if (conversation_ && conversation_->stop_and_find_surplus()) blame_for_surplus(conversation_->stderr_tail());
+    if (conversation_) {
+      if (auto flaw = conversation_->stop()) blame_last(std::move(*flaw));
+    }
     return std::move(answers_);
   }
 
@@ -175,11 +196,15 @@ class Block {
     return answer;
   }
 
-  void blame_for_surplus(const std::string& stderr_tail) {
-    auto& answer = answers_[last_];
-    answer = refusal(AnswerKind::malformed_output, "more than one line in reply to one 'run'");
-    answer.stderr_tail = stderr_tail;
+  static Answer of_the_one_before(Answer answer) {
+    const bool crashed = answer.kind == AnswerKind::crash;
+    answer.message =
+        crashed ? "answered, and ended before the next question, which a fresh process answers: " + answer.message
+                : surplus;
+    return answer;
   }
+
+  void blame_last(Answer flaw) { answers_[last_] = std::move(flaw); }
 
   const std::vector<std::string>& words_;
   ProgramLimits limits_;
@@ -201,7 +226,7 @@ ProgramSubject::ProgramSubject(std::vector<std::string> words, const ProgramLimi
                        fmt::format("{}: no proper reply to 'start': {}{}; see docs/protocol.md", fmt::join(words_, " "),
                                    failure.message, said));
   }
-  conversation.stop_and_find_surplus();
+  conversation.stop();
 }
 
 std::vector<Answer> ProgramSubject::answer(std::span<const VectorCase* const> cases, const GoOn& go_on) const {

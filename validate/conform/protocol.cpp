@@ -8,31 +8,25 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "scene/json_reader.h"
+#include "scene/printable.h"
+
 namespace clues::validate {
 namespace {
 
 using Json = nlohmann::json;
 
-std::string excerpt(std::string_view text) {
-  constexpr std::size_t most = 80;
-  std::string out;
-  for (const char c : text.substr(0, most)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return "'" + out + (text.size() > most ? "...'" : "'");
-}
-
-// A value from outside may be nested so deep that writing it again would exhaust the stack.
-std::string shown(const Json& value) {
-  if (value.is_array()) return "a list";
-  if (value.is_object()) return "an object";
-  return value.is_string() ? excerpt(value.get_ref<const std::string&>()) : value.dump();
-}
+std::string excerpt(std::string_view text) { return fmt::format("'{}'", scene::printable(text, 80)); }
 
 Json parse_object(std::string_view line) {
   Json json;
   try {
-    json = Json::parse(line);
-  } catch (const Json::exception&) {
-    throw ProtocolError("the line " + excerpt(line) + " is not JSON");
+    json = scene::parse_json_text(line);
+  } catch (const scene::JsonError& error) {
+    const std::string_view what = error.what(), not_json = "this is not JSON";
+    throw ProtocolError("the line " + excerpt(line) +
+                        (what.starts_with(not_json) ? " is not JSON" + std::string(what.substr(not_json.size()))
+                                                    : ": " + std::string(what)));
   }
   if (!json.is_object()) throw ProtocolError("the line " + excerpt(line) + " is not a JSON object");
   return json;
@@ -69,9 +63,9 @@ bool is_index(const Json& value) {
 
 void check_protocol(const Json& object, const std::string& where) {
   const auto& version = field(object, "protocol", where);
-  if (version != protocol_version) {
-    throw ProtocolError(
-        fmt::format("{} speaks protocol {}, and this is protocol {}", where, shown(version), protocol_version));
+  if (!version.is_number_unsigned() || version != protocol_version) {
+    throw ProtocolError(fmt::format("{} speaks protocol {}, and this is protocol {}", where,
+                                    scene::json_excerpt(version), protocol_version));
   }
 }
 
@@ -80,10 +74,11 @@ std::vector<std::uint32_t> visible_ids(const Json& result, std::size_t triangles
   if (!list.is_array()) throw ProtocolError("'visible' is not a list");
   std::vector<std::uint32_t> ids;
   for (const auto& id : list) {
-    if (!id.is_number_integer()) throw ProtocolError("'visible' holds " + shown(id) + ", which is not a triangle id");
+    if (!id.is_number_integer())
+      throw ProtocolError("'visible' holds " + scene::json_excerpt(id) + ", which is not a triangle id");
     if (!is_index(id) || id.get<std::uint32_t>() >= triangles) {
-      throw ProtocolError(
-          fmt::format("'visible' holds {}, but the scene has the triangles 0 to {}", shown(id), triangles - 1));
+      throw ProtocolError(fmt::format("'visible' holds {}, but the scene has the triangles 0 to {}",
+                                      scene::json_excerpt(id), triangles - 1));
     }
     ids.push_back(id.get<std::uint32_t>());
   }
@@ -105,8 +100,8 @@ constexpr Refusal refusals[] = {{"skipped", AnswerKind::skipped},
 Answer reply_of(const Json& json, std::uint32_t seq, std::size_t triangles) {
   only_fields(json, {"seq", "result", "skipped", "rejected", "errored", "malformed"}, "the reply");
   const auto& echoed = field(json, "seq", "the reply");
-  if (echoed != seq)
-    throw ProtocolError(fmt::format("the reply has the sequence number {}, not {}", shown(echoed), seq));
+  if (!is_index(echoed) || echoed.get<std::uint32_t>() != seq)
+    throw ProtocolError(fmt::format("the reply has the sequence number {}, not {}", scene::json_excerpt(echoed), seq));
   if (json.size() != 2) {
     throw ProtocolError(
         "the reply has to hold exactly one of 'result', 'skipped', 'rejected', 'errored' and 'malformed'");
@@ -132,7 +127,7 @@ Answer reply_of(const Json& json, std::uint32_t seq, std::size_t triangles) {
 scene::Point point_of(const Json& value) {
   if (!value.is_array() || value.size() != 3 ||
       !std::all_of(value.begin(), value.end(), [](const Json& x) { return x.is_number(); })) {
-    throw ProtocolError("the point " + shown(value) + " is not three numbers");
+    throw ProtocolError("the point " + scene::json_excerpt(value) + " is not three numbers");
   }
   return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
 }
@@ -155,7 +150,7 @@ scene::TriangleMesh mesh_of(const Json& json) {
         corners.is_array() && corners.size() == 3 && std::all_of(corners.begin(), corners.end(), [&](const Json& c) {
           return is_index(c) && c.get<std::uint32_t>() < mesh.points.size();
         });
-    if (!fits) throw ProtocolError("the triangle " + shown(corners) + " is not three vertex numbers");
+    if (!fits) throw ProtocolError("the triangle " + scene::json_excerpt(corners) + " is not three vertex numbers");
     mesh.face_of.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
     mesh.triangles.push_back(
         {corners[0].get<std::uint32_t>(), corners[1].get<std::uint32_t>(), corners[2].get<std::uint32_t>()});
@@ -203,12 +198,12 @@ Implementation parse_start_reply(std::string_view line) {
   result.sheet = result.solid = false;
   for (const auto& mode : modes) {
     if (mode != "sheet" && mode != "solid")
-      throw ProtocolError("'modes' holds " + shown(mode) + "; use \"sheet\" and \"solid\"");
+      throw ProtocolError("'modes' holds " + scene::json_excerpt(mode) + "; use \"sheet\" and \"solid\"");
     (mode == "sheet" ? result.sheet : result.solid) = true;
   }
   const auto& input = field(can, "input", "'capabilities'");
   if (input != "float64" && input != "float32")
-    throw ProtocolError("'input' is " + shown(input) + "; use \"float64\" or \"float32\"");
+    throw ProtocolError("'input' is " + scene::json_excerpt(input) + "; use \"float64\" or \"float32\"");
   result.float32 = input == "float32";
   return result;
 }
@@ -238,7 +233,8 @@ Request parse_request(std::string_view line) {
     only_fields(json, {"cmd", "seq", "case"}, "the request");
     request.kind = Request::Kind::run;
     const auto& seq = field(json, "seq", "the request");
-    if (!is_index(seq)) throw ProtocolError("'seq' is " + shown(seq) + "; it is a whole number below 2^32");
+    if (!is_index(seq))
+      throw ProtocolError("'seq' is " + scene::json_excerpt(seq) + "; it is a whole number below 2^32");
     request.seq = seq.get<std::uint32_t>();
     const auto& test = field(json, "case", "the request");
     only_fields(test, {"id", "mode", "cell", "scene"}, "'case'");
@@ -248,7 +244,7 @@ Request parse_request(std::string_view line) {
     request.cell = points_of(field(test, "cell", "'case'"), "cell");
     request.mesh = mesh_of(field(test, "scene", "'case'"));
   } else {
-    throw ProtocolError("the command " + shown(cmd) + " is not one of start, run and stop");
+    throw ProtocolError("the command " + scene::json_excerpt(cmd) + " is not one of start, run and stop");
   }
   return request;
 }

@@ -7,6 +7,8 @@
 #include <cctype>
 #include <optional>
 
+#include "scene/printable.h"
+
 namespace clues::validate {
 namespace {
 
@@ -102,10 +104,13 @@ std::string describe(const Run& run, const CaseResult& result) {
   if (run.is_surprise(result)) {
     const auto& entry = *run.expectation(result);
     return fmt::format("expected to fail since {} ({}), and does not any more; take the entry out", entry.date,
-                       entry.issue);
+                       scene::printable(entry.issue));
   }
   if (!result.has_pvs()) {
-    return result.answer.message + (result.answer.issue_url.empty() ? "" : " (" + result.answer.issue_url + ")");
+    const auto& answer = result.answer;
+    constexpr std::size_t shown = 1000;
+    return scene::printable(answer.message, shown) +
+           (answer.issue_url.empty() ? "" : " (" + scene::printable(answer.issue_url, shown) + ")");
   }
   if (!result.missed.empty()) {
     return fmt::format("missed={}; {}", result.missed.size(), proof_text(*result.missed.front()));
@@ -120,9 +125,9 @@ std::string describe(const Run& run, const CaseResult& result) {
 }
 
 std::string to_text(const Run& run, const ReportContext& context, bool every_case) {
-  auto text =
-      fmt::format("implementation: {}{}{} ({})\nsuite: {}\n\n", context.about.name,
-                  context.about.version.empty() ? "" : " ", context.about.version, context.subject, context.suite);
+  auto text = fmt::format("implementation: {}{}{} ({})\nsuite: {}\n\n", scene::printable(context.about.name),
+                          context.about.version.empty() ? "" : " ", scene::printable(context.about.version),
+                          scene::printable(context.subject), scene::printable(context.suite));
   if (every_case) {
     for (const auto& result : run.results) {
       text += fmt::format("{:<16} {}{}: {}\n", to_string(result.outcome), result.test->id,

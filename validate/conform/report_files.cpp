@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "scene/printable.h"
 #include "validate/area.h"
 #include "validate/conform/report.h"
 
@@ -61,14 +62,8 @@ Json to_json(const Tally& tally) {
           {"looser_than_first_order", tally.looser}};
 }
 
-// XML 1.0 knows no other control characters, not even escaped; bytes beyond ASCII may be no UTF-8.
-std::string printable(std::string text) {
-  for (char& c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if ((byte < 0x20 && c != '\n' && c != '\t') || byte >= 0x7f) c = '?';
-  }
-  return text;
-}
+// XML 1.0 knows no control characters, not even escaped, and no bytes that are no UTF-8.
+std::string printable(const std::string& text) { return scene::printable_lines(text); }
 
 }  // namespace
 

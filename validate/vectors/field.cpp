@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "scene/error.h"
 #include "scene/formats/number.h"
+#include "scene/printable.h"
 #include "validate/vectors/words.h"
 
 namespace clues::validate {
@@ -14,28 +14,6 @@ namespace clues::validate {
 using nlohmann::json;
 using scene::Error;
 using scene::ErrorCode;
-
-// nlohmann keeps the last of two equal keys; here two are an error.
-json parse_json(std::string_view text, const std::string& file) {
-  std::vector<std::set<std::string>> open;
-  std::string twice;
-  const auto watch = [&](int, json::parse_event_t event, json& parsed) {
-    if (event == json::parse_event_t::object_start) open.emplace_back();
-    if (event == json::parse_event_t::object_end) open.pop_back();
-    if (event == json::parse_event_t::key && !open.back().insert(parsed.get<std::string>()).second) {
-      twice = parsed.get<std::string>();
-    }
-    return true;
-  };
-  try {
-    json value = json::parse(text, watch);
-    if (!twice.empty())
-      throw Error(ErrorCode::malformed, fmt::format("{}: the field \"{}\" is there twice", file, twice));
-    return value;
-  } catch (const json::exception& e) {
-    throw Error(ErrorCode::malformed, file + ": not JSON: " + e.what());
-  }
-}
 
 void Field::fail(const std::string& what) const {
   std::string text = where_->file + ": ";
@@ -53,7 +31,7 @@ const Field& Field::object(std::initializer_list<const char*> required,
   for (const auto& [key, unused] : value_->items()) {
     const auto is = [&key = key](const char* known) { return key == known; };
     if (std::none_of(required.begin(), required.end(), is) && std::none_of(optional.begin(), optional.end(), is)) {
-      fail(fmt::format("unknown field \"{}\"; the schema is closed", key));
+      fail(fmt::format("unknown field \"{}\"; the schema is closed", scene::printable(key, 80)));
     }
   }
   return *this;
@@ -86,7 +64,7 @@ std::string Field::text() const {
 
 std::string Field::text(bool (*is_kind)(std::string_view), const char* kind) const {
   std::string found = text();
-  if (!is_kind(found)) fail(fmt::format("\"{}\" is not {}", found, kind));
+  if (!is_kind(found)) fail(fmt::format("\"{}\" is not {}", scene::printable(found, 80), kind));
   return found;
 }
 
@@ -98,7 +76,7 @@ std::size_t Field::one_of(std::initializer_list<const char*> words) const {
     if (found == word) return i;
     list += fmt::format("{}\"{}\"", i++ ? ", " : "", word);
   }
-  fail(fmt::format("\"{}\" is none of {}", found, list));
+  fail(fmt::format("\"{}\" is none of {}", scene::printable(found, 80), list));
 }
 
 bool Field::flag() const {

@@ -15,9 +15,6 @@
 
 namespace clues::validate {
 
-// Throws Error malformed, also when an object has a key twice.
-nlohmann::json parse_json(std::string_view text, const std::string& file);
-
 struct Where {
   std::string file;
   std::string case_id;  // empty outside of cases

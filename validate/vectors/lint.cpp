@@ -10,6 +10,7 @@
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/formats/file_bytes.h"
+#include "scene/json_reader.h"
 #include "validate/vectors/reader.h"
 #include "validate/vectors/writer.h"
 #include "validate/workers.h"
@@ -40,7 +41,7 @@ std::string pack(const CaseAnswer& answer) {
 }
 
 CaseAnswer unpack(const std::string& text) {
-  const json value = json::parse(text);
+  const json value = scene::parse_json(text, "a process of clues lint");
   CaseAnswer answer;
   for (const auto& f : value["findings"]) answer.proofs.findings.push_back({f[0], f[1], f[2]});
   const auto& counts = value["counts"];

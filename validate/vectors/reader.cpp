@@ -9,6 +9,7 @@
 
 #include "scene/error.h"
 #include "scene/formats/file_bytes.h"
+#include "scene/json_reader.h"
 #include "validate/vectors/field.h"
 #include "validate/vectors/words.h"
 
@@ -153,7 +154,7 @@ void require_all_used(const VectorFile& file, const Field& root) {
 }  // namespace
 
 VectorFile parse_vector_file(std::string_view text, const std::string& name, bool drafts) {
-  const json value = parse_json(text, name);
+  const json value = scene::parse_json(text, name);
   Where where{name, ""};
   const Field root(value, where, "");
   root.object({"format", "topic", "definition", "source", "notes", "scenes", "cases"});
@@ -190,7 +191,7 @@ VectorFile parse_vector_file(std::string_view text, const std::string& name, boo
 }
 
 Expectation parse_expectation(std::string_view text, std::uint64_t triangles) {
-  const json value = parse_json(text, "expect");
+  const json value = scene::parse_json(text, "expect");
   const Where where{"expect", ""};
   return read_expectation(Field(value, where, ""), triangles);
 }
@@ -220,7 +221,7 @@ VectorIndex read_vector_index(const fs::path& folder) {
 }
 
 VectorIndex parse_vector_index(std::string_view text, const std::string& name) {
-  const json value = parse_json(text, name);
+  const json value = scene::parse_json(text, name);
   const Where where{name, ""};
   const Field root(value, where, "");
   root.object({"format", "active", "withdrawn", "topics", "cases"});

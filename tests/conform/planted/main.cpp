@@ -1,5 +1,5 @@
 // The planted implementations: `clues_planted MODE [ID]` speaks the protocol and is wrong in one way. With ID it misbehaves in that
-// one case only, and lists everything else. Modes that answer badly are in answers.h; the others, here, misbehave.
+// one case only, and lists everything else. Modes that answer badly are in answers.h, those that cheat in cheats.h; the others, here, misbehave.
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "answers.h"
+#include "cheats.h"
 #include "scene/error.h"
 #include "validate/conform/protocol.h"
 
@@ -125,7 +126,8 @@ int main(int argc, char** argv) {
     if (request.kind == validate::Request::Kind::stop) break;
     if (request.kind == validate::Request::Kind::start) {
       if (mode == "mute-at-start") hang();
-      say(mode == "other-protocol" ? "{\"protocol\":2}" : validate::start_reply(about));
+      const auto cheating = planted::cheating_start_reply(mode);
+      say(mode == "other-protocol" ? "{\"protocol\":2}" : !cheating.empty() ? cheating : validate::start_reply(about));
     } else if (lists_all || (!only.empty() && line.find("\"id\":\"" + only + "\"") == std::string::npos)) {
       say(reply(request.seq, planted::answer("everything-visible", request)));
     } else if (planted::is_method(mode)) {
@@ -138,9 +140,12 @@ int main(int argc, char** argv) {
         answer.message = error.what();
       }
       say(validate::run_reply(request.seq, answer));
+    } else if (planted::is_cheat(mode)) {
+      planted::cheat(mode, request);
     } else {
       misbehave(mode, request);
     }
   }
+  planted::cheat_at_the_end(mode);
   return 0;
 }
