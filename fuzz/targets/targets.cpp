@@ -91,7 +91,7 @@ bool pvs(std::string_view bytes) {
   const auto head = static_cast<unsigned char>(bytes[0]);
   const std::uint64_t triangles = head >> 1;
   return accepted([&] {
-    const auto ids = (head & 1) != 0 ? scene::parse_result_pvs(bytes.substr(1), "file", triangles)
+    const auto ids = (head & 1) != 0 ? scene::parse_result_pvs(bytes.substr(1), "file", {triangles, {}, {}, {}})
                                      : scene::parse_pvs_list(bytes.substr(1), "file", triangles);
     require(std::is_sorted(ids.begin(), ids.end()) && std::adjacent_find(ids.begin(), ids.end()) == ids.end(),
             "ids ascend and none is there twice");
