@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <set>
 #include <system_error>
 #include <utility>
@@ -11,7 +10,7 @@
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/formats/file_bytes.h"
-#include "scene/result.h"
+#include "scene/sealed_result.h"
 
 namespace clues::app {
 namespace {
@@ -40,29 +39,10 @@ bool is_cell_file(const fs::path& file) {
 std::string question_of(const std::string& request, const scene::CellSpec& cell) {
   std::string text = request + cell.name + "\n";
   for (const auto& p : cell.points) text += fmt::format("{:a} {:a} {:a}\n", p[0], p[1], p[2]);
-  return scene::sha256_of(text);
-}
-
-// What stands between the first two bytes of a result, "{\n", and its rest.
-std::string head_of(const std::string& bytes, const std::string& request, const scene::CellSpec& cell) {
-  return fmt::format("  \"answers_sha256\": \"{}\",\n  \"bytes_sha256\": \"{}\",\n", question_of(request, cell),
-                     scene::sha256_of(bytes));
+  return text;
 }
 
 }  // namespace
-
-std::string sealed_result(const std::string& bytes, const std::string& request, const scene::CellSpec& cell) {
-  return bytes.substr(0, 2) + head_of(bytes, request, cell) + bytes.substr(2);
-}
-
-std::string flaw_of_sealed(const std::string& bytes, const std::string& request, const scene::CellSpec& cell) {
-  const std::size_t size = head_of("", request, cell).size();
-  if (bytes.size() < 2 + size) return "is empty or cut short";
-  const std::string result = bytes.substr(0, 2) + bytes.substr(2 + size), head = head_of(result, request, cell);
-  const std::size_t answers = head.find('\n');
-  if (bytes.compare(2, answers, head, 0, answers) != 0) return "is no answer to what is asked here";
-  return bytes.compare(2, size, head) == 0 ? "" : "was changed or cut short after it was written";
-}
 
 CellFolder::CellFolder(fs::path folder, std::string request, const std::vector<scene::CellSpec>& cells, bool resume)
     : folder_(std::move(folder)), request_(std::move(request)) {
@@ -132,13 +112,13 @@ fs::path CellFolder::file_of(const scene::CellSpec& cell) const {
 bool CellFolder::has(const scene::CellSpec& cell) const {
   const fs::path file = file_of(cell);
   if (!is_there(file)) return false;
-  const std::string flaw = flaw_of_sealed(scene::read_file_bytes(file), request_, cell);
+  const std::string flaw = scene::flaw_of_sealed(scene::read_file_bytes(file), question_of(request_, cell));
   if (flaw.empty()) return true;
   throw Error(ErrorCode::bad_argument, file.string() + ": " + flaw + "; remove it, and it is made again");
 }
 
 void CellFolder::put(const scene::CellSpec& cell, const std::string& bytes) const {
-  scene::write_file_atomically(file_of(cell), sealed_result(bytes, request_, cell));
+  scene::write_file_atomically(file_of(cell), scene::sealed_result(bytes, question_of(request_, cell)));
 }
 
 }  // namespace clues::app

@@ -38,9 +38,4 @@ class CellFolder {
   std::unique_ptr<scene::FolderLock> lock_;
 };
 
-// The result as it is kept: two keys more at its beginning, answers_sha256 (of the request and the cell) and bytes_sha256 (of the result without them).
-std::string sealed_result(const std::string& bytes, const std::string& request, const scene::CellSpec& cell);
-// What is wrong with kept bytes as an answer to this; empty: nothing.
-std::string flaw_of_sealed(const std::string& bytes, const std::string& request, const scene::CellSpec& cell);
-
 }  // namespace clues::app

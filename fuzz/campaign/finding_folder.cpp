@@ -71,35 +71,39 @@ json parsed(const std::string& bytes, const fs::path& file) {
   throw Error(ErrorCode::malformed, file.string() + ": this is not JSON; the finding was changed after it was saved");
 }
 
-json read_about(const fs::path& folder) {
-  const fs::path file = folder / about_file;
-  if (!fs::exists(file))
-    throw Error(ErrorCode::file_not_found, file.string() + ": there is no such file; is this the folder of a finding?");
-  json about = parsed(scene::read_file_bytes(file), file);
+json about_of(const std::string& bytes, const fs::path& file) {
+  json about = parsed(bytes, file);
   const auto version = about.find("format");
   if (version == about.end() || *version != format)
     throw Error(ErrorCode::unsupported,
                 file.string() + ": not of the format " + format + "; have the campaign make it anew");
+  return about;
+}
+
+void require_sealed(json about, const fs::path& file) {
   const auto checksum = about.find("checksum");
   const json said = checksum == about.end() ? json() : *checksum;
   about.erase("checksum");
   if (said != scene::sha256_of(dumped(about)))
     throw Error(ErrorCode::malformed, file.string() + ": was changed after the finding was saved");
-  return about;
 }
 
 // Each file is read once: what is used is what was compared.
-void read_case(Finding& f, const fs::path& folder, const json& sums) {
+CaseTexts read_case(const fs::path& folder, const json& sums) {
   const auto read = [&](const char* name) {
     std::string bytes = scene::read_file_bytes(folder / name);
     if (scene::sha256_of(bytes) != sums.at(name).get<std::string>())
       throw Error(ErrorCode::malformed, (folder / name).string() + ": was changed after the finding was saved");
     return bytes;
   };
-  f.where.mesh = scene::read_off(read("scene.off"), (folder / "scene.off").string());
-  f.where.cell = scene::read_obj(read("cell.obj"), (folder / "cell.obj").string()).points;
-  const json w = parsed(read("witness.json"), folder / "witness.json");
+  return {read("scene.off"), read("cell.obj"), read("witness.json")};
+}
+
+void parse_case(Finding& f, const CaseTexts& texts, const fs::path& folder) {
+  f.where.mesh = scene::read_off(texts.scene_off, (folder / "scene.off").string());
+  f.where.cell = scene::read_obj(texts.cell_obj, (folder / "cell.obj").string()).points;
   const std::string place = (folder / "witness.json").string();
+  const json w = parsed(texts.witness_json, place);
   if (w.contains("triangle")) f.triangle = whole_number<std::uint32_t>(w, "triangle");
   if (w.contains("v") || w.contains("p") || w.contains("side")) {
     const std::string side = w.at("side").get<std::string>();
@@ -109,6 +113,44 @@ void read_case(Finding& f, const fs::path& folder, const json& sums) {
                             three_texts(w.at("p"))};
   }
   require_whole(f, place);
+}
+
+SavedFinding finding_of(const json& about, const CaseTexts& now, const CaseTexts& original, const fs::path& folder) {
+  SavedFinding saved;
+  const std::string mode = about.at("mode").get<std::string>();
+  if (mode != "sheet" && mode != "solid")
+    throw Error(ErrorCode::malformed, (folder / about_file).string() + ": the mode is neither sheet nor solid");
+  for (Finding* f : {&saved.finding, &saved.original}) {
+    about.at("oracle").get_to(f->oracle);
+    about.at("verdict").get_to(f->verdict);
+    about.at("explanation").get_to(f->explanation);
+    about.at("generator").get_to(f->where.generator);
+    f->where.seed = whole_number<std::uint64_t>(about, "seed");
+    f->where.index = whole_number<std::uint64_t>(about, "index");
+    f->where.solid = mode == "solid";
+  }
+  about.at("subject").get_to(saved.subject);
+  about.at("scenes").get_to(saved.scenes);
+  saved.steps = whole_number<std::uint64_t>(about, "shrink_steps");
+  parse_case(saved.finding, now, folder);
+  parse_case(saved.original, original, folder / "original");
+  return saved;
+}
+
+// Runs `read`; what JSON says of a field becomes an error that names the folder.
+template <class Read>
+SavedFinding with_place(const fs::path& folder, const Read& read) {
+  const auto fail = [&](const std::string& what) {
+    throw Error(ErrorCode::malformed, folder.string() + ": not the folder of a finding, or changed: " + what);
+  };
+  try {
+    return read();
+  } catch (const json::exception& problem) {
+    fail(problem.what());
+  } catch (const BadField& problem) {
+    fail(problem.what());
+  }
+  return {};
 }
 
 // A name as an argument that is no option.
@@ -194,32 +236,21 @@ SavedFinding load_finding(const fs::path& given) {
     throw Error(ErrorCode::file_not_found,
                 given.string() + ": there is no such folder (" + error.message() + "); give the folder of a finding");
   scene::finish_update(folder, all_files);
-  const json about = read_about(folder);
-  SavedFinding saved;
-  try {
-    const std::string mode = about.at("mode").get<std::string>();
-    if (mode != "sheet" && mode != "solid")
-      throw Error(ErrorCode::malformed, (folder / about_file).string() + ": the mode is neither sheet nor solid");
-    for (Finding* f : {&saved.finding, &saved.original}) {
-      about.at("oracle").get_to(f->oracle);
-      about.at("verdict").get_to(f->verdict);
-      about.at("explanation").get_to(f->explanation);
-      about.at("generator").get_to(f->where.generator);
-      f->where.seed = whole_number<std::uint64_t>(about, "seed");
-      f->where.index = whole_number<std::uint64_t>(about, "index");
-      f->where.solid = mode == "solid";
-    }
-    about.at("subject").get_to(saved.subject);
-    about.at("scenes").get_to(saved.scenes);
-    saved.steps = whole_number<std::uint64_t>(about, "shrink_steps");
-    read_case(saved.finding, folder, about.at("sha256"));
-    read_case(saved.original, folder / "original", about.at("sha256_original"));
-  } catch (const json::exception& problem) {
-    throw Error(ErrorCode::malformed, folder.string() + ": not the folder of a finding, or changed: " + problem.what());
-  } catch (const BadField& problem) {
-    throw Error(ErrorCode::malformed, folder.string() + ": not the folder of a finding, or changed: " + problem.what());
-  }
-  return saved;
+  const fs::path file = folder / about_file;
+  if (!fs::exists(file, error))
+    throw Error(ErrorCode::file_not_found, file.string() + ": there is no such file; is this the folder of a finding?");
+  const json about = about_of(scene::read_file_bytes(file), file);
+  require_sealed(about, file);
+  return with_place(folder, [&] {
+    const CaseTexts now = read_case(folder, about.at("sha256"));
+    return finding_of(about, now, read_case(folder / "original", about.at("sha256_original")), folder);
+  });
+}
+
+SavedFinding finding_of_texts(const std::string& finding_json, const CaseTexts& now, const CaseTexts& original,
+                              const fs::path& place) {
+  return with_place(place,
+                    [&] { return finding_of(about_of(finding_json, place / about_file), now, original, place); });
 }
 
 std::string picture_of(const Finding& finding) {

@@ -31,6 +31,13 @@ bool holds_a_finding(const std::filesystem::path& folder);
 // Reads both, and refuses what was changed after it was saved: scene::Error malformed, file_not_found, unsupported (another version), and as the readers.
 SavedFinding load_finding(const std::filesystem::path& folder);
 
+// What load_finding() makes of the texts of the files, once their hashes are compared; `place` is for messages.
+struct CaseTexts {
+  std::string scene_off, cell_obj, witness_json;
+};
+SavedFinding finding_of_texts(const std::string& finding_json, const CaseTexts& now, const CaseTexts& original,
+                              const std::filesystem::path& place);
+
 // The scene and the cell from above (x to the right, y up), the triangle in question and its sight line; rounded, for people.
 std::string picture_of(const Finding& finding);
 

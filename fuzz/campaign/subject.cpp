@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "fastpath/visibility/first_order.h"
@@ -173,12 +172,6 @@ std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<
   return answering(name, [pvs = std::move(pvs)](const Case& scene) {
     return Answer{pvs(scene), std::nullopt, std::nullopt};
   });
-}
-
-bool is_program(const std::string& text) {
-  constexpr std::array names{"reference",         "fast", "subdivided", "backprojected", "fast:subdivided",
-                             "fast:backprojected"};
-  return std::find(names.begin(), names.end(), text) == names.end() && !text.starts_with("reference:");
 }
 
 std::unique_ptr<Subject> make_subject(const std::string& text) {
