@@ -17,7 +17,7 @@
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/mesh_io.h"
-#include "scene/printable.h"
+#include "scene/percent.h"
 #include "scene/result.h"
 #include "validate/judge_report.h"
 

@@ -8,7 +8,7 @@
 #include "reference/visibility/bounds.h"
 #include "reference/visibility/omega.h"
 #include "reference/visibility/traversal/overlap.h"
-#include "scene/printable.h"
+#include "scene/percent.h"
 
 namespace clues::app {
 namespace {

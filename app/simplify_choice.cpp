@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scene/error.h"
-#include "scene/printable.h"
+#include "scene/percent.h"
 
 namespace clues::app {
 

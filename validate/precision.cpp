@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/visibility/backprojection.h"
-#include "scene/printable.h"
+#include "scene/percent.h"
 
 namespace clues::validate {
 

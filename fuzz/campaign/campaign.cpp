@@ -11,6 +11,7 @@
 #include "fuzz/campaign/oracle.h"
 #include "scene/error.h"
 #include "scene/printable.h"
+#include "scene/shell_word.h"
 #include "validate/workers.h"
 
 namespace clues::fuzz {

@@ -13,8 +13,8 @@
 #include "scene/formats/file_bytes.h"
 #include "scene/formats/readers.h"
 #include "scene/mesh_io.h"
-#include "scene/printable.h"
 #include "scene/result.h"
+#include "scene/shell_word.h"
 
 namespace clues::fuzz {
 namespace {

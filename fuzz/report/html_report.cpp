@@ -15,6 +15,7 @@
 #include "scene/formats/file_bytes.h"
 #include "scene/mesh_io.h"
 #include "scene/printable.h"
+#include "scene/shell_word.h"
 #include "validate/vectors/reader.h"
 
 namespace clues::fuzz {

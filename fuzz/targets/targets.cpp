@@ -153,7 +153,7 @@ bool protocol(std::string_view bytes) {
     } catch (const ProtocolError&) {
     }
     constexpr std::size_t triangles = 12;
-    const Answer answer = parse_reply(line, 1, triangles);
+    const validate::Answer answer = parse_reply(line, 1, triangles);
     require(answer.visible.empty() || answer.visible.back() < triangles, "every id is a triangle");
     if (answer.kind == AnswerKind::visible) {
       any = true;
