@@ -145,7 +145,8 @@ void require_apart(const std::vector<const std::string*>& outputs, const std::ve
   namespace fs = std::filesystem;
   const auto same = [](const std::string& a, const std::string& b) {
     std::error_code no_a, no_b, ignored;
-    const fs::path one = fs::weakly_canonical(a, no_a), other = fs::weakly_canonical(b, no_b);
+    const fs::path one = fs::weakly_canonical(fs::absolute(a), no_a),
+                   other = fs::weakly_canonical(fs::absolute(b), no_b);
     return (!no_a && !no_b && one == other) || fs::equivalent(a, b, ignored);  // the latter: hard links
   };
   for (std::size_t i = 0; i < outputs.size(); ++i) {

@@ -1,6 +1,8 @@
 // Findings as JSON: what the store keeps and what workers send.
 #include "fuzz/campaign/finding.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -105,7 +107,7 @@ void require_whole(const Finding& f, const std::string& place) {
   };
   const auto& mesh = f.where.mesh;
   require(is_about_a_triangle(f.verdict) || is_about_the_answer(f.verdict),
-          "'" + scene::printable(f.verdict, 40) + "' is no verdict of the fuzzer");
+          fmt::format("'{}' is no verdict of the fuzzer", scene::printable(f.verdict, 40)));
   require(!mesh.triangles.empty() && !f.where.cell.empty(), "the scene has no triangle, or the cell no point");
   require(finite(mesh.points) && finite(f.where.cell), "a coordinate is not finite");
   for (const auto& t : mesh.triangles)
@@ -118,7 +120,7 @@ void require_whole(const Finding& f, const std::string& place) {
   require(f.triangle && f.witness->triangle == *f.triangle, "the sight line ends on another triangle");
   for (const auto* point : {&f.witness->v, &f.witness->p})
     for (const auto& x : *point)
-      require(validate::is_rational(x), "'" + scene::printable(x, 40) + "' is no fraction in lowest terms");
+      require(validate::is_rational(x), fmt::format("'{}' is no fraction in lowest terms", scene::printable(x, 40)));
 }
 
 std::string to_json_text(const Finding& finding) { return dumped(to_json(finding)); }
