@@ -51,6 +51,7 @@ class Stage {
   Run run(const std::filesystem::path& folder, const std::string& fault, double kill_after) const;
   int settle(const std::filesystem::path& folder) const;
   std::string flaw_of(const std::filesystem::path& folder, bool done) const;
+  bool names_a_path(const std::string& message) const;
 
   const Scenario& scenario_;
   std::filesystem::path place_;
