@@ -28,7 +28,8 @@ int run_check(const CheckRequest& request) {
   const auto mesh = scene::read_mesh(request.scene);
   const auto spec = scene::parse_cell(request.cell);
   const auto cell = exact::ConvexCell::from_doubles(spec.points);
-  const auto pvs = scene::read_pvs(request.pvs, mesh.triangles.size());
+  const auto pvs = scene::read_pvs(
+      request.pvs, {mesh.triangles.size(), scene::sha256_of_file(request.scene), request.method.mode, spec.points});
 
   validate::Judgement judgement;
   validate::Surroundings around{request.scene, spec.points, {}, {}, {}};

@@ -129,6 +129,7 @@ int run_conform(const ConformRequest& request) {
   for (const auto& file : {request.json, request.junit}) {
     if (!file.empty()) require_writable_parent(file);
   }
+  require_apart({&request.json, &request.junit}, {&request.expect_failures, &request.implementation});
   const auto selection = selection_of(request);
   const auto folder = find_suite(request.suite);
   const auto suite = validate::read_suite(folder);

@@ -17,6 +17,7 @@
 #include "scene/atomic_file.h"
 #include "scene/error.h"
 #include "scene/mesh_io.h"
+#include "scene/percent.h"
 #include "scene/result.h"
 #include "validate/judge_report.h"
 
@@ -42,10 +43,10 @@ void print_map(const reference::VisibilityMap& map, double seconds) {
   const auto census = take_census(map);
   const auto& s = map.statistics;
   fmt::print(
-      "  {} triangles: {} wholly visible, {} partly visible, {} hidden ({:.1f} % of the area that faces the cell is "
+      "  {} triangles: {} wholly visible, {} partly visible, {} hidden ({} % of the area that faces the cell is "
       "seen)\n",
       map.complex.input_triangles, census.wholly, census.partly, census.hidden,
-      census.area_facing_estimate > 0 ? 100 * census.area_visible_estimate / census.area_facing_estimate : 0);
+      scene::percent(census.area_visible_estimate, census.area_facing_estimate, 1));
   fmt::print(
       "  {} wedges (SV-ME {}, SE-ME {}, SE-MV {}), {} compound vertices, {} regions, {} conservative fallbacks; {:.1f} "
       "s\n",

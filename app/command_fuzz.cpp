@@ -18,6 +18,7 @@
 #include "fuzz/campaign/oracle.h"
 #include "fuzz/campaign/promote.h"
 #include "scene/error.h"
+#include "scene/printable.h"
 
 namespace clues::app {
 namespace {
@@ -76,27 +77,38 @@ int run_fuzz(FuzzRequest& request) {
 
 struct FolderRequest {
   std::string folder, subject, suite, id;
+  bool run_subject = false;
   std::uint64_t steps = fuzz::ShrinkLimits{}.steps, seconds = 60;
 };
 
+// The user's, or the finding's. A command line that a file names is shown, and run only where the user asked for that.
 std::unique_ptr<fuzz::Subject> subject_of(const FolderRequest& request, const fuzz::SavedFinding& saved) {
-  return fuzz::make_subject(request.subject.empty() ? saved.subject : request.subject);
+  if (!request.subject.empty()) return fuzz::make_subject(request.subject);
+  if (fuzz::is_program(saved.subject)) {
+    const std::string command = scene::printable(saved.subject);
+    if (!request.run_subject)
+      throw Error(ErrorCode::bad_argument, request.folder +
+                                               ": the finding is about the program that runs as: " + command +
+                                               "; read that line, then give --run-subject to run it, or --subject");
+    std::fprintf(stderr, "clues: running the subject of the finding: %s\n", command.c_str());
+  }
+  return fuzz::make_subject(saved.subject);
 }
 
 int run_replay(const FolderRequest& request) {
   const auto saved = fuzz::load_finding(request.folder);
+  const auto subject = subject_of(request, saved);
   if (!request.suite.empty()) {
     fuzz::promote(saved.finding, request.id, request.suite);
-    std::printf("%s: has the case %s now, with proofs\n", request.suite.c_str(), request.id.c_str());
+    std::printf("%s: has the case %s now, with proofs\n", scene::printable(request.suite).c_str(), request.id.c_str());
   }
-  const auto subject = subject_of(request, saved);
   const std::string flaw = fuzz::flaw_of(saved.finding, *subject);
   if (!flaw.empty()) {
-    std::printf("not reproduced: %s\n", flaw.c_str());
+    std::printf("not reproduced: %s\n", scene::printable(flaw).c_str());
     return fine;
   }
-  std::printf("reproduced: %s, %zu triangles\n  %s\n", saved.finding.signature().c_str(),
-              saved.finding.where.mesh.triangles.size(), saved.finding.explanation.c_str());
+  std::printf("reproduced: %s, %zu triangles\n  %s\n", scene::printable(saved.finding.signature()).c_str(),
+              saved.finding.where.mesh.triangles.size(), scene::printable(saved.finding.explanation).c_str());
   return findings;
 }
 
@@ -164,6 +176,11 @@ void add_subject(CLI::App& command, std::string& subject, const char* help) {
   command.add_option("--subject", subject, help)->type_name("SUBJECT");
 }
 
+void add_run_subject(CLI::App& command, bool& run_subject) {
+  command.add_flag("--run-subject", run_subject,
+                   "Run the command line that the finding names. Read it first: it runs with your rights");
+}
+
 }  // namespace
 
 void add_fuzz_commands(CLI::App& program, int& status) {
@@ -203,6 +220,7 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   auto* replay = program.add_subcommand("replay", "Verify a finding of clues fuzz");
   replay->add_option("FINDING", folder->folder, "Its folder")->required();
   add_subject(*replay, folder->subject, "Ask this subject instead of the one that the finding names");
+  add_run_subject(*replay, folder->run_subject);
   auto* suite = replay
                     ->add_option("--promote", folder->suite,
                                  "Also add the scene to the conformance suite in this folder, as a case of found.json")
@@ -214,19 +232,24 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   replay->footer(
       "DESCRIPTION\n"
       "  Refuses files that were changed after they were saved; checks the witness exactly; asks the subject again.\n"
+      "  A subject that is a program runs only with --run-subject, or as you name it with --subject.\n"
       "  With --promote, what is visible and hidden in the new case is proved as `clues lint` does; where that fails\n"
       "  the suite stays as it was.\n"
       "\nEXAMPLES\n"
       "  clues replay fuzz-out/sight-lines-hidden-visible-axis_boxes\n"
+      "  clues replay received-finding --subject './bake {scene} {cell} -o {pvs}'\n"
       "  clues replay fuzz-out/sight-lines-hidden-visible-axis_boxes --promote vectors --id gap-beside-a-box\n"
       "\nEXIT CODES\n"
       "  0 the subject no longer fails   1 reproduced   2 bad usage or input, or the finding was changed");
   replay->callback([folder, &status] { status = run_replay(*folder); });
 
   auto* shrink = program.add_subcommand("shrink", "Make a finding of clues fuzz smaller");
-  shrink->add_option("FINDING", folder->folder, "Its folder; it is written again, with the original as it was")
+  shrink
+      ->add_option("FINDING", folder->folder,
+                   "Its folder; our files in it are written again, with the original as it was")
       ->required();
   add_subject(*shrink, folder->subject, "Ask this subject instead of the one that the finding names");
+  add_run_subject(*shrink, folder->run_subject);
   shrink->add_option("--max-steps", folder->steps, "Scenes put to the subject at most (default 600)")->type_name("N");
   shrink->add_option("--time", folder->seconds, "Seconds at most (default 60)")->type_name("T");
   shrink->footer(

@@ -45,7 +45,7 @@ nlohmann::json json_of(const std::optional<double>& x) { return x ? nlohmann::js
 
 // Everything that the results depend on.
 std::string request_text(const MapRequest& request, const std::string& sha256) {
-  return nlohmann::json{{"format", "clues-cells/1"},
+  return nlohmann::json{{"format", "clues-cells/2"},
                         {"scene_sha256", sha256},
                         {"cells", request.cells},
                         {"mode", request.method.mode},
@@ -86,10 +86,10 @@ void map_many(const CellMapper& mapper, const std::vector<scene::CellSpec>& cell
 // With a folder to write to: results go there as they are finished, and what is there already is not made again.
 std::vector<MappedCell> map_into_folder(const CellMapper& mapper, const std::string& sha256,
                                         const std::vector<scene::CellSpec>& cells, const MapRequest& request) {
-  const CellFolder folder(request.out, request_text(request, sha256), request.resume);
+  const CellFolder folder(request.out, request_text(request, sha256), cells, request.resume);
   std::vector<std::size_t> wanted;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (!folder.has(cells[i].name)) wanted.push_back(i);
+    if (!folder.has(cells[i])) wanted.push_back(i);
   }
   std::vector<MappedCell> mapped(cells.size());
   std::size_t kept = cells.size() - wanted.size();
@@ -98,7 +98,7 @@ std::vector<MappedCell> map_into_folder(const CellMapper& mapper, const std::str
   }
   try {
     map_many(mapper, cells, wanted, request.method.threads, [&](std::size_t i, MappedCell&& cell) {
-      folder.put(cell.name, cell.bytes);
+      folder.put(cells[i], cell.bytes);
       ++kept;
       mapped[i].summary = std::move(cell.summary);
     });
@@ -174,9 +174,13 @@ int run_map(MapRequest request) {
     if (many) throw Error(ErrorCode::bad_argument, "--overlap-graph is for one cell; use --cell");
     require_writable_parent(request.overlap_graph);
   }
-  const auto mesh = scene::read_mesh(request.scene);
-  const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
+  require_apart({&request.out, &request.umbra.file, &request.overlap_graph},
+                {&request.scene, &request.cell, &request.cells});
   const std::string sha256 = scene::sha256_of_file(request.scene);
+  const auto mesh = scene::read_mesh(request.scene);
+  if (scene::sha256_of_file(request.scene) != sha256)
+    throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
+  const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
   const auto mapper =
       request.method.kernel == "fast" ? fast_mapper(mesh, sha256, request) : exact_mapper(mesh, sha256, request);
   const auto mapped = map_cells(*mapper, sha256, cells, request);

@@ -30,6 +30,7 @@ int run_precision(const PrecisionRequest& request) {
   for (const std::string* path : {&request.out, &request.svg}) {
     if (!path->empty()) require_writable_parent(*path);
   }
+  require_apart({&request.out, &request.svg}, {&request.scene, &request.cell});
   const auto mesh = scene::read_mesh(request.scene);
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
   reference::Bounds bounds(mesh, cell, options);

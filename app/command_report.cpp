@@ -6,8 +6,11 @@
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "app/html_report.h"
+#include "fuzz/report/html_report.h"
 #include "scene/atomic_file.h"
+#include "scene/error.h"
+#include "scene/formats/file_bytes.h"
+#include "scene/printable.h"
 
 namespace clues::app {
 namespace {
@@ -16,19 +19,32 @@ struct ReportRequest {
   std::string folder, out;
 };
 
+// What is replaced without being named must be a page of ours; -o may name anything but a result.
+void require_free(const std::filesystem::path& out, bool named) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(out, ignored)) return;
+  if (named && out.extension() == ".json")
+    throw scene::Error(scene::ErrorCode::bad_argument, out.string() + ": a page is no JSON; name it *.html");
+  if (!named && !scene::read_file_bytes(out).starts_with(fuzz::html_begin))
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       out.string() + ": is no page of clues; move it away, or name another file with -o");
+}
+
 int run_report(const ReportRequest& request) {
-  const auto sections = read_results(request.folder);
+  const auto sections = fuzz::read_results(request.folder);
   if (sections.empty()) {
     std::fprintf(stderr,
                  "clues: %s: no results of `clues check --json`, `clues conform --json` or `clues fuzz` in it\n",
-                 request.folder.c_str());
+                 scene::printable(request.folder).c_str());
     return not_everything_ran;
   }
   const std::filesystem::path out =
       request.out.empty() ? std::filesystem::path(request.folder) / "report.html" : std::filesystem::path(request.out);
   require_writable_parent(out);
-  scene::write_file_atomically(out, to_html(sections));
-  std::printf("%zu result%s in %s\n", sections.size(), sections.size() == 1 ? "" : "s", out.c_str());
+  require_free(out, !request.out.empty());
+  scene::write_file_atomically(out, fuzz::to_html(sections));
+  std::printf("%zu result%s in %s\n", sections.size(), sections.size() == 1 ? "" : "s",
+              scene::printable(out.string()).c_str());
   return fine;
 }
 

@@ -148,6 +148,27 @@ void require_writable_parent(const std::filesystem::path& path) {
   }
 }
 
+void require_apart(const std::vector<const std::string*>& outputs, const std::vector<const std::string*>& inputs) {
+  namespace fs = std::filesystem;
+  const auto same = [](const std::string& a, const std::string& b) {
+    std::error_code no_a, no_b, ignored;
+    const fs::path one = fs::weakly_canonical(fs::absolute(a), no_a),
+                   other = fs::weakly_canonical(fs::absolute(b), no_b);
+    return (!no_a && !no_b && one == other) || fs::equivalent(a, b, ignored);  // the latter: hard links
+  };
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    if (outputs[i]->empty()) continue;
+    for (const std::string* input : inputs) {
+      if (!input->empty() && same(*outputs[i], *input))
+        throw Error(ErrorCode::bad_argument, *outputs[i] + ": is read by this command too; name another output");
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!outputs[j]->empty() && same(*outputs[i], *outputs[j]))
+        throw Error(ErrorCode::bad_argument, *outputs[i] + ": two outputs would go to this file; name two");
+    }
+  }
+}
+
 bool make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   const bool made = std::filesystem::create_directory(folder, error);

@@ -48,6 +48,9 @@ void print(const std::string& text);
 // Throws Error file_unwritable now, and not after an hour, when a file could not be made at `path`.
 void require_writable_parent(const std::filesystem::path& path);
 
+// Throws Error bad_argument when an output is one of the inputs, or another output, under whatever name. Empty names, and what is no file, are passed over.
+void require_apart(const std::vector<const std::string*>& outputs, const std::vector<const std::string*>& inputs);
+
 // Makes the folder where it does not exist (its parent must); throws Error file_unwritable. Returns whether it was made.
 bool make_folder(const std::filesystem::path& folder);
 

@@ -8,15 +8,15 @@
 #include "reference/visibility/bounds.h"
 #include "reference/visibility/omega.h"
 #include "reference/visibility/traversal/overlap.h"
+#include "scene/percent.h"
 
 namespace clues::app {
 namespace {
 
 std::string table_line(const std::string& name, const reference::VisibilityMap& map) {
   const auto census = take_census(map);
-  const double share =
-      census.area_facing_estimate > 0 ? 100 * census.area_visible_estimate / census.area_facing_estimate : 0;
-  return fmt::format("{:>9}  {:>6}  {:>6}  {:>6}  {:>10.2f} %  {:>9}  {}\n", map.complex.input_triangles, census.wholly,
+  const std::string share = scene::percent(census.area_visible_estimate, census.area_facing_estimate, 2);
+  return fmt::format("{:>9}  {:>6}  {:>6}  {:>6}  {:>10} %  {:>9}  {}\n", map.complex.input_triangles, census.wholly,
                      census.partly, census.hidden, share, map.statistics.conservative_fallbacks, name);
 }
 

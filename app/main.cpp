@@ -1,5 +1,9 @@
 // The program `clues`: parses the command line, hands over to one subcommand, and turns what is thrown into exit codes.
+#include <gmp.h>
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
@@ -28,14 +32,47 @@ EXIT CODES
 
 `clues COMMAND --help` explains each command.)";
 
+// Messages quote names and files: one line, without anything that a terminal would obey.
 int fail(const std::string& message, int code) {
   std::fprintf(stderr, "clues: error: %s\n", scene::printable(message).c_str());
   return code;
 }
 
+// GMP would abort, and an exception must not pass through its frames. Files are written as a whole or not at all, so leaving at once is safe.
+[[noreturn]] void leave_without_memory() {
+  constexpr char message[] = "clues: error: out of memory\n";
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, message, sizeof message - 1);
+  ::_exit(clues::app::not_everything_ran);
+}
+
+void* allocate_or_leave(std::size_t size) {
+  void* memory = std::malloc(size);
+  return memory ? memory : (leave_without_memory(), nullptr);
+}
+
+void* reallocate_or_leave(void* old, std::size_t, std::size_t size) {
+  void* memory = std::realloc(old, size);
+  return memory ? memory : (leave_without_memory(), nullptr);
+}
+
+void release(void* memory, std::size_t) { std::free(memory); }
+
+// Where memory ends within something that may not throw.
+[[noreturn]] void on_terminate() {
+  try {
+    if (const auto problem = std::current_exception()) std::rethrow_exception(problem);
+  } catch (const std::bad_alloc&) {
+    leave_without_memory();
+  } catch (...) {
+  }
+  std::abort();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::set_terminate(on_terminate);
+  mp_set_memory_functions(allocate_or_leave, reallocate_or_leave, release);
   scene::warning_listener() = [](const std::string& warning) {
     std::fprintf(stderr, "clues: warning: %s\n", scene::printable(warning).c_str());
   };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/error.h"
+#include "scene/percent.h"
 
 namespace clues::app {
 
@@ -68,12 +69,13 @@ scene::Simplification record_of(const reference::SimplifiedMap& simplified, cons
 }
 
 std::string summary_of(const reference::SimplifiedMap& simplified, const scene::Simplification& s) {
-  const double before = simplified.before.hidden_area;
-  const double kept = before > 0 ? 100 * simplified.after.hidden_area / before : 100;
+  const std::string kept = simplified.before.hidden_area > 0
+                               ? scene::percent(simplified.after.hidden_area, simplified.before.hidden_area, 2)
+                               : "100.00";
   const std::string corners =
       s.intersect_planes ? fmt::format("inside corners by planes {} of {}, ", s.by_planes, s.inside_corners) : "";
   return fmt::format(
-      "simplified: {}boundary segments {} -> {}, hidden area {:.6g} -> {:.6g} ({:.2f} %), occlusion regions {} -> {}, "
+      "simplified: {}boundary segments {} -> {}, hidden area {:.6g} -> {:.6g} ({} %), occlusion regions {} -> {}, "
       "visible triangles {} -> {}\n",
       corners, s.before.boundary_segments, s.after.boundary_segments, s.before.hidden_area, s.after.hidden_area, kept,
       s.before.occlusion_regions, s.after.occlusion_regions, s.before.visible_triangles, s.after.visible_triangles);

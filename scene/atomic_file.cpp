@@ -86,10 +86,23 @@ void flush_folder(const fs::path& folder) {
 
 }  // namespace
 
+bool is_temporary_name(std::string_view name) {
+  constexpr std::string_view before = ".clues-", after = ".tmp";
+  if (name.size() <= before.size() + after.size() || !name.starts_with(before) || !name.ends_with(after)) return false;
+  name = name.substr(before.size(), name.size() - before.size() - after.size());
+  return name.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 void write_file_atomically(const fs::path& path, std::string_view bytes) {
   std::error_code ignored;
   // A link stays a link: what it points to is replaced.
-  const auto target = fs::is_symlink(path, ignored) && fs::exists(path, ignored) ? fs::canonical(path) : path;
+  if (fs::is_symlink(path, ignored) && !fs::exists(path, ignored)) {
+    throw Error(ErrorCode::file_unwritable,
+                path.string() + ": is a link to what is not there; remove it, or name another file");
+  }
+  std::error_code failed;
+  const auto target = fs::is_symlink(path, ignored) ? fs::canonical(path, failed) : path;
+  if (failed) fail(path, "cannot follow this link", failed.value());
   const auto type = fs::status(target, ignored).type();
   if (type == fs::file_type::directory) fail(path, "cannot write", EISDIR);
   // A rename would replace the device itself.

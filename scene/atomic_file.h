@@ -10,4 +10,7 @@ namespace clues::scene {
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
+// Whether a program that was killed may have left a file of this name (without folder) behind.
+bool is_temporary_name(std::string_view name);
+
 }  // namespace clues::scene

@@ -77,16 +77,27 @@ struct Result {
 // Keys sorted, two-space indent, trailing newline; the same Result gives the same bytes.
 std::string to_json_text(const Result& result);
 
+// What is asked about. A result says what it answers; where it says something else it is refused. What is empty here, or
+// not said there, is not compared.
+struct Asked {
+  std::uint64_t triangles = 0;
+  std::string scene_sha256, mode;
+  std::vector<Point> cell;  // in any order
+};
+
 // A PVS from a result file (*.json) or a plain list (ids with blanks or ends of lines between them, '#' comments).
-// Sorted and unique. Throws Error: file errors, malformed (file and line), index_out_of_range when an id is
+// Sorted and unique. Throws Error: file errors, malformed (file and line; a result of another scene, cell or mode),
+// index_out_of_range when an id is
 // >= triangles.
+std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, const Asked& asked);
 std::vector<std::uint32_t> read_pvs(const std::filesystem::path& path, std::uint64_t triangles);
 // The same from bytes; `file` is for messages only.
 std::vector<std::uint32_t> parse_pvs_list(std::string_view bytes, const std::string& file, std::uint64_t triangles);
-std::vector<std::uint32_t> parse_result_pvs(std::string_view bytes, const std::string& file, std::uint64_t triangles);
+std::vector<std::uint32_t> parse_result_pvs(std::string_view bytes, const std::string& file, const Asked& asked);
 std::string to_pvs_text(const std::vector<std::uint32_t>& visible);
 
-// Lower-case hex SHA-256 of a file's bytes.
+// Lower-case hex SHA-256 of a file's bytes, and of bytes.
 std::string sha256_of_file(const std::filesystem::path& path);
+std::string sha256_of(std::string_view bytes);
 
 }  // namespace clues::scene

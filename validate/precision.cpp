@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/visibility/backprojection.h"
+#include "scene/percent.h"
 
 namespace clues::validate {
 
@@ -47,10 +48,10 @@ std::string to_table(const PrecisionReport& report) {
   std::string text =
       "depth  cells   maps  backprojections  viewpoints       witnessed         refined          excess  of facing\n";
   for (const DepthFigures& d : report.depths) {
-    const double share = d.area.facing > 0 ? 100 * d.area.excess() / d.area.facing : 0;
+    const std::string share = scene::percent(d.area.excess(), d.area.facing, 3);
     text +=
-        fmt::format("{:>5}  {:>5}  {:>5}  {:>15}  {:>10}  {:>14.6g}  {:>14.6g}  {:>14.6g}  {:>7.3f} %\n", d.depth,
-                    d.cells, d.maps, d.backprojections, d.viewpoints, report.range.area_moved_back(d.area.lower),
+        fmt::format("{:>5}  {:>5}  {:>5}  {:>15}  {:>10}  {:>14.6g}  {:>14.6g}  {:>14.6g}  {:>7} %\n", d.depth, d.cells,
+                    d.maps, d.backprojections, d.viewpoints, report.range.area_moved_back(d.area.lower),
                     report.range.area_moved_back(d.area.upper), report.range.area_moved_back(d.area.excess()), share);
   }
   const auto decided =

@@ -13,6 +13,7 @@
 #include "scene/error.h"
 #include "scene/json_reader.h"
 #include "scene/printable.h"
+#include "scene/shell_word.h"
 #include "validate/workers.h"
 
 namespace clues::fuzz {
@@ -49,6 +50,7 @@ class Campaign {
     for (const auto& f : store_.findings()) signatures_.insert(f.finding.signature());
     run_cases();
     CampaignSummary summary;
+    summary.subject = subject_.name();
     summary.seconds_now = std::chrono::duration<double>(Clock::now() - begin).count();
     if (!stopped()) save_findings();
     summary.interrupted = stopped();
@@ -65,7 +67,7 @@ class Campaign {
   static const fs::path& made(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
-    if (error || !fs::is_directory(folder))
+    if (error || !fs::is_directory(folder, error))
       throw scene::Error(scene::ErrorCode::file_unwritable, folder.string() + ": cannot make this folder");
     return folder;
   }
@@ -128,7 +130,8 @@ class Campaign {
   // Shrinks, verifies and saves what has no folder yet.
   void save_findings() {
     std::vector<StoredFinding> open = store_.findings();
-    std::erase_if(open, [](const StoredFinding& f) { return f.folder.has_value(); });
+    // A folder that was taken away, or lost in a copy, is made again.
+    std::erase_if(open, [&](const StoredFinding& f) { return f.folder && holds_a_finding(options_.out / *f.folder); });
     if (open.empty()) return;
     validate::Workers workers(
         options_.jobs, [&](std::uint64_t i) { return shrunk_text(open[i].finding); },
@@ -162,9 +165,21 @@ class Campaign {
       const auto flaw = in.at("flaw").get<std::string>();
       if (!flaw.empty()) store_.contradict(stored.finding.signature() + ": does not replay: " + flaw);
     }
-    const std::string name = folder_name(stored.finding);
+    const std::string name = free_name(stored);
     save_finding(saved, options_.out / name);
     store_.saved(stored.id, name);
+  }
+
+  // Where something of this name lies that we did not make, or that is of another finding, a number is added.
+  std::string free_name(const StoredFinding& stored) const {
+    const std::string name = folder_name(stored.finding);
+    const auto all = store_.findings();
+    for (int i = 1;; ++i) {
+      std::string numbered = i == 1 ? name : fmt::format("{}-{}", name, i);
+      const bool taken = std::any_of(all.begin(), all.end(),
+                                     [&](const StoredFinding& f) { return f.id != stored.id && f.folder == numbered; });
+      if (!taken && is_free_for_a_finding(options_.out / numbered)) return numbered;
+    }
   }
 
   // Anti-vacuity: what a campaign with these generators and oracles must have met.
@@ -211,19 +226,21 @@ CampaignSummary run_campaign(const CampaignOptions& options, const Subject& subj
 std::string to_text(const CampaignSummary& s, const fs::path& out) {
   std::string text;
   for (const auto& f : s.findings) {
-    text += fmt::format("FINDING {} (case {}: {} {} of seed {}; {} times)\n  {}\n", f.finding.signature(),
-                        f.case_number, f.finding.where.generator, f.finding.where.index, f.finding.where.seed,
-                        f.occurrences, scene::printable(f.finding.explanation));
+    text +=
+        fmt::format("FINDING {} (case {}: {} {} of seed {}; {} times)\n  {}\n", scene::printable(f.finding.signature()),
+                    f.case_number, scene::printable(f.finding.where.generator), f.finding.where.index,
+                    f.finding.where.seed, f.occurrences, scene::printable(f.finding.explanation));
     if (const auto& w = f.finding.witness) {
       text += fmt::format("  triangle {} ({} side), witness ({}, {}, {}) - ({}, {}, {})\n", w->triangle,
                           w->front ? "front" : "back", w->v[0], w->v[1], w->v[2], w->p[0], w->p[1], w->p[2]);
     }
-    text += f.folder ? fmt::format("  repeat: clues replay {}\n", (out / *f.folder).string())
+    text += f.folder ? fmt::format("  repeat: clues replay {}{}\n", scene::shell_word((out / *f.folder).string()),
+                                   is_program(s.subject) ? " --run-subject" : "")
                      : "  not shrunk yet: run the same command again\n";
   }
   for (const auto& c : s.contradictions) text += "CONTRADICTION " + scene::printable(c) + "\n";
-  for (const auto& [name, value] : s.counters) text += fmt::format("{:>14}  {}\n", value, name);
-  for (const auto& name : s.never_occurred) text += "NEVER OCCURRED: " + name + "\n";
+  for (const auto& [name, value] : s.counters) text += fmt::format("{:>14}  {}\n", value, scene::printable(name));
+  for (const auto& name : s.never_occurred) text += "NEVER OCCURRED: " + scene::printable(name) + "\n";
   text += fmt::format("{} cases, {} of them in this run; {} different findings{}\n", s.cases, s.cases_now,
                       s.findings.size(), s.interrupted ? "; interrupted: the same command goes on" : "");
   if (!s.never_occurred.empty())

@@ -35,6 +35,7 @@ struct CampaignOptions {
 };
 
 struct CampaignSummary {
+  std::string subject;
   std::uint64_t cases = 0, cases_now = 0;  // in all; in this run
   double seconds_now = 0;
   bool interrupted = false;

@@ -79,6 +79,13 @@ Case with_dials(Case scene, bool of_engines) {
   return scene;
 }
 
+bool is_a_setting(const std::string& name, std::int64_t value) {
+  const auto& all = all_dials();
+  return std::any_of(all.begin(), all.end(), [&](const NamedDial& d) {
+    return d.name == name && std::find(d.values.begin(), d.values.end(), value) != d.values.end();
+  });
+}
+
 bool is_limited(const CaseDials& dials) {
   return std::any_of(all_dials().begin(), all_dials().end(),
                      [&](const NamedDial& d) { return d.limits && dials.contains(d.name); });

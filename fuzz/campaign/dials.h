@@ -25,7 +25,8 @@ const std::vector<NamedDial>& all_dials();
 // it was. Dials of engines are left alone for subjects that do not take them. A scene is scaled and moved only where no coordinate rounds.
 Case with_dials(Case scene, bool of_engines);
 
-bool is_limited(const CaseDials& dials);  // some dial is turned that limits
+bool is_a_setting(const std::string& name, std::int64_t value);  // of a dial that there is
+bool is_limited(const CaseDials& dials);                         // some dial is turned that limits
 
 exact::Dials map_dials(const CaseDials& dials);
 exact::ProcessDials process_dials(const CaseDials& dials);

@@ -1,11 +1,20 @@
 // Findings as JSON: what the store keeps and what workers send.
 #include "fuzz/campaign/finding.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
+#include "fuzz/campaign/dials.h"
+#include "fuzz/campaign/json_fields.h"
 #include "scene/error.h"
 #include "scene/json_reader.h"
+#include "scene/printable.h"
+#include "validate/vectors/words.h"
 
 namespace clues::fuzz {
 namespace {
@@ -32,42 +41,30 @@ json to_json(const Finding& f) {
   return out;
 }
 
-std::uint32_t id_of(const json& value) {
-  return static_cast<std::uint32_t>(
-      scene::whole_number(value, "\"triangle\"", std::numeric_limits<std::uint32_t>::max()));
-}
-
-scene::Triangle triangle_of(const json& corners, std::size_t points) {
-  if (corners.size() != 3) throw scene::JsonError(0, "a triangle has not three corners");
-  scene::Triangle triangle{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (points == 0) throw scene::JsonError(0, "a triangle without points");
-    triangle[i] =
-        static_cast<std::uint32_t>(scene::whole_number(corners.at(i), "the corner of a triangle", points - 1));
-  }
-  return triangle;
-}
-
 Finding to_finding(const json& in) {
   Finding f;
   in.at("oracle").get_to(f.oracle);
   in.at("verdict").get_to(f.verdict);
   in.at("generator").get_to(f.where.generator);
-  f.where.seed = scene::whole_number(in.at("seed"), "\"seed\"");
-  f.where.index = scene::whole_number(in.at("index"), "\"index\"");
-  in.at("points").get_to(f.where.mesh.points);
-  for (const json& t : in.at("triangles")) f.where.mesh.triangles.push_back(triangle_of(t, f.where.mesh.points.size()));
-  in.at("cell").get_to(f.where.cell);
+  f.where.seed = whole_number<std::uint64_t>(in, "seed");
+  f.where.index = whole_number<std::uint64_t>(in, "index");
+  for (const char* name : {"points", "cell"}) {
+    auto& points = std::string_view(name) == "cell" ? f.where.cell : f.where.mesh.points;
+    for (const json& p : in.at(name)) points.push_back(three<double>(p, [](const json& x) { return x.get<double>(); }));
+  }
+  for (const json& t : in.at("triangles"))
+    f.where.mesh.triangles.push_back(three<std::uint32_t>(t, [](const json& x) { return whole<std::uint32_t>(x); }));
   in.at("explanation").get_to(f.explanation);
   f.where.solid = in.value("solid", false);
-  f.where.dials = in.value("dials", CaseDials{});
-  for (std::uint32_t face = 0; face < f.where.mesh.triangles.size(); ++face) f.where.mesh.face_of.push_back(face);
-  if (in.contains("triangle")) f.triangle = id_of(in.at("triangle"));
+  f.where.dials = numbers_by_name(in, "dials");
+  for (std::uint32_t t = 0; t < f.where.mesh.triangles.size(); ++t) f.where.mesh.face_of.push_back(t);
+  if (in.contains("triangle")) f.triangle = whole_number<std::uint32_t>(in, "triangle");
   if (in.contains("witness")) {
     const json& w = in.at("witness");
-    f.witness = WitnessText{id_of(w.at("triangle")), w.at("front").get<bool>(),
-                            w.at("v").get<std::array<std::string, 3>>(), w.at("p").get<std::array<std::string, 3>>()};
+    f.witness = WitnessText{whole_number<std::uint32_t>(w, "triangle"), w.at("front").get<bool>(),
+                            three_texts(w.at("v")), three_texts(w.at("p"))};
   }
+  require_whole(f, "a finding");
   return f;
 }
 
@@ -82,23 +79,72 @@ auto parsed(const std::string& text, const Read& read) {
   }
 }
 
+// What programs say about themselves need not be UTF-8; JSON must.
+std::string dumped(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+bool rests_on_a_sight_line(const std::string& verdict) {
+  return verdict == "hidden/visible" || verdict == "hidden-region/visible";
+}
+
+bool is_about_a_triangle(const std::string& verdict) {
+  return rests_on_a_sight_line(verdict) || verdict == "hidden/meets-cell" || verdict == "hidden/first-order-visible" ||
+         verdict == "visible/first-order-hidden";
+}
+
+bool is_about_the_answer(const std::string& verdict) {
+  return verdict == "answer/other-answer" || verdict == "label/other-label" || verdict == "no-answer/answer" ||
+         verdict == "crash/answer" || verdict == "no-end/answer";
+}
+
 }  // namespace
 
-std::string to_json_text(const Finding& finding) { return to_json(finding).dump(); }
+void require_whole(const Finding& f, const std::string& place) {
+  const auto require = [&](bool holds, const std::string& what) {
+    if (!holds)
+      throw scene::Error(scene::ErrorCode::malformed,
+                         place + ": " + what + "; it was changed, or is of another version");
+  };
+  const auto finite = [](const std::vector<scene::Point>& points) {
+    return std::all_of(points.begin(), points.end(), [](const scene::Point& p) {
+      return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+    });
+  };
+  const auto& mesh = f.where.mesh;
+  require(is_about_a_triangle(f.verdict) || is_about_the_answer(f.verdict),
+          fmt::format("'{}' is no verdict of the fuzzer", scene::printable(f.verdict, 40)));
+  require(!mesh.triangles.empty() && !f.where.cell.empty(), "the scene has no triangle, or the cell no point");
+  for (const auto& [name, value] : f.where.dials)
+    require(is_a_setting(name, value),
+            fmt::format("no dial '{}' can be turned to {}", scene::printable(name, 40), value));
+  require(finite(mesh.points) && finite(f.where.cell), "a coordinate is not finite");
+  for (const auto& t : mesh.triangles)
+    require(std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) { return corner < mesh.points.size(); }),
+            "a triangle has a corner that is no point");
+  require(!f.triangle || *f.triangle < mesh.triangles.size(), "it names a triangle that the scene does not have");
+  require(f.triangle || !is_about_a_triangle(f.verdict), "the verdict is about a triangle, and none is named");
+  require(f.witness || !rests_on_a_sight_line(f.verdict), "the verdict rests on a sight line, and there is none");
+  if (!f.witness) return;
+  require(f.triangle && f.witness->triangle == *f.triangle, "the sight line ends on another triangle");
+  for (const auto* point : {&f.witness->v, &f.witness->p})
+    for (const auto& x : *point)
+      require(validate::is_rational(x), fmt::format("'{}' is no fraction in lowest terms", scene::printable(x, 40)));
+}
+
+std::string to_json_text(const Finding& finding) { return dumped(to_json(finding)); }
 
 Finding finding_from_json_text(const std::string& text) { return parsed(text, to_finding); }
 
 std::string to_json_text(const Outcome& outcome) {
   json out{{"findings", json::array()}, {"contradictions", outcome.contradictions}, {"counters", outcome.counters}};
   for (const Finding& f : outcome.findings) out["findings"].push_back(to_json(f));
-  return out.dump();
+  return dumped(out);
 }
 
 Outcome outcome_from_json_text(const std::string& text) {
   return parsed(text, [](const json& in) {
     Outcome outcome;
     in.at("contradictions").get_to(outcome.contradictions);
-    in.at("counters").get_to(outcome.counters);
+    for (const auto& [name, value] : in.at("counters").items()) outcome.counters[name] = whole<std::uint64_t>(value);
     for (const json& f : in.at("findings")) outcome.findings.push_back(to_finding(f));
     return outcome;
   });

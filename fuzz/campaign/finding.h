@@ -54,6 +54,10 @@ struct Outcome {
   Counters counters;
 };
 
+// Refuses (scene::Error malformed, "PLACE: ...") what no campaign makes: numbers of triangles and corners that the scene does not have, no cell, coordinates
+// that are no numbers, an unknown verdict, and a verdict that rests on a sight line without one.
+void require_whole(const Finding& finding, const std::string& place);
+
 // JSON, keys sorted, one line; the same value gives the same text, and back. from_json_text throws scene::Error malformed.
 std::string to_json_text(const Finding& finding);
 Finding finding_from_json_text(const std::string& text);

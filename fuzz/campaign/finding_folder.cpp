@@ -1,18 +1,21 @@
 #include "fuzz/campaign/finding_folder.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include <cctype>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "fuzz/campaign/files.h"
-#include "scene/atomic_file.h"
-#include "scene/cell_spec.h"
+#include "fuzz/campaign/json_fields.h"
+#include "fuzz/campaign/subject.h"
 #include "scene/error.h"
+#include "scene/folder_update.h"
+#include "scene/formats/file_bytes.h"
+#include "scene/formats/readers.h"
 #include "scene/json_reader.h"
 #include "scene/mesh_io.h"
 #include "scene/result.h"
+#include "scene/shell_word.h"
 
 namespace clues::fuzz {
 namespace {
@@ -22,8 +25,12 @@ using nlohmann::json;
 using scene::Error;
 using scene::ErrorCode;
 
-constexpr const char* format = "clues-finding/1";
-constexpr const char* proof_files[] = {"scene.off", "cell.obj", "witness.json"};
+constexpr const char* format = "clues-finding/2";
+constexpr const char* about_file = "finding.json";
+// All that we ever write there; finding.json, without which there is no finding, first.
+constexpr const char* all_files[] = {
+    about_file,    "scene.off",          "cell.obj",          "witness.json",          "picture.svg",
+    "command.txt", "original/scene.off", "original/cell.obj", "original/witness.json", "original/picture.svg"};
 
 json witness_json(const Finding& f) {
   json out = json::object();
@@ -36,36 +43,133 @@ json witness_json(const Finding& f) {
   return out;
 }
 
-// As one word of a shell.
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
+// Explanations may hold what a program said, in any bytes.
+std::string dumped(const json& value) { return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n"; }
+
+// finding.json vouches for itself too: "checksum" is the SHA-256 of its text without that line. It tells what was changed, not who wrote it.
+std::string sealed(json about) {
+  about["checksum"] = scene::sha256_of(dumped(about));
+  return dumped(about);
 }
 
-void write_case(const Finding& f, const fs::path& folder, json& sums) {
-  fs::create_directory(folder);
-  scene::write_file_atomically(folder / "scene.off", scene::to_off_text(f.where.mesh));
-  scene::write_file_atomically(folder / "cell.obj", points_as_obj(f.where.cell));
-  scene::write_file_atomically(folder / "witness.json", witness_json(f).dump(2) + "\n");
-  scene::write_file_atomically(folder / "picture.svg", picture_of(f));
-  for (const char* name : proof_files) sums[name] = scene::sha256_of_file(folder / name);
+void put_case(scene::FolderUpdate& update, const Finding& f, const std::string& folder, json& sums) {
+  const auto put = [&](const char* name, const std::string& bytes) {
+    update.put(folder + name, bytes);
+    sums[name] = scene::sha256_of(bytes);
+  };
+  put("scene.off", scene::to_off_text(f.where.mesh));
+  put("cell.obj", points_as_obj(f.where.cell));
+  put("witness.json", witness_json(f).dump(2) + "\n");
+  update.put(folder + "picture.svg", picture_of(f));
 }
 
-void read_case(Finding& f, const fs::path& folder, const json& sums) {
-  for (const char* name : proof_files) {
-    if (scene::sha256_of_file(folder / name) != sums.at(name).get<std::string>()) {
+json parsed(const std::string& bytes, const fs::path& file) {
+  try {
+    json value = scene::parse_json_text(bytes);
+    if (value.is_object()) return value;
+  } catch (const scene::JsonError&) {
+  }
+  throw Error(ErrorCode::malformed, file.string() + ": this is not JSON; the finding was changed after it was saved");
+}
+
+json about_of(const std::string& bytes, const fs::path& file) {
+  json about = parsed(bytes, file);
+  const auto version = about.find("format");
+  if (version == about.end() || *version != format)
+    throw Error(ErrorCode::unsupported,
+                file.string() + ": not of the format " + format + "; have the campaign make it anew");
+  return about;
+}
+
+void require_sealed(json about, const fs::path& file) {
+  const auto checksum = about.find("checksum");
+  const json said = checksum == about.end() ? json() : *checksum;
+  about.erase("checksum");
+  if (said != scene::sha256_of(dumped(about)))
+    throw Error(ErrorCode::malformed, file.string() + ": was changed after the finding was saved");
+}
+
+// Each file is read once: what is used is what was compared.
+CaseTexts read_case(const fs::path& folder, const json& sums) {
+  const auto read = [&](const char* name) {
+    std::string bytes = scene::read_file_bytes(folder / name);
+    if (scene::sha256_of(bytes) != sums.at(name).get<std::string>())
       throw Error(ErrorCode::malformed, (folder / name).string() + ": was changed after the finding was saved");
-    }
+    return bytes;
+  };
+  return {read("scene.off"), read("cell.obj"), read("witness.json")};
+}
+
+void parse_case(Finding& f, const CaseTexts& texts, const fs::path& folder) {
+  f.where.mesh = scene::read_off(texts.scene_off, (folder / "scene.off").string());
+  f.where.cell = scene::read_obj(texts.cell_obj, (folder / "cell.obj").string()).points;
+  const std::string place = (folder / "witness.json").string();
+  const json w = parsed(texts.witness_json, place);
+  if (w.contains("triangle")) f.triangle = whole_number<std::uint32_t>(w, "triangle");
+  if (w.contains("v") || w.contains("p") || w.contains("side")) {
+    const std::string side = w.at("side").get<std::string>();
+    if (side != "front" && side != "back")
+      throw Error(ErrorCode::malformed, place + ": the side is neither \"front\" nor \"back\"; it was changed");
+    f.witness = WitnessText{whole_number<std::uint32_t>(w, "triangle"), side == "front", three_texts(w.at("v")),
+                            three_texts(w.at("p"))};
   }
-  f.where.mesh = scene::read_mesh(folder / "scene.off");
-  f.where.cell = scene::parse_cell((folder / "cell.obj").string()).points;
-  const json w = scene::read_json_file(folder / "witness.json");
-  if (w.contains("triangle")) f.triangle = w.at("triangle").get<std::uint32_t>();
-  if (w.contains("v")) {
-    f.witness = WitnessText{f.triangle.value(), w.at("side") == "front", w.at("v").get<std::array<std::string, 3>>(),
-                            w.at("p").get<std::array<std::string, 3>>()};
+  require_whole(f, place);
+}
+
+SavedFinding finding_of(const json& about, const CaseTexts& now, const CaseTexts& original, const fs::path& folder) {
+  SavedFinding saved;
+  const std::string mode = about.at("mode").get<std::string>();
+  if (mode != "sheet" && mode != "solid")
+    throw Error(ErrorCode::malformed, (folder / about_file).string() + ": the mode is neither sheet nor solid");
+  for (Finding* f : {&saved.finding, &saved.original}) {
+    about.at("oracle").get_to(f->oracle);
+    about.at("verdict").get_to(f->verdict);
+    about.at("explanation").get_to(f->explanation);
+    about.at("generator").get_to(f->where.generator);
+    f->where.seed = whole_number<std::uint64_t>(about, "seed");
+    f->where.index = whole_number<std::uint64_t>(about, "index");
+    f->where.solid = mode == "solid";
   }
+  saved.finding.where.dials = numbers_by_name(about, "dials");
+  saved.original.where.dials = numbers_by_name(about, "dials_original");
+  about.at("subject").get_to(saved.subject);
+  about.at("scenes").get_to(saved.scenes);
+  saved.steps = whole_number<std::uint64_t>(about, "shrink_steps");
+  parse_case(saved.finding, now, folder);
+  parse_case(saved.original, original, folder / "original");
+  return saved;
+}
+
+// Runs `read`; what JSON says of a field becomes an error that names the folder.
+template <class Read>
+SavedFinding with_place(const fs::path& folder, const Read& read) {
+  const auto fail = [&](const std::string& what) {
+    throw Error(ErrorCode::malformed, folder.string() + ": not the folder of a finding, or changed: " + what);
+  };
+  try {
+    return read();
+  } catch (const json::exception& problem) {
+    fail(problem.what());
+  } catch (const scene::JsonError& problem) {
+    fail(problem.what());
+  }
+  return {};
+}
+
+// A name as an argument that is no option.
+std::string argument(const std::string& name) { return scene::shell_word(name.starts_with('-') ? "./" + name : name); }
+
+std::string commands(const SavedFinding& saved, const fs::path& folder) {
+  const Case& where = saved.finding.where;
+  std::string scenes;
+  for (const auto& path : saved.scenes) scenes += " --scenes " + argument(path);
+  return fmt::format(
+      "# verify this finding:\nclues replay {}{}\n# make the original again:\n"
+      "clues fuzz --subject {} --seed {} --generator {} --first {} --cases 1{}{}{} --out again\n",
+      argument(folder.filename().string()), is_program(saved.subject) ? " --run-subject" : "",
+      scene::shell_word(saved.subject), where.seed, scene::shell_word(where.generator), where.index,
+      saved.finding.oracle == "subject" ? "" : " --oracle " + scene::shell_word(saved.finding.oracle),
+      saved.original.where.dials.empty() ? " --no-dials" : "", scenes);
 }
 
 }  // namespace
@@ -78,12 +182,30 @@ std::string folder_name(const Finding& finding) {
   return name;
 }
 
-void save_finding(const SavedFinding& saved, const fs::path& folder) {
-  const fs::path part = folder.string() + ".part";
+bool holds_a_finding(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_directory(folder, ignored) &&
+         (fs::is_regular_file(fs::symlink_status(folder / about_file, ignored)) ||
+          fs::is_regular_file(fs::symlink_status(folder / ".clues-pending" / "commit", ignored)));
+}
+
+bool is_free_for_a_finding(const fs::path& folder) {
   std::error_code error;
-  fs::remove_all(part, error);
-  fs::create_directories(part, error);
-  if (error) throw Error(ErrorCode::file_unwritable, part.string() + ": cannot make this folder: " + error.message());
+  const auto status = fs::symlink_status(folder, error);
+  if (status.type() == fs::file_type::not_found) return true;
+  if (!fs::is_directory(status)) return false;
+  if (holds_a_finding(folder)) return true;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (!entry.path().filename().string().starts_with(".clues-")) return false;
+  }
+  return !error;
+}
+
+void save_finding(const SavedFinding& saved, const fs::path& folder) {
+  std::error_code error;
+  const bool made = fs::create_directory(folder, error);
+  const fs::path place = fs::canonical(folder, error);  // a link stays a link
+  if (error) throw Error(ErrorCode::file_unwritable, folder.string() + ": cannot make this folder: " + error.message());
   const Finding& f = saved.finding;
   json about{{"format", format},
              {"oracle", f.oracle},
@@ -101,49 +223,41 @@ void save_finding(const SavedFinding& saved, const fs::path& folder) {
   const CaseDials& of_original = saved.original.where.dials;  // shrinking turns some of them back
   if (!f.where.dials.empty()) about["dials"] = f.where.dials;
   if (!of_original.empty()) about["dials_original"] = of_original;
-  write_case(f, part, about["sha256"]);
-  write_case(saved.original, part / "original", about["sha256_original"]);
-  scene::write_file_atomically(part / "finding.json", about.dump(2) + "\n");
-  std::string scenes;
-  for (const auto& path : saved.scenes) scenes += " --scenes " + quoted(path);
-  scene::write_file_atomically(
-      part / "command.txt",
-      fmt::format("# verify this finding:\nclues replay {}\n# make the original again:\n"
-                  "clues fuzz --subject {} --seed {} --generator {} --first {} --cases 1{}{}{} --out again\n",
-                  folder.filename().string(), quoted(saved.subject), f.where.seed, f.where.generator, f.where.index,
-                  f.oracle == "subject" ? "" : " --oracle " + f.oracle, of_original.empty() ? " --no-dials" : "",
-                  scenes));
-  fs::remove_all(folder, error);
-  fs::rename(part, folder, error);
-  if (error) throw Error(ErrorCode::file_unwritable, folder.string() + ": cannot be made: " + error.message());
+  try {
+    scene::FolderUpdate update(place, all_files);
+    put_case(update, f, "", about["sha256"]);
+    put_case(update, saved.original, "original/", about["sha256_original"]);
+    update.put("command.txt", commands(saved, place));
+    update.put(about_file, sealed(about));
+    update.commit();
+  } catch (...) {
+    if (made) fs::remove(place, error);  // only where it is empty
+    throw;
+  }
 }
 
-SavedFinding load_finding(const fs::path& folder) {
-  const json about = scene::read_json_file(folder / "finding.json");
-  SavedFinding saved;
-  try {
-    if (about.at("format") != format)
-      throw Error(ErrorCode::unsupported, (folder / "finding.json").string() + ": not of the format " + format);
-    for (Finding* f : {&saved.finding, &saved.original}) {
-      about.at("oracle").get_to(f->oracle);
-      about.at("verdict").get_to(f->verdict);
-      about.at("explanation").get_to(f->explanation);
-      about.at("generator").get_to(f->where.generator);
-      about.at("seed").get_to(f->where.seed);
-      about.at("index").get_to(f->where.index);
-      f->where.solid = about.at("mode") == "solid";
-    }
-    saved.finding.where.dials = about.value("dials", CaseDials{});
-    saved.original.where.dials = about.value("dials_original", CaseDials{});
-    about.at("subject").get_to(saved.subject);
-    about.at("scenes").get_to(saved.scenes);
-    about.at("shrink_steps").get_to(saved.steps);
-    read_case(saved.finding, folder, about.at("sha256"));
-    read_case(saved.original, folder / "original", about.at("sha256_original"));
-  } catch (const json::exception& error) {
-    throw Error(ErrorCode::malformed, folder.string() + ": not the folder of a finding, or changed: " + error.what());
-  }
-  return saved;
+SavedFinding load_finding(const fs::path& given) {
+  std::error_code error;
+  const fs::path folder = fs::canonical(given, error);
+  if (error)
+    throw Error(ErrorCode::file_not_found,
+                given.string() + ": there is no such folder (" + error.message() + "); give the folder of a finding");
+  scene::finish_update(folder, all_files);
+  const fs::path file = folder / about_file;
+  if (!fs::exists(file, error))
+    throw Error(ErrorCode::file_not_found, file.string() + ": there is no such file; is this the folder of a finding?");
+  const json about = about_of(scene::read_file_bytes(file), file);
+  require_sealed(about, file);
+  return with_place(folder, [&] {
+    const CaseTexts now = read_case(folder, about.at("sha256"));
+    return finding_of(about, now, read_case(folder / "original", about.at("sha256_original")), folder);
+  });
+}
+
+SavedFinding finding_of_texts(const std::string& finding_json, const CaseTexts& now, const CaseTexts& original,
+                              const fs::path& place) {
+  return with_place(place,
+                    [&] { return finding_of(about_of(finding_json, place / about_file), now, original, place); });
 }
 
 std::string picture_of(const Finding& finding) {

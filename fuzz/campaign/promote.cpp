@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <optional>
 
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/folder_update.h"
 #include "scene/formats/file_bytes.h"
+#include "scene/temporary_folder.h"
 #include "validate/vectors/lint.h"
 #include "validate/vectors/reader.h"
 #include "validate/vectors/words.h"
@@ -40,38 +41,24 @@ validate::VectorFile new_file() {
   return file;
 }
 
-// The files that promotion may change, put back unless `keep` was called.
-class Restored {
- public:
-  explicit Restored(std::vector<fs::path> files) {
-    for (auto& f : files) {
-      before_.emplace_back(f, fs::exists(f) ? std::optional(scene::read_file_bytes(f)) : std::nullopt);
-    }
-  }
-  Restored(const Restored&) = delete;
-  Restored& operator=(const Restored&) = delete;
-  ~Restored() {
-    if (kept_) return;
-    for (const auto& [file, bytes] : before_) {
-      std::error_code ignored;
-      try {
-        bytes ? scene::write_file_atomically(file, *bytes) : void(fs::remove(file, ignored));
-      } catch (const Error&) {  // the first error is the one to tell
-      }
-    }
-  }
-  void keep() { kept_ = true; }
+// The suite's files, with found.json as given, in a folder where lint may write.
+void copy_suite(const fs::path& suite, const std::string& found, const fs::path& to) {
+  for (const fs::path& file : validate::vector_files(suite))
+    scene::write_file_atomically(to / file.filename(), scene::read_file_bytes(file));
+  scene::write_file_atomically(to / "index.json", scene::read_file_bytes(suite / "index.json"));
+  scene::write_file_atomically(to / "found.json", found);
+}
 
- private:
-  std::vector<std::pair<fs::path, std::optional<std::string>>> before_;
-  bool kept_ = false;
-};
+std::string bytes_or_none(const fs::path& file) { return fs::exists(file) ? scene::read_file_bytes(file) : ""; }
 
 }  // namespace
 
-void promote(const Finding& finding, const std::string& id, const fs::path& suite) {
+void promote(const Finding& finding, const std::string& id, const fs::path& given) {
   if (!validate::is_slug(id))
     throw Error(ErrorCode::bad_argument, "--id " + id + ": lower-case words joined by '-' are needed");
+  std::error_code error;
+  const fs::path suite = fs::canonical(given, error);
+  if (error) throw Error(ErrorCode::file_not_found, given.string() + ": no such folder; name the folder of a suite");
   if (validate::read_vector_index(suite).cases.contains(id))
     throw Error(ErrorCode::bad_argument, "--id " + id + ": the suite has or had a case of this id; choose another");
   const fs::path path = suite / "found.json";
@@ -87,16 +74,22 @@ void promote(const Finding& finding, const std::string& id, const fs::path& suit
   c.cell = finding.where.cell;
   file.scenes[id] = {c.mesh.points, c.mesh.triangles};
   file.cases.push_back(std::move(c));
-  Restored restored({path, suite / "index.json"});
-  scene::write_file_atomically(path, validate::to_json_text(file));
+  const std::string index_before = bytes_or_none(suite / "index.json"), found_before = bytes_or_none(path);
+  const scene::TemporaryFolder copy;
+  copy_suite(suite, validate::to_json_text(file), copy.path());
   validate::LintOptions options;
   options.glob = id;
   options.write = true;
-  const auto report = validate::lint_suite(suite, options);
+  const auto report = validate::lint_suite(copy.path(), options);
   if (!report.findings.empty())
     throw Error(ErrorCode::malformed,
                 suite.string() + ": " + id + " was not taken in: " + report.findings.front().message);
-  restored.keep();
+  scene::FolderUpdate update(suite, validate::suite_files);
+  if (bytes_or_none(suite / "index.json") != index_before || bytes_or_none(path) != found_before)
+    throw Error(ErrorCode::bad_argument,
+                suite.string() + ": was changed while the case was proved; repeat the command");
+  for (const char* name : validate::suite_files) update.put(name, scene::read_file_bytes(copy.path() / name));
+  update.commit();
 }
 
 }  // namespace clues::fuzz

@@ -1,10 +1,12 @@
 #include "fuzz/campaign/store.h"
 
+#include <fmt/format.h>
 #include <sqlite3.h>
 
 #include <functional>
 
 #include "scene/error.h"
+#include "scene/printable.h"
 
 namespace clues::fuzz {
 
@@ -19,6 +21,7 @@ constexpr const char* schema =
     "CREATE TABLE IF NOT EXISTS contradictions (id INTEGER PRIMARY KEY, text TEXT NOT NULL);"
     "CREATE TABLE IF NOT EXISTS findings (id INTEGER PRIMARY KEY, signature TEXT NOT NULL UNIQUE,"
     " case_number INTEGER NOT NULL, occurrences INTEGER NOT NULL, finding TEXT NOT NULL, folder TEXT);";
+constexpr int most_bytes = 100 << 20;  // of one finding
 
 }  // namespace
 
@@ -27,6 +30,11 @@ struct Store::Database {
   std::string file;
 
   explicit Database(const std::filesystem::path& path) : file(path.string()) {
+    // SQLite would wait for the other end of a pipe.
+    std::error_code error;
+    const auto kind = std::filesystem::status(path, error).type();
+    if (kind != std::filesystem::file_type::regular && kind != std::filesystem::file_type::not_found)
+      throw Error(ErrorCode::file_unwritable, file + ": is not a regular file; choose another folder for the campaign");
     if (sqlite3_open(file.c_str(), &handle) != SQLITE_OK) {
       const std::string why = handle ? sqlite3_errmsg(handle) : "out of memory";
       sqlite3_close(handle);
@@ -89,23 +97,37 @@ class Statement {
 }  // namespace
 
 Store::Store(const std::filesystem::path& file, const std::string& plan) : db_(std::make_unique<Database>(file)) {
+  sqlite3_limit(db_->handle, SQLITE_LIMIT_LENGTH, most_bytes);
+  sqlite3_db_config(db_->handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(db_->handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
   db_->run("PRAGMA synchronous=FULL; PRAGMA locking_mode=EXCLUSIVE; BEGIN IMMEDIATE;");
+  require_tables_only();
   db_->run(schema);
   Statement(*db_, "INSERT OR IGNORE INTO about VALUES ('plan', ?)").with(plan).next();
   db_->run("INSERT OR IGNORE INTO about VALUES ('cases done', '0'); COMMIT;");
   Statement stored(*db_, "SELECT value FROM about WHERE name = 'plan'");
   stored.next();
   if (stored.text(0) != plan) {
-    throw Error(ErrorCode::bad_argument, file.string() + ": holds another campaign (" + stored.text(0) +
+    throw Error(ErrorCode::bad_argument, file.string() + ": holds another campaign (" +
+                                             scene::printable(stored.text(0), 400) +
                                              "); continue that one, or choose another folder");
   }
+}
+
+// A store that was not made here may hold triggers and views in place of tables: statements of strangers.
+void Store::require_tables_only() const {
+  Statement others(*db_, "SELECT name FROM sqlite_master WHERE type NOT IN ('table', 'index')");
+  if (others.next())
+    throw Error(ErrorCode::malformed, db_->file + ": holds '" + scene::printable(others.text(0), 40) +
+                                          "', which clues did not make; choose another folder");
 }
 
 Store::~Store() = default;
 
 std::uint64_t Store::cases_done() const {
   Statement s(*db_, "SELECT value FROM about WHERE name = 'cases done'");
-  s.next();
+  if (!s.next() || s.number(0) < 0 || s.text(0) != std::to_string(s.number(0)))
+    throw Error(ErrorCode::malformed, db_->file + ": the number of cases that are done is none; the store was changed");
   return static_cast<std::uint64_t>(s.number(0));
 }
 
@@ -125,8 +147,13 @@ std::vector<std::string> Store::contradictions() const {
 std::vector<StoredFinding> Store::findings() const {
   std::vector<StoredFinding> out;
   for (Statement s(*db_, "SELECT id, case_number, occurrences, finding, folder FROM findings ORDER BY id"); s.next();) {
-    StoredFinding f{s.number(0), static_cast<std::uint64_t>(s.number(1)), static_cast<std::uint64_t>(s.number(2)),
-                    finding_from_json_text(s.text(3)), std::nullopt};
+    StoredFinding f{
+        s.number(0), static_cast<std::uint64_t>(s.number(1)), static_cast<std::uint64_t>(s.number(2)), {}, {}};
+    try {
+      f.finding = finding_from_json_text(s.text(3));
+    } catch (const Error& error) {
+      throw Error(error.code(), fmt::format("{}: finding {}: {}", db_->file, f.id, error.what()));
+    }
     if (!s.null(4)) f.folder = s.text(4);
     out.push_back(std::move(f));
   }

@@ -40,6 +40,8 @@ class Store {
   void contradict(const std::string& text);
 
  private:
+  void require_tables_only() const;
+
   struct Database;
   std::unique_ptr<Database> db_;
 };

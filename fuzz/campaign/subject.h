@@ -47,6 +47,9 @@ class Subject {
 // sheet or solid; without any of these words, the first three are appended. Throws scene::Error bad_argument.
 std::unique_ptr<Subject> make_subject(const std::string& text);
 
+// Whether make_subject() takes it for a command line. What a file names is not run unless the user says so.
+bool is_program(const std::string& text);
+
 // A function of this process that returns a PVS, ascending. It may throw scene::Error: then it gave no answer.
 std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<std::uint32_t>(const Case&)> pvs);
 

@@ -3,7 +3,9 @@
 campaigns found. Deterministic. Files that a fuzzer found are added by hand, under names of their own, and stay."""
 import json
 import pathlib
+import sqlite3
 import struct
+import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 SUITE = HERE.parent.parent / "vectors"
@@ -152,5 +154,75 @@ def scene_to_verdict():
         scene_bytes(corner, box, [(0, 1, 2), (0, 2, 3)], bytes([4, 1, 13, 255])))
 
 
-for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, scene_to_verdict):
+def result():
+    good = {"format": "clues-result/1", "scene": {"file": "a.off", "sha256": 64 * "a", "triangles": 12}, "mode": "sheet",
+            "cell": {"vertices": [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]}, "visible": [0, 3, 11]}
+    put("result", "whole", json.dumps(good, indent=2, sort_keys=True) + "\n")
+    put("result", "says_nothing", '{"format":"clues-result/1","visible":[]}')
+    for name, change in (("other_scene", {"scene": {"sha256": 64 * "b"}}), ("other_cell", {"cell": {"vertices": [[0, 0, 1]]}}),
+                         ("other_mode", {"mode": "solid"}), ("cell_is_none", {"cell": [1]})):
+        put("result", name, json.dumps({**good, **change}))
+
+
+FINDING = {"oracle": "sight-lines", "verdict": "hidden/visible", "explanation": "it is seen", "generator": "loose_triangles", "seed": 1, "index": 0}
+LINE = {"triangle": 0, "v": ["0", "0", "0"], "p": ["1/4", "1/4", "2"]}
+
+
+def finding():
+    about = {**FINDING, "format": "clues-finding/2", "mode": "sheet", "subject": "reference", "scenes": [], "shrink_steps": 3, "sha256": {}}
+    scene, cell = "OFF\n3 1 0\n0 0 2\n1 0 2\n0 1 2\n3 0 1 2\n", "v 0 0 0\n"
+    parts = lambda a, w: "\0".join([json.dumps(a), scene, cell, json.dumps(w)])
+    put("finding", "folder", parts(about, {**LINE, "side": "back"}))
+    put("finding", "without_a_line", parts({**about, "verdict": "no-answer/answer", "oracle": "subject"}, {}))
+    put("finding", "empty_witness", parts(about, {}))
+    put("finding", "triangle_out_of_range", parts(about, {**LINE, "side": "back", "triangle": 1}))
+    put("finding", "stored", json.dumps(stored()))
+
+
+def stored():
+    return {**FINDING, "points": [[0, 0, 2], [1, 0, 2], [0, 1, 2]], "triangles": [[0, 1, 2]], "cell": [[0, 0, 0]], "triangle": 0,
+            "witness": {**LINE, "front": False}}
+
+
+def store():
+    tables = ("CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
+              "CREATE TABLE counters (name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID",
+              "CREATE TABLE contradictions (id INTEGER PRIMARY KEY, text TEXT NOT NULL)",
+              "CREATE TABLE findings (id INTEGER PRIMARY KEY, signature TEXT NOT NULL UNIQUE, case_number INTEGER NOT NULL,"
+              " occurrences INTEGER NOT NULL, finding TEXT NOT NULL, folder TEXT)")
+    good = tables + ("INSERT INTO about VALUES ('plan', 'plan')", "INSERT INTO about VALUES ('cases done', '7')",
+                     "INSERT INTO counters VALUES ('triangles hidden', 5)",
+                     "INSERT INTO findings VALUES (1, 's', 3, 2, '%s', 'folder')" % json.dumps(stored()))
+    for name, statements in (("whole", good), ("begun", tables[:2]), ("of_another_plan", good + ("UPDATE about SET value = 'other'",)),
+                             ("trigger", good + ("CREATE TRIGGER t AFTER UPDATE ON about BEGIN DELETE FROM findings; END",)),
+                             ("finding_is_none", good + ("UPDATE findings SET finding = '{}'",))):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "store"
+            base = sqlite3.connect(file)
+            base.execute("PRAGMA page_size = 512")
+            for statement in statements:
+                base.execute(statement)
+            base.commit()
+            base.close()
+            put("store", name, file.read_bytes())
+
+
+def report():
+    none = {"overestimate_qo": None, "underestimate_qu": {"at_least": 0.0, "at_most": 0.5}}
+    end = lambda p: {"exact": p, "estimate": [0.0, 0.0, 0.0]}
+    judgement = {"format": "clues-judgement/1", "verdict": "unsound", "scene": "<b>.off", "cell": [[0.0, 0.0, 0.0]],
+                 "triangles_measured": none, "area_measured": none, "triangles": ["missing-visible", "exact"],
+                 "witnesses": [{"triangle": 0, "side": "front", "v": end(LINE["v"]), "p": end(LINE["p"])}],
+                 "chains": [{"triangle": 1, "side": "back", "links": [{"v": end(LINE["v"]), "x": end(LINE["p"])}]}]}
+    put("report", "judgement", json.dumps(judgement))
+    conformance = {"format": "clues-conformance/1", "implementation": {"name": "<script>", "version": "1"}, "subject": "s", "suite": "vectors",
+                   "repeat": "clues conform", "total": {"cases": 1, "outcomes": {"unsound": 1}, "overestimate_qo": 0.5, "underestimate_qu": None},
+                   "cases": [{"id": "a", "outcome": "unsound", "extra": [1], "missed": [{"triangle": 0, "side": "front", "v": LINE["v"], "p": LINE["p"]}]}]}
+    put("report", "conformance", json.dumps(conformance))
+    put("report", "of_others", '{"name": "package"}')
+    put("report", "cut_short", json.dumps(judgement)[:200])
+    put("report", "of_another_version", '{"format": "clues-judgement/9"}')
+
+
+for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, report, scene_to_verdict):
     make()

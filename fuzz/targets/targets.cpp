@@ -8,6 +8,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "fuzz/campaign/finding_folder.h"
+#include "fuzz/campaign/store.h"
+#include "fuzz/report/html_report.h"
+#include "scene/atomic_file.h"
 #include "scene/cell_spec.h"
 #include "scene/error.h"
 #include "scene/formats/readers.h"
@@ -15,6 +19,8 @@
 #include "scene/mesh_io.h"
 #include "scene/printable.h"
 #include "scene/result.h"
+#include "scene/sealed_result.h"
+#include "scene/temporary_folder.h"
 #include "validate/conform/protocol.h"
 #include "validate/vectors/reader.h"
 #include "validate/vectors/writer.h"
@@ -113,7 +119,7 @@ bool pvs(std::string_view bytes) {
   const auto head = static_cast<unsigned char>(bytes[0]);
   const std::uint64_t triangles = head >> 1;
   return accepted([&] {
-    const auto ids = (head & 1) != 0 ? scene::parse_result_pvs(bytes.substr(1), "file", triangles)
+    const auto ids = (head & 1) != 0 ? scene::parse_result_pvs(bytes.substr(1), "file", {triangles, {}, {}, {}})
                                      : scene::parse_pvs_list(bytes.substr(1), "file", triangles);
     require(std::is_sorted(ids.begin(), ids.end()) && std::adjacent_find(ids.begin(), ids.end()) == ids.end(),
             "ids ascend and none is there twice");
@@ -169,7 +175,7 @@ bool protocol(std::string_view bytes) {
     } catch (const ProtocolError&) {
     }
     constexpr std::size_t triangles = 12;
-    const Answer answer = parse_reply(line, 1, triangles);
+    const validate::Answer answer = parse_reply(line, 1, triangles);
     require(answer.visible.empty() || answer.visible.back() < triangles, "every id is a triangle");
     if (answer.kind == AnswerKind::visible) {
       any = true;
@@ -177,6 +183,87 @@ bool protocol(std::string_view bytes) {
     }
   }
   return any;
+}
+
+// A result file as the answer to a question that says all it can. What is kept of it is whole, and no other text is.
+bool result(std::string_view bytes) {
+  const scene::Asked asked{12, std::string(64, 'a'), "sheet", {{0, 0, 0}, {1, 0, 0}}};
+  const std::string sealed = scene::sealed_result(bytes, "question");
+  if (bytes.size() >= 2) {
+    require(scene::flaw_of_sealed(sealed, "question").empty(), "what is kept is whole");
+    require(!scene::flaw_of_sealed(sealed, "another").empty(), "it answers one question");
+    require(!scene::flaw_of_sealed(sealed.substr(0, sealed.size() - 1), "question").empty(), "a cut is seen");
+  }
+  require(!scene::flaw_of_sealed(bytes, "question").empty(), "bytes of strangers carry no hash");
+  return accepted([&] {
+    const auto ids = scene::parse_result_pvs(bytes, "file", asked);
+    require(ids.empty() || ids.back() < 12, "every id is a triangle");
+    require(scene::parse_result_pvs(bytes, "file", {12, {}, {}, {}}) == ids, "who asks less gets the same");
+  });
+}
+
+// The files of a finding, after one another with a zero byte between: finding.json, scene.off, cell.obj, witness.json. Or one finding as the store keeps it.
+bool finding(std::string_view bytes) {
+  std::vector<std::string> texts(1);
+  for (const char c : bytes) {
+    if (c == '\0') {
+      texts.emplace_back();
+    } else {
+      texts.back() += c;
+    }
+  }
+  return accepted([&] {
+    if (texts.size() != 4) {
+      const Finding f = finding_from_json_text(std::string(bytes));
+      check_mesh(f.where.mesh);
+      require(to_json_text(finding_from_json_text(to_json_text(f))) == to_json_text(f), "a finding survives");
+      return;
+    }
+    const CaseTexts texts_of_case{texts[1], texts[2], texts[3]};
+    const SavedFinding saved = finding_of_texts(texts[0], texts_of_case, texts_of_case, "folder");
+    check_mesh(saved.finding.where.mesh);
+    require(!saved.finding.where.cell.empty(), "there is a cell");
+    require(!saved.finding.triangle || *saved.finding.triangle < saved.finding.where.mesh.triangles.size(),
+            "the triangle is one of the scene");
+    require(picture_of(saved.finding).ends_with("</svg>\n"), "it can be drawn");
+    require(folder_name(saved.finding).find_first_of("/.") == std::string::npos, "its folder is below the campaign's");
+  });
+}
+
+// The database of a campaign, opened as `clues fuzz` does.
+bool store(std::string_view bytes) {
+  const scene::TemporaryFolder folder;
+  scene::write_file_atomically(folder.file("findings.sqlite"), bytes);
+  return accepted([&] {
+    Store opened(folder.file("findings.sqlite"), "plan");
+    const std::uint64_t done = opened.cases_done();
+    opened.counters();
+    opened.contradictions();
+    for (const StoredFinding& f : opened.findings()) check_mesh(f.finding.where.mesh);
+    opened.commit({Outcome{}});
+    require(opened.cases_done() == done + 1, "a case that is done is counted");
+  });
+}
+
+// A file in the folder of `clues report`: whatever it says is text on the page.
+bool report(std::string_view bytes) {
+  bool is_result = false;
+  return accepted([&] {
+           const auto section = section_of(std::string(bytes), "file.json", false);
+           is_result = section.has_value();
+           if (!section) return;
+           const std::string page = to_html({*section});
+           const std::string bare = to_html({});
+           const auto count = [](const std::string& text, const std::string& what) {
+             std::size_t n = 0;
+             for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+             return n;
+           };
+           for (const char* markup : {"<script", "<img", "<a ", "<iframe", "<style"})
+             require(count(page, markup) == count(bare, markup), "what a result says is no markup");
+           require(page.find('\x1b') == std::string::npos, "nor does it hold controls");
+         }) &&
+         is_result;
 }
 
 }  // namespace
@@ -194,6 +281,10 @@ const std::vector<Target>& all_targets() {
        }},
       {"vectors", "the reader of the conformance suite and of its index", vectors},
       {"protocol", "the JSON lines between clues conform and an implementation", protocol},
+      {"result", "a result file as an answer to a question", result},
+      {"finding", "the files of a finding, and findings as the store keeps them", finding},
+      {"store", "the database of a campaign", store},
+      {"report", "what clues report finds in a folder", report},
       {"scene_to_verdict", "a small scene, mapped by the reference and judged by oracles of the fuzzer",
        scene_to_verdict}};
   return all;

@@ -17,10 +17,10 @@ TEST(FuzzCommand, FindsAProgramThatHidesEverything) {
   EXPECT_NE(ran.out.find("FINDING sight-lines hidden/visible loose_triangles"), std::string::npos) << ran.out;
   EXPECT_EQ(ran.err.find('\r'), std::string::npos);
   const std::string finding = folder.file("out/sight-lines-hidden-visible-loose_triangles");
-  EXPECT_EQ(run_clues({"replay", finding}, folder.path()).exit_code, 1);
+  EXPECT_EQ(run_clues({"replay", finding, "--run-subject"}, folder.path()).exit_code, 1);
   EXPECT_EQ(run_clues({"replay", finding, "--subject", "reference"}, folder.path()).exit_code, 0);
-  EXPECT_EQ(run_clues({"shrink", finding, "--max-steps", "5"}, folder.path()).exit_code, 0);
-  EXPECT_EQ(run_clues({"replay", finding}, folder.path()).exit_code, 1);
+  EXPECT_EQ(run_clues({"shrink", finding, "--run-subject", "--max-steps", "5"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(run_clues({"replay", finding, "--run-subject"}, folder.path()).exit_code, 1);
   std::string moved = read_all(finding + "/scene.off");
   folder.write("out/sight-lines-hidden-visible-loose_triangles/scene.off", moved + "\n");
   const Ran tampered = run_clues({"replay", finding}, folder.path());
@@ -42,17 +42,24 @@ TEST(FuzzCommand, PromotesAFindingToACaseOfASuite) {
   ASSERT_EQ(run_clues({"lint", suite, "--write"}, folder.path()).exit_code, 0);
   const std::string finding = out + "/sight-lines-hidden-visible-loose_triangles";
   EXPECT_EQ(run_clues({"replay", finding, "--promote", suite}, folder.path()).exit_code, 2);  // no id
-  EXPECT_EQ(run_clues({"replay", finding, "--promote", suite, "--id", "No slug"}, folder.path()).exit_code, 2);
+  EXPECT_EQ(
+      run_clues({"replay", finding, "--run-subject", "--promote", suite, "--id", "No slug"}, folder.path()).exit_code,
+      2);
   EXPECT_FALSE(std::filesystem::exists(suite + "/found.json"));
-  const Ran promoted = run_clues({"replay", finding, "--promote", suite, "--id", "first-find"}, folder.path());
+  const Ran promoted =
+      run_clues({"replay", finding, "--run-subject", "--promote", suite, "--id", "first-find"}, folder.path());
   EXPECT_EQ(promoted.exit_code, 1) << promoted.err;  // reproduced
   const std::string found = read_all(suite + "/found.json"), index = read_all(suite + "/index.json");
   EXPECT_NE(found.find("\"must_be_visible\""), std::string::npos);
   EXPECT_NE(index.find("first-find"), std::string::npos);
   EXPECT_EQ(run_clues({"lint", suite}, folder.path()).exit_code, 0);
-  EXPECT_EQ(run_clues({"replay", finding, "--promote", suite, "--id", "first-find"}, folder.path()).exit_code, 2);
+  EXPECT_EQ(run_clues({"replay", finding, "--run-subject", "--promote", suite, "--id", "first-find"}, folder.path())
+                .exit_code,
+            2);
   EXPECT_EQ(read_all(suite + "/found.json"), found);
-  EXPECT_EQ(run_clues({"replay", finding, "--promote", suite, "--id", "second-find"}, folder.path()).exit_code, 1);
+  EXPECT_EQ(run_clues({"replay", finding, "--run-subject", "--promote", suite, "--id", "second-find"}, folder.path())
+                .exit_code,
+            1);
   EXPECT_EQ(run_clues({"lint", suite}, folder.path()).exit_code, 0);
 }
 

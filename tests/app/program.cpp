@@ -41,6 +41,11 @@ std::string read_all(const fs::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::string attacked_program() {
+  const char* other = std::getenv("CLUES_ATTACKED");
+  return other != nullptr ? other : CLUES_PROGRAM;
+}
+
 Ran run_clues(const std::vector<std::string>& arguments, const fs::path& folder) {
   const TestFolder outputs;
   const auto out = outputs.file("out"), err = outputs.file("err");

@@ -15,6 +15,9 @@ struct Ran {
   std::string out, err;
 };
 
+// The built program, or what CLUES_ATTACKED names.
+std::string attacked_program();
+
 // `arguments` are given to the program as they are, without a shell.
 Ran run_clues(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 

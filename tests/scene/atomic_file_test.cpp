@@ -117,6 +117,15 @@ TEST(AtomicFile, TargetsThatAreNoFile) {
   EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "sub"));
 }
 
+// A rename would put a file in the place of the link.
+TEST(AtomicFile, ALinkToNothingStays) {
+  const TestFolder folder;
+  std::filesystem::create_symlink("nothing", folder.path() / "link");
+  EXPECT_EQ(thrown_by([&] { write_file_atomically(folder.file("link"), "text"); }).code, ErrorCode::file_unwritable);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));
+  EXPECT_EQ(folder.names().size(), 1u);
+}
+
 // What a killed run left behind is neither used nor removed.
 TEST(AtomicFile, AnOldTemporaryIsNoObstacle) {
   const SceneFolder folder;

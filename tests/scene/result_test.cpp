@@ -6,6 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "scene/sealed_result.h"
 #include "tests/scene/support.h"
 
 namespace clues::tests {
@@ -195,6 +196,41 @@ INSTANTIATE_TEST_SUITE_P(
         BadPvs{"OtherScene", "a.json", head + "\"scene\": {\"triangles\": 11}, \"visible\": [1]}", ErrorCode::malformed,
                ""}),
     [](const auto& test) { return test.param.name; });
+
+// A result that says what it answers is refused as the answer to something else.
+TEST(Pvs, AResultIsOfOneQuestion) {
+  const TestFolder folder;
+  const auto path = folder.write("a.clues.json", scene::to_json_text(small_result()));
+  const scene::Asked asked{10, "00ff", "sheet", {{1, 2, 3}, {0.1, 0.0, 0x1p-1074}}};
+  EXPECT_THAT(read_pvs(path, asked), ElementsAre(1, 5, 9));
+  auto other = asked;
+  other.scene_sha256 = "00fe";
+  EXPECT_THAT(thrown_by([&] { read_pvs(path, other); }).text, HasSubstr("another scene"));
+  other = asked;
+  other.mode = "solid";
+  EXPECT_THAT(thrown_by([&] { read_pvs(path, other); }).text, HasSubstr("mode"));
+  other = asked;
+  other.cell[0][2] = 4;
+  EXPECT_THAT(thrown_by([&] { read_pvs(path, other); }).text, HasSubstr("another cell"));
+  const auto silent = folder.write("b.json", R"({"format": "clues-result/1", "visible": [1]})");
+  EXPECT_THAT(read_pvs(silent, asked), ElementsAre(1));
+}
+
+TEST(SealedResult, IsAResultAndSeesWhatWasChanged) {
+  const std::string text = scene::to_json_text(small_result()), sealed = scene::sealed_result(text, "question");
+  EXPECT_THAT(scene::parse_result_pvs(sealed, "file", {10, {}, {}, {}}), ElementsAre(1, 5, 9));
+  EXPECT_EQ(json::parse(sealed).begin().key(), "answers_sha256");  // the keys are still sorted
+  EXPECT_EQ(scene::flaw_of_sealed(sealed, "question"), "");
+  EXPECT_THAT(scene::flaw_of_sealed(sealed, "another"), HasSubstr("no answer"));
+  EXPECT_THAT(scene::flaw_of_sealed(text, "question"), HasSubstr("no answer"));
+  for (std::size_t size = 0; size < sealed.size(); ++size)
+    EXPECT_NE(scene::flaw_of_sealed(sealed.substr(0, size), "question"), "") << size;
+  for (std::size_t i = 0; i < sealed.size(); ++i) {
+    std::string changed = sealed;
+    changed[i] = static_cast<char>(changed[i] ^ 1);
+    EXPECT_NE(scene::flaw_of_sealed(changed, "question"), "") << i;
+  }
+}
 
 TEST(Pvs, MissingFileAndFolder) {
   const SceneFolder folder;

@@ -32,7 +32,9 @@ Answer read_answer(const VectorCase& test, const fs::path& folder) {
     answer.message = "two result files: " + found[0].filename().string() + " and " + found[1].filename().string();
   } else {
     try {
-      answer.visible = scene::read_pvs(found[0], test.mesh.triangles.size());
+      answer.visible =
+          scene::read_pvs(found[0], {test.mesh.triangles.size(), scene::sha256_of(scene::to_off_text(test.mesh)),
+                                     test.mode == CaseMode::solid ? "solid" : "sheet", test.cell});
     } catch (const Error& error) {
       answer.kind = AnswerKind::malformed_output;
       answer.message = error.what();

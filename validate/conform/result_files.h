@@ -9,7 +9,8 @@
 
 namespace clues::validate {
 
-// ID.clues.json, ID.pvs or ID.txt in a folder. No such file: errored; two of them, or one that cannot be read: malformed_output.
+// ID.clues.json, ID.pvs or ID.txt in a folder. No such file: errored; two of them, one that cannot be read, or a result that says that it is of another scene
+// (than the one that export_cases() writes), cell or mode: malformed_output.
 class ResultFiles : public Subject {
  public:
   // Throws scene::Error file_not_found when there is no such folder.

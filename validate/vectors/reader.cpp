@@ -8,6 +8,7 @@
 #include <set>
 
 #include "scene/error.h"
+#include "scene/folder_update.h"
 #include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
 #include "validate/vectors/field.h"
@@ -205,6 +206,7 @@ std::vector<fs::path> vector_files(const fs::path& folder) {
   if (!fs::is_directory(folder, ignored)) {
     throw Error(ErrorCode::file_not_found, folder.string() + ": no such folder; name the folder of a suite");
   }
+  scene::finish_update(folder, suite_files);
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const auto& path = entry.path();
@@ -217,6 +219,7 @@ std::vector<fs::path> vector_files(const fs::path& folder) {
 
 VectorIndex read_vector_index(const fs::path& folder) {
   const auto path = folder / "index.json";
+  scene::finish_update(folder, suite_files);
   return parse_vector_index(scene::read_file_bytes(path), path.string());
 }
 

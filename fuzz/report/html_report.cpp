@@ -1,4 +1,4 @@
-#include "app/html_report.h"
+#include "fuzz/report/html_report.h"
 
 #include <fmt/format.h>
 
@@ -10,12 +10,16 @@
 #include <set>
 
 #include "fuzz/campaign/finding_folder.h"
+#include "fuzz/campaign/json_fields.h"
 #include "scene/error.h"
+#include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
 #include "scene/mesh_io.h"
+#include "scene/printable.h"
+#include "scene/shell_word.h"
 #include "validate/vectors/reader.h"
 
-namespace clues::app {
+namespace clues::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,9 +29,10 @@ using scene::ErrorCode;
 
 constexpr std::size_t largest_picture = 2000;  // triangles
 
+// As text of a page: no markup, and no controls.
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : scene::printable_lines(text)) {
     if (c == '&') {
       out += "&amp;";
     } else if (c == '<') {
@@ -44,23 +49,23 @@ std::string escaped(const std::string& text) {
 }
 
 std::string picture(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell,
-                    std::optional<std::uint32_t> triangle, const std::optional<fuzz::WitnessText>& witness) {
+                    std::optional<std::uint32_t> triangle, const std::optional<WitnessText>& witness) {
   if (mesh.triangles.size() > largest_picture || cell.empty()) return "";
-  fuzz::Finding finding;
+  Finding finding;
   finding.where.mesh = mesh;
   finding.where.cell = cell;
   finding.triangle = triangle;
   finding.witness = witness;
-  return fuzz::picture_of(finding);
+  return picture_of(finding);
 }
 
 using Coordinates = std::array<std::string, 3>;
 
-fuzz::WitnessText witness_of(const json& w, const Coordinates& v, const Coordinates& p) {
-  return {w.at("triangle").get<std::uint32_t>(), w.at("side") == "front", v, p};
+WitnessText witness_of(const json& w, const Coordinates& v, const Coordinates& p) {
+  return {whole_number<std::uint32_t>(w, "triangle"), w.at("side") == "front", v, p};
 }
 
-std::string sight_text(const fuzz::WitnessText& w) {
+std::string sight_text(const WitnessText& w) {
   return fmt::format("free sight line from ({}, {}, {})\nto ({}, {}, {})\n", w.v[0], w.v[1], w.v[2], w.p[0], w.p[1],
                      w.p[2]);
 }
@@ -71,7 +76,28 @@ std::string bounds_text(const json& bounds) {
   return low == high ? fmt::format("{:.4g}", low) : fmt::format("{:.4g} to {:.4g}", low, high);
 }
 
-ReportSection judgement_section(const json& j) {
+// What is wrong with a scene or a suite is no matter of the page: it has no pictures then.
+std::optional<scene::TriangleMesh> scene_for_pictures(const fs::path& file) {
+  try {
+    return scene::read_mesh(file);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+std::map<std::string, validate::VectorCase> suite_for_pictures(const fs::path& folder) {
+  std::map<std::string, validate::VectorCase> suite;
+  try {
+    for (auto& c : validate::read_suite(folder)) suite.emplace(c.id, std::move(c));
+  } catch (const Error&) {
+  }
+  return suite;
+}
+
+// A number, or null: nothing that could be long or deep.
+std::string number_text(const json& value) { return value.is_null() ? "null" : json(value.get<double>()).dump(); }
+
+ReportSection judgement_section(const json& j, bool look_around) {
   ReportSection section;
   const json &counts = j.at("triangles_measured"), &areas = j.at("area_measured");
   section.summary =
@@ -79,24 +105,24 @@ ReportSection judgement_section(const json& j) {
                   j.at("verdict").get<std::string>(), j.at("scene").get<std::string>(),
                   bounds_text(counts.at("overestimate_qo")), bounds_text(areas.at("overestimate_qo")),
                   bounds_text(counts.at("underestimate_qu")), bounds_text(areas.at("underestimate_qu")));
-  std::map<std::uint32_t, fuzz::WitnessText> witnesses;
+  std::map<std::uint32_t, WitnessText> witnesses;
   for (const json& w : j.at("witnesses")) {
-    const auto found =
-        witness_of(w, w.at("v").at("exact").get<Coordinates>(), w.at("p").at("exact").get<Coordinates>());
+    const auto found = witness_of(w, three_texts(w.at("v").at("exact")), three_texts(w.at("p").at("exact")));
     witnesses.emplace(found.triangle, found);
   }
   std::map<std::uint32_t, std::string> chains;
   for (const json& chain : j.at("chains")) {
-    std::string& text = chains[chain.at("triangle").get<std::uint32_t>()];
+    std::string& text = chains[whole_number<std::uint32_t>(chain, "triangle")];
     for (const json& link : chain.at("links")) {
-      const auto v = link.at("v").at("exact").get<Coordinates>(), x = link.at("x").at("exact").get<Coordinates>();
+      const auto v = three_texts(link.at("v").at("exact")), x = three_texts(link.at("x").at("exact"));
       text += fmt::format("{} from ({}, {}, {})\n  to ({}, {}, {})\n", text.empty() ? "seen" : "and on", v[0], v[1],
                           v[2], x[0], x[1], x[2]);
     }
   }
   std::optional<scene::TriangleMesh> mesh;
-  if (fs::exists(j.at("scene").get<std::string>())) mesh = scene::read_mesh(j.at("scene").get<std::string>());
-  const auto cell = j.at("cell").get<std::vector<scene::Point>>();
+  if (look_around) mesh = scene_for_pictures(j.at("scene").get<std::string>());
+  std::vector<scene::Point> cell;
+  for (const json& p : j.at("cell")) cell.push_back(three<double>(p, [](const json& x) { return x.get<double>(); }));
   const json& verdicts = j.at("triangles");
   for (std::uint32_t t = 0; t < verdicts.size(); ++t) {
     ReportRow row;
@@ -115,22 +141,20 @@ ReportSection judgement_section(const json& j) {
   return section;
 }
 
-ReportSection conformance_section(const json& j) {
+ReportSection conformance_section(const json& j, bool look_around) {
   ReportSection section;
   const json& total = j.at("total");
   section.summary = fmt::format(
       "implementation: {} {}\nsubject: {}\nsuite: {}\n{} cases: ", j.at("implementation").at("name").get<std::string>(),
       j.at("implementation").at("version").get<std::string>(), j.at("subject").get<std::string>(),
-      j.at("suite").get<std::string>(), total.at("cases").get<std::uint64_t>());
+      j.at("suite").get<std::string>(), whole_number<std::uint64_t>(total, "cases"));
   for (const auto& [outcome, count] : total.at("outcomes").items()) {
-    if (count != 0) section.summary += fmt::format("{} {}, ", count.get<std::uint64_t>(), outcome);
+    if (count != 0) section.summary += fmt::format("{} {}, ", whole<std::uint64_t>(count), outcome);
   }
-  section.summary +=
-      fmt::format("Qo = {}, Qu = {}\n", total.at("overestimate_qo").dump(), total.at("underestimate_qu").dump());
+  section.summary += fmt::format("Qo = {}, Qu = {}\n", number_text(total.at("overestimate_qo")),
+                                 number_text(total.at("underestimate_qu")));
   std::map<std::string, validate::VectorCase> suite;
-  if (fs::exists(fs::path(j.at("suite").get<std::string>()) / "index.json")) {
-    for (auto& c : validate::read_suite(j.at("suite").get<std::string>())) suite.emplace(c.id, std::move(c));
-  }
+  if (look_around) suite = suite_for_pictures(j.at("suite").get<std::string>());
   for (const json& c : j.at("cases")) {
     ReportRow row;
     row.verdict = c.at("outcome").get<std::string>();
@@ -145,16 +169,17 @@ ReportSection conformance_section(const json& j) {
     if (test != suite.end()) row.note += (row.note.empty() ? "" : ". ") + test->second.comment;
     if (c.contains("missed") && !c.at("missed").empty()) {
       const json& first = c.at("missed").front();
-      std::optional<fuzz::WitnessText> witness;
+      std::optional<WitnessText> witness;
       if (first.contains("v")) {
-        witness = witness_of(first, first.at("v").get<Coordinates>(), first.at("p").get<Coordinates>());
+        witness = witness_of(first, three_texts(first.at("v")), three_texts(first.at("p")));
         row.details += fmt::format("missing: triangle {}, {}", witness->triangle, sight_text(*witness));
       } else {
         row.details +=
-            fmt::format("missing: triangle {}, which meets the cell\n", first.at("triangle").get<std::uint32_t>());
+            fmt::format("missing: triangle {}, which meets the cell\n", whole_number<std::uint32_t>(first, "triangle"));
       }
       if (test != suite.end()) {
-        row.picture = picture(test->second.mesh, test->second.cell, first.at("triangle").get<std::uint32_t>(), witness);
+        row.picture =
+            picture(test->second.mesh, test->second.cell, whole_number<std::uint32_t>(first, "triangle"), witness);
       }
     }
     section.rows.push_back(std::move(row));
@@ -163,33 +188,20 @@ ReportSection conformance_section(const json& j) {
 }
 
 ReportSection finding_section(const fs::path& folder) {
-  const fuzz::SavedFinding saved = fuzz::load_finding(folder);
-  const fuzz::Finding& f = saved.finding;
+  const SavedFinding saved = load_finding(folder);
+  const Finding& f = saved.finding;
   ReportSection section;
   section.summary = "subject: " + saved.subject + "\n";
-  ReportRow row{f.verdict, f.oracle, f.explanation, true, "verify: clues replay " + folder.string() + "\n", ""};
+  ReportRow row{
+      f.verdict, f.oracle, f.explanation, true, "verify: clues replay " + scene::shell_word(folder.string()) + "\n",
+      ""};
   if (f.witness) row.details += sight_text(*f.witness);
   row.picture = picture(f.where.mesh, f.where.cell, f.triangle, f.witness);
   section.rows.push_back(std::move(row));
   return section;
 }
 
-std::optional<ReportSection> section_of(const fs::path& file) {
-  const json j = scene::read_json_file(file);
-  if (!j.is_object() || !j.contains("format")) return std::nullopt;
-  try {
-    if (j.at("format") == "clues-judgement/1") return judgement_section(j);
-    if (j.at("format") == "clues-conformance/1") return conformance_section(j);
-    if (j.at("format") == "clues-finding/1") return finding_section(file.parent_path());
-  } catch (const json::exception& error) {
-    throw Error(ErrorCode::malformed, file.string() + ": is no complete result of this version of clues (" +
-                                          error.what() + "); make it anew");
-  }
-  return std::nullopt;
-}
-
-constexpr const char* head = R"(<!DOCTYPE html>
-<html lang="en"><head><meta charset="utf-8"><title>clues report</title><style>
+constexpr const char* head = R"(<style>
 body{font:15px/1.4 sans-serif;margin:2em auto;max-width:75em;padding:0 1em;color:#222}
 table{border-collapse:collapse;width:100%}td,th{border-bottom:1px solid #ccc;padding:.3em .6em;text-align:left;vertical-align:top}
 pre{background:#f4f4f4;padding:.6em;overflow:auto;white-space:pre-wrap;word-break:break-all}
@@ -208,19 +220,50 @@ verdict.oninput=filter;text.oninput=filter;
 
 }  // namespace
 
+std::optional<ReportSection> section_of(const std::string& bytes, const fs::path& file, bool look_around) {
+  try {
+    const json j = scene::parse_json(bytes, file.string());
+    const auto format = j.is_object() ? j.find("format") : j.end();
+    if (!j.is_object() || format == j.end() || !format->is_string()) return std::nullopt;
+    const std::string name = *format;
+    if (name == "clues-judgement/1") return judgement_section(j, look_around);
+    if (name == "clues-conformance/1") return conformance_section(j, look_around);
+    if (name == "clues-finding/2" && look_around) return finding_section(file.parent_path());
+    for (const char* kind : {"clues-judgement/", "clues-conformance/", "clues-finding/"}) {
+      if (name.starts_with(kind) && name != "clues-finding/2")
+        throw Error(ErrorCode::unsupported, file.string() + ": is of another version of clues; make it anew");
+    }
+  } catch (const json::exception& error) {
+    throw Error(ErrorCode::malformed, file.string() + ": is no complete result of this version of clues (" +
+                                          error.what() + "); make it anew");
+  } catch (const scene::JsonError& error) {
+    throw Error(ErrorCode::malformed, file.string() + ": is no complete result of this version of clues (" +
+                                          error.what() + "); make it anew");
+  }
+  return std::nullopt;
+}
+
 std::vector<ReportSection> read_results(const fs::path& folder) {
-  if (!fs::is_directory(folder))
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
     throw Error(ErrorCode::file_not_found,
                 folder.string() + ": there is no such folder; give one with results of clues");
   std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file() && entry.path().extension() == ".json") files.push_back(entry.path());
+  fs::path last = folder;
+  for (auto at = fs::recursive_directory_iterator(folder, error); !error && at != fs::recursive_directory_iterator();
+       at.increment(error)) {
+    last = at->path();
+    std::error_code gone;
+    if (at->path().extension() == ".json" && at->is_regular_file(gone)) files.push_back(at->path());
   }
+  if (error)
+    throw Error(ErrorCode::file_unreadable, last.string() + ": cannot read this folder: " + error.message() +
+                                                "; check its permissions, or leave it out");
   std::sort(files.begin(), files.end());
   std::vector<ReportSection> sections;
   for (const fs::path& file : files) {
-    if (auto section = section_of(file)) {
-      section->title = fs::relative(file, folder).string();
+    if (auto section = section_of(scene::read_file_bytes(file), file, true)) {
+      section->title = file.lexically_relative(folder).string();
       sections.push_back(std::move(*section));
     }
   }
@@ -232,7 +275,7 @@ std::string to_html(const std::vector<ReportSection>& sections) {
   for (const auto& section : sections) {
     for (const auto& row : section.rows) verdicts.insert(row.verdict);
   }
-  std::string html = head;
+  std::string html = std::string(html_begin) + head;
   for (const auto& verdict : verdicts) html += fmt::format("<option>{}</option>", escaped(verdict));
   html += "</select></label> <label>with <input id=\"text\" placeholder=\"some text\"></label></p>\n";
   for (const auto& section : sections) {
@@ -252,4 +295,4 @@ std::string to_html(const std::vector<ReportSection>& sections) {
   return html + script;
 }
 
-}  // namespace clues::app
+}  // namespace clues::fuzz

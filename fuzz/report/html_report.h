@@ -4,10 +4,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-namespace clues::app {
+namespace clues::fuzz {
 
 // A line of the page: a triangle, a case or a finding.
 struct ReportRow {
@@ -23,9 +24,16 @@ struct ReportSection {
   std::vector<ReportRow> rows;
 };
 
-// What is in the folder and below it, by path. Files that are no results of clues are passed over. Throws Error file_not_found; malformed for a result that cannot be read.
+// What is in the folder and below it, by path. JSON files of others are passed over. Throws Error file_not_found, file_unreadable; malformed for a *.json
+// that is no JSON and for a result that is not complete, unsupported for one of another version.
 std::vector<ReportSection> read_results(const std::filesystem::path& folder);
 
+// One file of the folder; nothing for what is no result of clues. `look_around`: a finding's folder, and the scene or suite that a result names, are read too,
+// for pictures; where they cannot be read there are none. Throws Error as above.
+std::optional<ReportSection> section_of(const std::string& bytes, const std::filesystem::path& file, bool look_around);
+
+inline constexpr const char* html_begin =
+    "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>clues report</title>";
 std::string to_html(const std::vector<ReportSection>& sections);
 
-}  // namespace clues::app
+}  // namespace clues::fuzz

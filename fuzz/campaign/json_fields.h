@@ -1,0 +1,50 @@
+// Fields of JSON that others may have written: a number that is not whole, negative or too large is refused, and not made
+// to fit. All throw scene::JsonError, or an exception of nlohmann::json where a field is missing or of another type.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scene/json_reader.h"
+
+namespace clues::fuzz {
+
+template <class Number>
+Number whole(const nlohmann::json& value, const std::string& what = "a number") {
+  return static_cast<Number>(scene::whole_number(value, what, std::numeric_limits<Number>::max()));
+}
+
+template <class Number>
+Number whole_number(const nlohmann::json& object, const std::string& key) {
+  return whole<Number>(object.at(key), '"' + key + '"');
+}
+
+template <class Item, class Read>
+std::array<Item, 3> three(const nlohmann::json& value, const Read& read) {
+  if (!value.is_array() || value.size() != 3)
+    throw scene::JsonError(0, "where three numbers are needed there are more or fewer");
+  return {read(value[0]), read(value[1]), read(value[2])};
+}
+
+inline std::array<std::string, 3> three_texts(const nlohmann::json& value) {
+  return three<std::string>(value, [](const nlohmann::json& x) { return x.get<std::string>(); });
+}
+
+// Whole numbers by name; none where the field is missing.
+inline std::map<std::string, std::int64_t> numbers_by_name(const nlohmann::json& object, const std::string& key) {
+  std::map<std::string, std::int64_t> out;
+  const auto found = object.find(key);
+  if (found == object.end()) return out;
+  if (!found->is_object()) throw scene::JsonError(0, '"' + key + "\" is no object");
+  for (const auto& [name, value] : found->items()) {
+    if (!value.is_number_integer()) throw scene::JsonError(0, "in \"" + key + "\" is a number that is not whole");
+    out[name] = value.get<std::int64_t>();
+  }
+  return out;
+}
+
+}  // namespace clues::fuzz
