@@ -95,6 +95,15 @@ std::unique_ptr<fuzz::Subject> subject_of(const FolderRequest& request, const fu
   return fuzz::make_subject(saved.subject);
 }
 
+// A subject that fails is not one that is mended.
+std::string flaw_now(const fuzz::Finding& finding, const fuzz::Subject& subject) {
+  try {
+    return fuzz::flaw_of(finding, subject);
+  } catch (const fuzz::NoAnswer& error) {
+    throw Unfinished(subject.name() + ": the subject gives no answer: " + error.what());
+  }
+}
+
 int run_replay(const FolderRequest& request) {
   const auto saved = fuzz::load_finding(request.folder);
   const auto subject = subject_of(request, saved);
@@ -102,7 +111,7 @@ int run_replay(const FolderRequest& request) {
     fuzz::promote(saved.finding, request.id, request.suite);
     std::printf("%s: has the case %s now, with proofs\n", scene::printable(request.suite).c_str(), request.id.c_str());
   }
-  const std::string flaw = fuzz::flaw_of(saved.finding, *subject);
+  const std::string flaw = flaw_now(saved.finding, *subject);
   if (!flaw.empty()) {
     std::printf("not reproduced: %s\n", scene::printable(flaw).c_str());
     return fine;
@@ -115,7 +124,7 @@ int run_replay(const FolderRequest& request) {
 int run_shrink(const FolderRequest& request) {
   auto saved = fuzz::load_finding(request.folder);
   const auto subject = subject_of(request, saved);
-  const std::string flaw = fuzz::flaw_of(saved.finding, *subject);
+  const std::string flaw = flaw_now(saved.finding, *subject);
   if (!flaw.empty()) throw Error(ErrorCode::bad_argument, request.folder + ": there is nothing to shrink: " + flaw);
   const auto before = saved.finding.where.mesh.triangles.size();
   const auto shrunk = fuzz::shrink(saved.finding, *subject, {request.steps, std::chrono::seconds(request.seconds)});
@@ -240,7 +249,8 @@ void add_fuzz_commands(CLI::App& program, int& status) {
       "  clues replay received-finding --subject './bake {scene} {cell} -o {pvs}'\n"
       "  clues replay fuzz-out/sight-lines-hidden-visible-axis_boxes --promote vectors --id gap-beside-a-box\n"
       "\nEXIT CODES\n"
-      "  0 the subject no longer fails   1 reproduced   2 bad usage or input, or the finding was changed");
+      "  0 the subject no longer fails   1 reproduced   2 bad usage or input, or the finding was changed\n"
+      "  3 the subject gives no answer");
   replay->callback([folder, &status] { status = run_replay(*folder); });
 
   auto* shrink = program.add_subcommand("shrink", "Make a finding of clues fuzz smaller");

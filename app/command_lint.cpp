@@ -36,13 +36,15 @@ int run_lint(const LintRequest& request) {
   } else {
     print(validate::to_text(report));
   }
-  bool malformed = false, contradiction = false;
+  bool malformed = false, unfinished = false, contradiction = false;
   for (const auto& finding : report.findings) {
     malformed |= finding.kind == validate::LintKind::malformed;
+    unfinished |= finding.kind == validate::LintKind::unfinished;
     contradiction |= finding.kind == validate::LintKind::contradiction;
   }
   if (contradiction) return oracle_contradiction;
   if (malformed) return bad_usage;
+  if (unfinished) return not_everything_ran;
   if (!report.findings.empty()) return findings;
   if (report.selected == 0) {
     throw scene::Error(scene::ErrorCode::bad_argument,
@@ -84,7 +86,8 @@ void add_lint_command(CLI::App& program, int& status) {
       "  clues lint vectors --case 'edge-*' --jobs 2\n"
       "  clues lint my-cases --write\n\n"
       "EXIT CODES\n"
-      "  0 all is proved   1 findings   2 bad usage, or a file is malformed   4 an oracle contradicted itself");
+      "  0 all is proved   1 findings   2 bad usage, or a file is malformed\n"
+      "  3 a process that proved a case was killed   4 an oracle contradicted itself");
   command->callback([request, &status] { status = run_lint(*request); });
 }
 

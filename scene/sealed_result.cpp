@@ -17,13 +17,13 @@ std::string head_of(std::string_view result, std::string_view question) {
 }  // namespace
 
 std::string sealed_result(std::string_view result, std::string_view question) {
-  return std::string(result.substr(0, before)) + head_of(result, question) + std::string(result.substr(before));
+  return fmt::format("{}{}{}", result.substr(0, before), head_of(result, question), result.substr(before));
 }
 
 std::string flaw_of_sealed(std::string_view bytes, std::string_view question) {
   const std::size_t size = head_of("", question).size();
   if (bytes.size() < before + size) return "is empty or cut short";
-  const std::string result = std::string(bytes.substr(0, before)) + std::string(bytes.substr(before + size));
+  const std::string result = fmt::format("{}{}", bytes.substr(0, before), bytes.substr(before + size));
   const std::string head = head_of(result, question);
   const auto found = bytes.substr(before, size);
   if (found == head) return {};

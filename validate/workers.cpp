@@ -23,7 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 [[noreturn]] void fail(const char* what) {
-  throw scene::Error(scene::ErrorCode::internal, std::string(what) + ": " + std::strerror(errno));
+  throw scene::Error(scene::ErrorCode::file_unreadable, std::string(what) + ": " + std::strerror(errno));
 }
 
 bool read_all(int fd, void* data, std::size_t size) {
@@ -92,10 +92,10 @@ Workers::~Workers() {
 
 void Workers::launch(Worker& worker) {
   int ends[2];
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("no socket for a child process");
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail("a child process: no socket");
   const pid_t parent = getpid();
   const pid_t pid = fork_known();
-  if (pid < 0) fail("no child process could be started");
+  if (pid < 0) fail("a child process: cannot be started");
   if (pid == 0) {
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN);
@@ -154,7 +154,7 @@ WorkerReply Workers::lost(Worker& worker, bool late) {
   forget_known(worker.pid);
   waitpid(worker.pid, &status, 0);
   close(worker.socket);
-  WorkerReply reply{*worker.task, false, {}};
+  WorkerReply reply{*worker.task, false, {}, WIFSIGNALED(status) ? WTERMSIG(status) : 0};
   if (late) {
     reply.text = "no end within " + std::to_string(time_->count()) + " s of processor time";
   } else if (WIFSIGNALED(status)) {
@@ -182,13 +182,14 @@ std::optional<WorkerReply> Workers::wait(std::chrono::milliseconds most) {
     char buffer[65536];
     const ssize_t n = read(w.socket, buffer, sizeof buffer);
     if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno != ECONNRESET) fail("a child process: cannot be read");
     if (n <= 0) return lost(w, false);
     w.received.append(buffer, static_cast<std::size_t>(n));
     Frame frame;
     if (w.received.size() < sizeof frame) continue;
     std::memcpy(&frame, w.received.data(), sizeof frame);
     if (w.received.size() < sizeof frame + frame.bytes) continue;
-    WorkerReply reply{*w.task, frame.finished == 1, w.received.substr(sizeof frame)};
+    WorkerReply reply{*w.task, frame.finished == 1, w.received.substr(sizeof frame), 0};
     w.received.clear();
     w.task.reset();
     return reply;

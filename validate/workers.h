@@ -18,6 +18,7 @@ struct WorkerReply {
   std::uint64_t task = 0;
   bool finished = false;
   std::string text;  // what the task returned; when not finished: what it threw, or how its process ended
+  int signal = 0;    // that ended its process
 };
 
 class Workers {
@@ -25,7 +26,7 @@ class Workers {
   // `work` runs in a child process; what it returns is sent back. It may not write to files or to the standard output. Signals for the whole
   // group (Ctrl-C) are left to the caller. A process that is lost is replaced. time_for_one: none, or a task is given up after so much processor time of its
   // process, which does not depend on what else the machine does; or after ten times as much time on the clock, should it wait for something.
-  // Throws scene::Error internal when no process can be made.
+  // Throws scene::Error file_unreadable when no process can be made or read.
   Workers(int count, std::function<std::string(std::uint64_t task)> work,
           std::optional<std::chrono::seconds> time_for_one);
   ~Workers();  // ends them

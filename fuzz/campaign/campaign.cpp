@@ -152,8 +152,16 @@ class Campaign {
     if (repeatable) shrunk = shrink(f, subject_, options_.shrink);
     out["finding"] = to_json_text(shrunk.finding);
     out["steps"] = shrunk.steps;
-    out["flaw"] = repeatable ? flaw_of(shrunk.finding, subject_) : "";
+    out["flaw"] = repeatable ? flaw_now(shrunk.finding) : "";
     return out.dump();
+  }
+
+  std::string flaw_now(const Finding& f) const {
+    try {
+      return flaw_of(f, subject_);
+    } catch (const NoAnswer& error) {
+      return std::string("the subject gives no answer: ") + error.what();
+    }
   }
 
   void save(const StoredFinding& stored, const validate::WorkerReply& reply) {

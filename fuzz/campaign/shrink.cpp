@@ -64,34 +64,47 @@ std::optional<Finding> by_witness(const Finding& f, const Case& candidate, const
 }
 
 // `f` as it would be in `candidate`: its triangle is number `triangle` there.
+// Throws NoAnswer.
+std::optional<Finding> found_by_oracles(const Finding& f, const Case& candidate, const Subject& subject) {
+  if (f.oracle == "subject") {  // it gave no answer
+    for (Finding& g : judge_case(candidate, subject, {}).findings) {
+      if (g.verdict == f.verdict) return std::move(g);
+    }
+    return std::nullopt;
+  }
+  if (f.witness) {
+    if (auto found = by_witness(f, candidate, subject.answer(candidate))) return found;
+  }
+  // A witness that came from another scene is looked for with the lines and points of this one.
+  std::vector<const Oracle*> ask;
+  if (f.witness && f.oracle == "metamorphic") {
+    ask = oracles_named({"sight-lines", "point-occlusion"});
+  } else if (const Oracle* oracle = oracle_of(f)) {
+    ask = {oracle};
+  }
+  Outcome outcome;
+  Exam exam(candidate, subject, outcome);
+  for (const Oracle* oracle : ask) oracle->examine(exam);
+  for (Finding& g : outcome.findings) {
+    if (g.verdict != f.verdict) continue;
+    g.oracle = f.oracle;
+    return std::move(g);
+  }
+  return std::nullopt;
+}
+
+// A fault of the system is none of the scene's.
+bool is_of_the_system(const scene::Error& error) {
+  return error.code() == scene::ErrorCode::file_unwritable || error.code() == scene::ErrorCode::file_unreadable ||
+         error.code() == scene::ErrorCode::file_not_found;
+}
+
 std::optional<Finding> again(const Finding& f, const Case& candidate, const Subject& subject) {
   try {
-    if (f.oracle == "subject") {  // it gave no answer
-      for (Finding& g : judge_case(candidate, subject, {}).findings) {
-        if (g.verdict == f.verdict) return std::move(g);
-      }
-      return std::nullopt;
-    }
-    if (f.witness) {
-      if (auto found = by_witness(f, candidate, subject.answer(candidate))) return found;
-    }
-    // A witness that came from another scene is looked for with the lines and points of this one.
-    std::vector<const Oracle*> ask;
-    if (f.witness && f.oracle == "metamorphic") {
-      ask = oracles_named({"sight-lines", "point-occlusion"});
-    } else if (const Oracle* oracle = oracle_of(f)) {
-      ask = {oracle};
-    }
-    Outcome outcome;
-    Exam exam(candidate, subject, outcome);
-    for (const Oracle* oracle : ask) oracle->examine(exam);
-    for (Finding& g : outcome.findings) {
-      if (g.verdict != f.verdict) continue;
-      g.oracle = f.oracle;
-      return std::move(g);
-    }
+    return found_by_oracles(f, candidate, subject);
   } catch (const NoAnswer&) {  // another defect
-  } catch (const scene::Error&) {
+  } catch (const scene::Error& error) {
+    if (is_of_the_system(error)) throw;
   }
   return std::nullopt;
 }
@@ -250,18 +263,14 @@ Shrunk shrink(const Finding& finding, const Subject& subject, const ShrinkLimits
 }
 
 std::string flaw_of(const Finding& f, const Subject& subject) {
-  if (!f.witness) return again(f, f.where, subject) ? "" : "the oracle " + f.oracle + " does not find it again";
+  if (!f.witness)
+    return found_by_oracles(f, f.where, subject) ? "" : "the oracle " + f.oracle + " does not find it again";
   const Witness w = to_witness(*f.witness);
   if (w.triangle >= f.where.mesh.triangles.size()) return "the witness names a triangle that the scene does not have";
   const auto cell = exact::ConvexCell::from_doubles(f.where.cell);
   const auto checked = exact::check_witness(f.where.mesh, cell, w.triangle, w.front, w.v, w.p);
   if (!checked.valid) return "the witness is no proof: " + checked.reason;
-  Answer answer;
-  try {
-    answer = subject.answer(f.where);
-  } catch (const NoAnswer& error) {
-    return std::string("the subject gives no answer: ") + error.what();
-  }
+  const Answer answer = subject.answer(f.where);
   const std::string verdict = verdict_of(f.where, answer, w);
   if (verdict != f.verdict) return "the subject does not deny what the witness proves";
   return {};

@@ -28,7 +28,7 @@ Shrunk shrink(const Finding& finding, const Subject& subject, const ShrinkLimits
 std::optional<Finding> found_again(const Finding& finding, const Case& candidate, const Subject& subject);
 
 // Verifies a finding as it stands: the witness is confirmed by exact/witness.h and the subject denies what it proves; without a witness, its oracle
-// finds the same again. An empty text, or what is wrong.
+// finds the same again. An empty text, or what is wrong. Throws NoAnswer.
 std::string flaw_of(const Finding& finding, const Subject& subject);
 
 }  // namespace clues::fuzz

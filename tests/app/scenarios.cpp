@@ -73,7 +73,8 @@ const std::vector<Scenario>& scenarios() {
        "rm c/findings.sqlite",
        true},
       {"shrink", "finding f && echo mine > f/notes.txt", "shrink f/ --subject \"$BLIND\" --max-steps 8",
-       "replays f && [ ! -e f/.clues-pending/commit ]"},
+       "replays f && [ ! -e f/.clues-pending/commit ]", false,
+       "replays f && [ \"$(cat f/notes.txt)\" = mine ] && [ ! -e f/.clues-pending/commit ]"},
       {"replay", "finding f", "replay f --subject \"$BLIND\"", ":"},
       {"promote", "finding f && suite s && echo mine > s/notes.txt",
        "replay f --subject \"$BLIND\" --promote s --id new-one", "clues lint s"},
@@ -154,7 +155,7 @@ fs::path Stage::fresh() const {
 }
 
 Stage::Run Stage::run(const fs::path& folder, const std::string& fault, double kill_after) const {
-  const fs::path err = place_ / "err";
+  const fs::path out = place_ / "out", err = place_ / "err";
   std::string words = std::string("set -- ") + scenario_.run + "; ";
   if (kill_after <= 0) {
     words +=
@@ -163,7 +164,8 @@ Stage::Run Stage::run(const fs::path& folder, const std::string& fault, double k
   }
   words += "exec \"$CLUES\" \"$@\"";
   const std::string command = "cd " + quoted(folder.string()) + " && export " + environment(place_) + " && exec" +
-                              script(words) + " >/dev/null 2>" + quoted(err.string()) + " </dev/null";
+                              script(words) + " >" + quoted(out.string()) + " 2>" + quoted(err.string()) +
+                              " </dev/null";
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) {
@@ -180,7 +182,7 @@ Stage::Run Stage::run(const fs::path& folder, const std::string& fault, double k
   int status = 0;
   if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL,
-          read_all(err)};
+          read_all(out), read_all(err)};
 }
 
 int Stage::settle(const fs::path& folder) const { return sh(folder, place_, scenario_.settle); }
@@ -192,7 +194,10 @@ std::string Stage::flaw_of(const fs::path& folder, bool done) const {
     const bool known = before != old_.end() || after != new_.end();
     const bool is_old = before != old_.end() && before->second == bytes,
                is_new = after != new_.end() && after->second == bytes;
-    if (known && !is_old && !is_new && !name.ends_with(".sqlite")) return name + " is neither old nor new";
+    if (known && !is_old && !is_new && !name.ends_with(".sqlite")) {
+      const bool third = scenario_.also_right != nullptr && sh(folder, place_, scenario_.also_right) == 0;
+      return third ? "" : name + " is neither old nor new";
+    }
   }
   settle(folder);
   const Tree now = tree_of(folder);
@@ -204,13 +209,13 @@ std::string Stage::flaw_of(const fs::path& folder, bool done) const {
   return from_old.empty() ? "" : "neither the old state (" + from_old + ") nor the new one (" + from_new + ")";
 }
 
-// Whether a message begins with a path: of these states, or with a folder in it.
-bool Stage::names_a_path(const std::string& message) const {
+// Whether a line of a message begins with a path, of these states or with a folder in it, or with the process of ours
+// that was lost.
+bool Stage::names_a_path(const std::string& line) const {
   const std::string begin = "clues: error: ";
-  const auto at = message.find(begin);
-  if (at == std::string::npos) return false;
-  const std::string path = message.substr(at + begin.size(), message.find(": ", at + begin.size()) - at - begin.size());
-  if (path.find('/') != std::string::npos) return true;
+  const std::size_t from = line.starts_with(begin) ? begin.size() : 0;
+  const std::string path = line.substr(from, line.find(": ", from) - from);
+  if (path.find('/') != std::string::npos || path == "a child process") return true;
   const auto below = [&](const auto& file) { return file.first == path || file.first.starts_with(path + "/"); };
   return std::any_of(old_.begin(), old_.end(), below) || std::any_of(new_.begin(), new_.end(), below);
 }
@@ -218,14 +223,18 @@ bool Stage::names_a_path(const std::string& message) const {
 std::string Stage::after_fault(const std::string& fault) const {
   const fs::path folder = fresh();
   const Run ran = run(folder, fault, 0);
-  const std::string said = "exit code " + std::to_string(ran.code) + ": " + ran.err + ": ";
+  const std::string said = "exit code " + std::to_string(ran.code) + ": " + ran.err + ran.out + ": ";
   if (fault.ends_with("KILL")) return flaw_of(folder, !ran.killed && ran.code == exit_code_);
   if (ran.code < 0) return "it crashed: " + ran.err;
   if (ran.code == 4) return said + "a fault of the system is no defect of clues";
   const bool done = ran.code == exit_code_;
   if (!done) {
-    const bool names_a_file = names_a_path(ran.err);
-    if (ran.err.find("clues: error: ") == std::string::npos) return said + "it does not say what is wrong";
+    // Errors are on standard error; what is wrong with one file of many is in the report.
+    std::istringstream lines(ran.err + ran.out);
+    bool names_a_file = ran.err.find(": the subject gives no answer: ") != std::string::npos;
+    for (std::string line; std::getline(lines, line);) names_a_file |= names_a_path(line);
+    if (ran.err.find("clues: error: ") == std::string::npos && !names_a_file)
+      return said + "it does not say what is wrong";
     if (!names_a_file && ran.err.find("out of memory") == std::string::npos) return said + "it names no file";
   }
   const std::string flaw = flaw_of(folder, done);

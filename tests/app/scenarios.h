@@ -16,6 +16,9 @@ struct Scenario {
       settle;  // what the user does next (sh); it may finish what was begun, and may not change a state that is whole
   // The new state is reached again by settling after anything (a run that goes on), so the old one need not stay.
   bool goes_on = false;
+  // A third state that is right as well, where the command looks for a good answer and a fault on its way makes it find
+  // another: what must then hold (sh).
+  const char* also_right = nullptr;
 };
 
 const std::vector<Scenario>& scenarios();
@@ -45,13 +48,13 @@ class Stage {
   struct Run {
     int code = -1;
     bool killed = false;
-    std::string err;
+    std::string out, err;
   };
   std::filesystem::path fresh() const;  // a copy of the old state
   Run run(const std::filesystem::path& folder, const std::string& fault, double kill_after) const;
   int settle(const std::filesystem::path& folder) const;
   std::string flaw_of(const std::filesystem::path& folder, bool done) const;
-  bool names_a_path(const std::string& message) const;
+  bool names_a_path(const std::string& line) const;
 
   const Scenario& scenario_;
   std::filesystem::path place_;

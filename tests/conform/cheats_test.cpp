@@ -24,7 +24,12 @@ constexpr const char* last_case = "gap-of-zero";
 std::vector<std::string> processes_with(const std::string& word) {
   std::vector<std::string> found;
   for (const auto& entry : fs::directory_iterator("/proc")) {
-    const auto line = read_all(entry.path() / "cmdline");  // words end with NUL
+    std::string line;  // words end with NUL
+    try {
+      line = read_all(entry.path() / "cmdline");
+    } catch (const std::ios_base::failure&) {
+      continue;  // it has just ended
+    }
     if (line.find(std::string(1, '\0') + word + '\0') != std::string::npos) found.push_back(entry.path().filename());
   }
   return found;

@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Misbehaviour{"two-kinds", "malformed_output", "exactly one of", 1},
                     Misbehaviour{"endless-line", "malformed_output", "wrote without end", 1},
                     Misbehaviour{"floods-after-its-answer", "malformed_output", "more than one line", 1},
-                    Misbehaviour{"nests-deeply", "malformed_output", "'visible' holds a list", 1},
+                    Misbehaviour{"nests-deeply", "malformed_output", "nested more than 32 deep", 1},
                     Misbehaviour{"errs", "errored", "planted", 3}, Misbehaviour{"skips", "skipped", "1 skipped", 0},
                     Misbehaviour{"rejects", "rejected_input", "1 rejected_input", 0}),
     [](const auto& test) {

@@ -119,7 +119,7 @@ TEST(AtomicFile, TargetsThatAreNoFile) {
 
 // A rename would put a file in the place of the link.
 TEST(AtomicFile, ALinkToNothingStays) {
-  const TestFolder folder;
+  const SceneFolder folder;
   std::filesystem::create_symlink("nothing", folder.path() / "link");
   EXPECT_EQ(thrown_by([&] { write_file_atomically(folder.file("link"), "text"); }).code, ErrorCode::file_unwritable);
   EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "link"));

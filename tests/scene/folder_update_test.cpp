@@ -43,7 +43,7 @@ class FolderUpdates : public testing::Test {
     return read_all(folder_.file("about")) + " " + read_all(folder_.file("data")) + " " +
            (fs::exists(folder_.path() / "sub/data") ? read_all(folder_.file("sub/data")) : "none");
   }
-  TestFolder folder_;
+  SceneFolder folder_;
 };
 
 TEST_F(FolderUpdates, ChangeAllOrNothing) {
@@ -91,7 +91,7 @@ TEST_F(FolderUpdates, LeaveAloneWhatIsNotOurs) {
   fs::create_symlink("mine", folder_.path() / "data");
   EXPECT_EQ(thrown_by([&] { const FolderUpdate update(folder_.path(), names); }).code, ErrorCode::bad_argument);
   fs::remove(folder_.path() / "data");
-  const TestFolder outside;
+  const SceneFolder outside;
   outside.write("data", "precious");
   be_killed(0);
   fs::remove(folder_.path() / "sub");
@@ -102,7 +102,7 @@ TEST_F(FolderUpdates, LeaveAloneWhatIsNotOurs) {
 }
 
 TEST(FolderLocks, AreHeldByOneProcessAndGoWithIt) {
-  const TestFolder folder;
+  const SceneFolder folder;
   int ready[2], end[2];
   ASSERT_EQ(pipe(ready), 0);
   ASSERT_EQ(pipe(end), 0);
@@ -130,7 +130,7 @@ TEST(FolderLocks, AreHeldByOneProcessAndGoWithIt) {
 }
 
 TEST(FolderLocks, NeedAFile) {
-  const TestFolder folder;
+  const SceneFolder folder;
   fs::create_symlink("elsewhere", folder.path() / ".clues-lock");
   EXPECT_EQ(thrown_by([&] { const FolderLock lock(folder.path()); }).code, ErrorCode::file_unwritable);
   EXPECT_FALSE(fs::exists(folder.path() / "elsewhere"));

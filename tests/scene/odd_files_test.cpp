@@ -50,7 +50,7 @@ void PrintTo(const OddScene& scene, std::ostream* out) { *out << scene.name; }
 class OddSceneTest : public testing::TestWithParam<OddScene> {};
 
 TEST_P(OddSceneTest, IsReadAsItIsMeant) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto path = folder.write(GetParam().file, GetParam().bytes);
   const Warnings warnings;
   const auto mesh = scene::read_mesh(path);
@@ -207,7 +207,7 @@ class BadDoorTest : public testing::TestWithParam<BadDoor> {};
 
 TEST_P(BadDoorTest, IsRefusedAtOnce) {
   for (const std::string name : {"a.pvs", "a.clues.json", "a.obj"}) {
-    const TestFolder folder;
+    const SceneFolder folder;
     const auto path = folder.file(name);
     GetParam().make(path);
     const auto thrown =
@@ -235,7 +235,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Door, TheLimitIsTheLast) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto path = folder.write("a", "12345");
   EXPECT_EQ(scene::read_file_bytes(path, 5), "12345");
   EXPECT_THAT(thrown_by([&] { scene::read_file_bytes(path, 4); }).text, HasSubstr("longer than the 4 bytes"));

@@ -199,7 +199,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // A result that says what it answers is refused as the answer to something else.
 TEST(Pvs, AResultIsOfOneQuestion) {
-  const TestFolder folder;
+  const SceneFolder folder;
   const auto path = folder.write("a.clues.json", scene::to_json_text(small_result()));
   const scene::Asked asked{10, "00ff", "sheet", {{1, 2, 3}, {0.1, 0.0, 0x1p-1074}}};
   EXPECT_THAT(read_pvs(path, asked), ElementsAre(1, 5, 9));

@@ -69,10 +69,18 @@ void close_all_but(std::array<int, 6> kept) {
   close_from_to(next, ~0U);
 }
 
+// With all of its process group where that is of a session of its own: a chain of processes that fork and exit is killed
+// at once, and nobody joins a group of another session.
+void kill_with_group(pid_t pid) {
+  const pid_t group = getpgid(pid), session = getsid(pid);
+  if (group > 0 && session > 0 && session != getsid(0)) kill(-group, SIGKILL);
+  kill(pid, SIGKILL);
+}
+
 // SIGKILL to every child of this process, which has one thread. False: the kernel does not say who they are.
 bool kill_children() {
   const int list = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
-  if (list < 0) return false;
+  if (list < 0) return errno != ENOENT;
   std::array<char, 4096> text;
   pid_t pid = 0;
   for (ssize_t got = 0; (got = read(list, text.data(), text.size())) > 0;) {
@@ -81,12 +89,12 @@ bool kill_children() {
       if (c >= '0' && c <= '9') {
         pid = pid * 10 + (c - '0');
       } else if (pid > 0) {
-        kill(pid, SIGKILL);
+        kill_with_group(pid);
         pid = 0;
       }
     }
   }
-  if (pid > 0) kill(pid, SIGKILL);
+  if (pid > 0) kill_with_group(pid);
   close(list);
   return true;
 }
@@ -161,10 +169,10 @@ void forget_known(pid_t pid) {
 
 void kill_orphans() {
   const std::lock_guard lock(known_mutex());
-  constexpr int most_rounds = 1000;
-  bool any = true;
-  for (int round = 0; any && round < most_rounds; ++round) {
-    any = false;
+  constexpr int most_rounds = 1000, empty_rounds = 20;
+  // A child of an orphan that ends is between two parents for a moment, and seen in the next round.
+  for (int round = 0, empty = 0; empty < empty_rounds && round < most_rounds; ++round) {
+    bool any = false;
     std::error_code ignored;
     for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task", ignored)) {
       std::string text;
@@ -178,9 +186,15 @@ void kill_orphans() {
         const auto number = std::from_chars(at, end, pid);
         at = number.ptr == at ? at + 1 : number.ptr;
         if (pid <= 0 || known_children().contains(pid)) continue;
-        kill(pid, SIGKILL);
+        kill_with_group(pid);
         any = waitpid(pid, nullptr, 0) == pid || any;
       }
+    }
+    if (any) {
+      empty = 0;
+    } else {
+      ++empty;
+      usleep(1000);
     }
   }
 }

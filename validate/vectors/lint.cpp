@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <csignal>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -140,7 +141,8 @@ class Linter {
 
   void take(const File& file, VectorCase& c, const WorkerReply& raw) {
     if (!raw.finished) {
-      return complain(file.path.string(), c.id, "", "could not be proved: " + raw.text, LintKind::contradiction);
+      return complain(file.path.string(), c.id, "", "could not be proved: " + raw.text,
+                      raw.signal == SIGKILL ? LintKind::unfinished : LintKind::contradiction);
     }
     const CaseAnswer answer = unpack(raw.text);
     auto& sums = report_.proofs;
@@ -257,6 +259,8 @@ const char* to_word(LintKind kind) {
       return "malformed";
     case LintKind::wrong:
       return "wrong";
+    case LintKind::unfinished:
+      return "unfinished";
     case LintKind::contradiction:
       return "contradiction";
   }

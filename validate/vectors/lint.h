@@ -20,7 +20,8 @@ struct LintOptions {
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;
 };
 
-enum class LintKind { malformed, wrong, contradiction };
+// unfinished: the process that proved it was killed from outside, for want of memory for instance.
+enum class LintKind { malformed, wrong, unfinished, contradiction };
 
 struct LintFinding {
   LintKind kind = LintKind::wrong;

@@ -32,9 +32,12 @@ void say(const std::string& line) { write_out(line + "\n"); }
 }
 
 std::string list(const Ids& ids) {
-  std::string text;
-  for (const auto id : ids) text += (text.empty() ? "" : ",") + std::to_string(id);
-  return "[" + text + "]";
+  std::string text = "[";
+  for (const auto id : ids) {
+    if (text.size() > 1) text += ',';
+    text += std::to_string(id);
+  }
+  return text + "]";
 }
 
 std::string wrong(const Request& r) { return list(answer("hides-one", r)); }
@@ -134,7 +137,7 @@ const std::map<std::string, Cheat>& cheats() {
          std::string text = wrong(r);
          text.pop_back();
          std::string many = text;
-         for (int i = 0; i < 1000 && text.size() > 1; ++i) many += "," + text.substr(1);
+         for (int i = 0; i < 1000 && text.size() > 1; ++i) many.append(",").append(text, 1);
          return reply(r, many + "]") + "\n";
        })},
       {"deep-lists", says([](const Request& r) {
