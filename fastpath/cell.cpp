@@ -58,41 +58,21 @@ Cell::Cell(const exact::ConvexCell& hull) {
       throw scene::Error(scene::ErrorCode::internal, "a vertex of the view cell is not a point of doubles");
     }
   }
-  low_ = high_ = vertices_.front();
-  for (const Point& p : vertices_) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      low_[i] = std::min(low_[i], p[i]);
-      high_[i] = std::max(high_[i], p[i]);
-    }
-  }
+  if (dimension_ < 3) return;
   std::vector<std::vector<Point>> polygons;
   for (const exact::CellFacet& facet : hull.facets()) {
     polygons.emplace_back();
     for (const int corner : facet.corners) polygons.back().push_back(vertices_[static_cast<std::size_t>(corner)]);
-    if (dimension_ == 3) facets_.push_back({polygons.back()[0], polygons.back()[1], polygons.back()[2]});
+    facets_.push_back({polygons.back()[0], polygons.back()[1], polygons.back()[2]});
   }
-  exact_ = make_exact_cell(dimension_, vertices_, polygons);
+  exact_ = make_exact_cell(polygons);
 }
 
 Cell::Span Cell::span_of(const Segment& s) const {
+  if (dimension_ < 3) return {{1, 0}, {1, 0}};
   Span span;
-  if (dimension_ == 3) {
-    span.inner = {0, 1};
-    for (const Corners& facet : facets_) clip_at_facet(s, facet, span);
-    return span;
-  }
-  // A flat cell has no inside that doubles could be sure of; beside its box there is none of it. A quotient of differences has
-  // three roundings; where one leaves the normal range nothing is clipped.
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (std::max(s.a[i], s.b[i]) < low_[i] || std::min(s.a[i], s.b[i]) > high_[i]) return {{1, 0}, {1, 0}};
-    const double along = s.b[i] - s.a[i];
-    if (!(std::fabs(along) >= kLeastDifference && std::fabs(along) <= kLargestDifference)) continue;
-    const double at_low = (low_[i] - s.a[i]) / along, at_high = (high_[i] - s.a[i]) / along;
-    const double enter = std::min(at_low, at_high), leave = std::max(at_low, at_high);
-    // In [0,1] a relative 2^-50 is at most an absolute 2^-50.
-    span.outer.low = std::max(span.outer.low, enter - 0x1p-50);
-    span.outer.high = std::min(span.outer.high, leave + 0x1p-50);
-  }
+  span.inner = {0, 1};
+  for (const Corners& facet : facets_) clip_at_facet(s, facet, span);
   return span;
 }
 

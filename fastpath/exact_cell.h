@@ -1,4 +1,4 @@
-// The view cell in rationals (D2): int V as strict half spaces and, for a flat cell, planes. For the exact stage only.
+// The inside of a solid view cell in rationals (D2), as strict half spaces. For the exact stage only.
 #pragma once
 
 #include <gmpxx.h>
@@ -17,11 +17,9 @@ struct ExactCell {
     mpq_class offset;  // value(x) = normal . x - offset
   };
   std::vector<Plane> bounds;  // int V has value < 0
-  std::vector<Plane> flats;   // V has value = 0
 };
 
-// vertices: the extreme points; polygons: the facets (dimension 3, counter-clockwise seen from outside) or the cell itself (2).
-std::shared_ptr<const ExactCell> make_exact_cell(int dimension, const std::vector<Point>& vertices,
-                                                 const std::vector<std::vector<Point>>& polygons);
+// From the facets, counter-clockwise seen from outside.
+std::shared_ptr<const ExactCell> make_exact_cell(const std::vector<std::vector<Point>>& facets);
 
 }  // namespace clues::fastpath

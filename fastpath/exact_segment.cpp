@@ -188,16 +188,6 @@ std::optional<Interval> inside_part(const Segment& s, const ExactCell& cell) {
   };
   Interval part;
   part.low_in = part.high_in = true;
-  const auto keep_zero = [&](const mpq_class& at_a, const mpq_class& at_b) {
-    if (at_a == at_b) return sgn(at_a) == 0;
-    const mpq_class where = at_a / (at_a - at_b);
-    part.raise(where, true);
-    part.lower(where, true);
-    return true;
-  };
-  for (const auto& plane : cell.flats) {
-    if (!keep_zero(value(plane, s.a), value(plane, s.b))) return std::nullopt;
-  }
   for (const auto& plane : cell.bounds) {
     const mpq_class at_a = value(plane, s.a), at_b = value(plane, s.b);
     if (at_a == at_b) {

@@ -188,8 +188,8 @@ bool protocol(std::string_view bytes) {
 // A result file as the answer to a question that says all it can. What is kept of it is whole, and no other text is.
 bool result(std::string_view bytes) {
   const scene::Asked asked{12, std::string(64, 'a'), "sheet", {{0, 0, 0}, {1, 0, 0}}};
-  const std::string sealed = scene::sealed_result(bytes, "question");
   if (bytes.size() >= 2) {
+    const std::string sealed = scene::sealed_result(bytes, "question");
     require(scene::flaw_of_sealed(sealed, "question").empty(), "what is kept is whole");
     require(!scene::flaw_of_sealed(sealed, "another").empty(), "it answers one question");
     require(!scene::flaw_of_sealed(sealed.substr(0, sealed.size() - 1), "question").empty(), "a cut is seen");

@@ -67,13 +67,12 @@ std::vector<Vector3> Apex::into_cell(const exact::ConvexCell& cell, const std::v
   std::vector<Vector3> found;
   if (sectors_.empty()) return found;
   if (flat_) return star_.into_cell(x_, cell);
-  std::vector<std::vector<int>> faces;
-  for (const Vector3& d : known) faces.push_back(star_.face_of(d));
+  std::vector<Vector3> reached = known;
   for (const Vector3& d : star_.into_cell(x_, cell)) {
-    const std::vector<int> face = star_.face_of(d);
-    if (std::find(faces.begin(), faces.end(), face) != faces.end()) continue;
-    faces.push_back(face);
-    if (has_sector_in(face)) found.push_back(d);
+    if (!has_sector_in(star_.face_of(d))) continue;
+    if (std::any_of(reached.begin(), reached.end(), [&](const Vector3& r) { return in_one_part(r, d); })) continue;
+    reached.push_back(d);
+    found.push_back(d);
   }
   return found;
 }

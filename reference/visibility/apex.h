@@ -53,12 +53,13 @@ class Apex {
   }
   // Whether A(x) is flat: its sectors lie in a plane that holds V.
   bool flat() const { return flat_; }
-  // Directions into int V, one in each local face from which V is seen, in which a sector starts and in which none of `known` is. Where A(x) is flat: one in each part that pieces
-  // which are not in its plane cut the way to V into.
+  // Directions into int V: at least one in each part that incident pieces cut the directions to V into, in whose local
+  // face a sector starts and in which none of `known` is. Where A(x) is flat: one in each part that pieces which are not
+  // in its plane cut the way to V into.
   std::vector<exact::Vector3> into_cell(const exact::ConvexCell& cell, const std::vector<exact::Vector3>& known) const;
-  bool in_one_face(const exact::Vector3& d, const exact::Vector3& e) const {
-    return star_.face_of(d) == star_.face_of(e);
-  }
+  // Whether two directions into int V surely lie in one such part, which has one label: no wedge with apex x or through
+  // x divides it, as V is on one side of its plane. A face may have several parts, joined far from V (definition, 6).
+  bool in_one_part(const exact::Vector3& d, const exact::Vector3& e) const { return star_.free_between(d, e); }
   // Whether a sector starts in the local face that contains d.
   bool has_sector_facing(const exact::Vector3& d) const;
   // The sectors that exist by the probes so far and were not given before in this round.

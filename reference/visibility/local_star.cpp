@@ -277,6 +277,39 @@ std::optional<Vector3> LocalStar::nudged_if_possible(const Vector3& d, const Vec
   return std::nullopt;
 }
 
+namespace {
+
+// A point of int V on the ray from x, if there is one: of a solid cell the middle between where the ray enters and where
+// it leaves, of a polygon the point where the ray meets its plane. A ray within that plane, or the line of a segment, has
+// none.
+std::optional<exact::Point3> inside_along(const exact::Point3& x, const Vector3& ray, const exact::ConvexCell& cell) {
+  if (cell.dimension() < 2) return std::nullopt;
+  if (cell.dimension() == 2) {
+    const exact::Plane3& h = cell.facets()[0].plane;
+    const FT slope = h.orthogonal_vector() * ray, at_x = exact::value_at(h, x);
+    if (CGAL::sign(slope) * CGAL::sign(at_x) >= 0) return std::nullopt;
+    const exact::Point3 c = exact::collapsed(x + (-at_x / slope) * ray);
+    return cell.interior_contains(c) ? std::optional(c) : std::nullopt;
+  }
+  FT enter(0);
+  std::optional<FT> leave;
+  for (const exact::CellFacet& f : cell.facets()) {
+    const FT slope = f.plane.orthogonal_vector() * ray, at_x = exact::value_at(f.plane, x);
+    if (CGAL::is_zero(slope)) {
+      if (!CGAL::is_negative(at_x)) return std::nullopt;
+    } else if (CGAL::is_negative(slope)) {
+      enter = std::max(enter, FT(-at_x / slope));
+    } else {
+      const FT t = -at_x / slope;
+      if (!leave || t < *leave) leave = t;
+    }
+  }
+  if (!leave || enter >= *leave) return std::nullopt;
+  return exact::collapsed(x + ((enter + *leave) / FT(2)) * ray);
+}
+
+}  // namespace
+
 std::vector<Vector3> LocalStar::into_cell(const exact::Point3& x, const exact::ConvexCell& cell) const {
   std::vector<Vector3> found;
   const std::vector<exact::Point3>& s = cell.vertices();
@@ -310,28 +343,17 @@ std::vector<Vector3> LocalStar::into_cell(const exact::Point3& x, const exact::C
       if (c != b) add(c, b - c);
     }
     for (const int n : {arc.a, arc.b}) {
-      const Vector3& node = nodes_[static_cast<std::size_t>(n)];
-      // Some point of the ray along the edge inside V, if there is one: between where it enters and where it leaves.
-      FT enter(0);
-      std::optional<FT> leave;
-      bool misses = cell.dimension() < 3;
-      for (const exact::CellFacet& f : cell.facets()) {
-        const FT slope = f.plane.orthogonal_vector() * node, at_x = exact::value_at(f.plane, x);
-        if (CGAL::is_zero(slope)) {
-          misses |= !CGAL::is_negative(at_x);
-        } else if (CGAL::is_negative(slope)) {
-          enter = std::max(enter, FT(-at_x / slope));
-        } else {
-          const FT t = -at_x / slope;
-          if (!leave || t < *leave) leave = t;
-        }
+      const std::optional<exact::Point3> c = inside_along(x, nodes_[static_cast<std::size_t>(n)], cell);
+      if (!c) continue;
+      Vector3 across = arc.normal;
+      if (cell.dimension() == 2) {  // within its plane
+        const Vector3 h = cell.facets()[0].plane.orthogonal_vector();
+        across = across - (across * h) / (h * h) * h;
       }
-      if (misses || !leave || enter >= *leave) continue;
-      const exact::Point3 c = exact::collapsed(x + ((enter + *leave) / FT(2)) * node);
-      for (const Vector3& to : {arc.normal, -arc.normal}) {
+      for (const Vector3& to : {across, -across}) {
         FT scale(1);  // so small that c stays in V
-        while (!cell.interior_contains(c + scale * to)) scale = scale / FT(2);
-        add(c, scale * to);
+        while (!cell.interior_contains(*c + scale * to)) scale = scale / FT(2);
+        add(*c, scale * to);
       }
     }
   }

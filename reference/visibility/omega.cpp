@@ -16,7 +16,8 @@ Walker::Label SpaceLabels::operator()(const Point3& p) const { return (*this)(p,
 Walker::Label SpaceLabels::operator()(const Point3& p, const std::vector<Point3>& corners) const {
   constexpr std::uint64_t kSpaceSeed = 0x2f;
   const auto holds = [&](const ValidPiece& piece) {
-    return piece.wedge.plane.oriented_side(p) == CGAL::ON_ORIENTED_BOUNDARY && covers(piece, p) != Meets::no;
+    return !piece.holds_cell && piece.wedge.plane.oriented_side(p) == CGAL::ON_ORIENTED_BOUNDARY &&
+           covers(piece, p) != Meets::no;
   };
   if (std::any_of(wedges_.pieces().begin(), wedges_.pieces().end(), holds)) return {true, false};
   const Walker::Label label = walker_.label({p, std::nullopt, nullptr}, wedges_, kSpaceSeed);

@@ -44,7 +44,8 @@ class SpaceLabels {
  public:
   SpaceLabels(const Omega& omega, const CGAL::Bbox_3& bounds);
 
-  // The point must lie on no occluder. A point on a valid wedge piece has the label of the piece's H- side: visible (D13). A point that is
+  // The point must lie on no occluder. A point on a valid wedge piece has the label of the piece's H- side: visible (D13),
+  // unless the piece only separates (T10). A point that is
   // visible only by a limit of D17 is a fallback. Throws Error internal if no walk is in general position.
   Walker::Label operator()(const exact::Point3& p) const;
   // The label at p of the hull of `corners`, of which the caller knows that nothing cuts it.

@@ -107,7 +107,7 @@ bool look_again(const exact::SceneQuery& scene, const Apex& apex, VertexSource& 
     exact::FT pull(1);
     for (int i = 0; i < attempt; ++i) pull = pull / exact::FT(8);
     v = exact::collapsed(v + pull * (scene.cell().interior_point(weights) - v));
-    if (!apex.in_one_face(s.towards, v - s.x)) return false;
+    if (!apex.in_one_part(s.towards, v - s.x)) return false;
   }
   if (scene.crossings(v, s.x).degenerate) return false;
   s.v = v;

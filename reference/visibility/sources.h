@@ -32,7 +32,7 @@ struct VertexSource {
   std::uint32_t point = 0;
   exact::Point3 x;
   exact::Vector3 towards;  // from x into int V
-  exact::Point3 v;         // there, or beside it in the same local face
+  exact::Point3 v;         // there, or beside it in the same part
   Probe probe;
   Walk walk;
   bool lit = false;
@@ -56,12 +56,12 @@ void ask_elsewhere(Source& s, int attempt);
 
 inline constexpr int kViews = 12;  // of a vertex in one direction
 
-// Looks from another v, beside the direction in which x is seen and in the same local face: the better, the lower the attempt is; 0 is the direction itself. False if that sight line
+// Looks from another v, beside the direction in which x is seen and in the same part of V: the better, the lower the attempt is; 0 is the direction itself. False if that sight line
 // is in special position: then all is as it was.
 bool look_again(const exact::SceneQuery& scene, const Apex& apex, VertexSource& s, int attempt);
 
-// Every mesh vertex, once for each sight line from near a cell vertex that arrives in a local face where a sector starts, and once for every
-// other such face from which the cell is seen. A vertex in a plane with all of V and with a piece at it is lit. `corner` gives the apex of a point. Walked; adds their number to `walks`.
+// Every mesh vertex, once for each sight line from near a cell vertex that arrives in a local face where a sector starts,
+// and once for every other part of V that is seen from such a face (Apex::into_cell). A vertex in a plane with all of V and with a piece at it is lit. `corner` gives the apex of a point. Walked; adds their number to `walks`.
 std::vector<VertexSource> vertex_sources(const exact::SceneQuery& scene, const Walker& walker,
                                          const std::function<const Apex&(std::uint32_t)>& corner, std::uint64_t& walks);
 

@@ -28,6 +28,7 @@ struct Sheet {
   std::uint32_t triangle;
   Plane3 plane;
   std::vector<Point3> corners;
+  bool lit = false;  // a wedge piece, of which the H- side is visible (D13); one that only separates (T10) says nothing
 };
 
 using PlaneKey = std::array<FT, 4>;
@@ -131,11 +132,13 @@ class Builder {
 
   void add_box() {
     for (int i = 0; i < 6; ++i) {
-      sheets_.push_back({UmbraFacetKind::bound, 0, sides_[static_cast<std::size_t>(i)], corners_of_side(box_, i)});
+      sheets_.push_back(
+          {UmbraFacetKind::bound, 0, sides_[static_cast<std::size_t>(i)], corners_of_side(box_, i), false});
     }
   }
 
-  void add_sheet(UmbraFacetKind kind, std::uint32_t triangle, const Plane3& plane, std::vector<Point3> corners) {
+  void add_sheet(UmbraFacetKind kind, std::uint32_t triangle, const Plane3& plane, std::vector<Point3> corners,
+                 bool lit = false) {
     for (const Plane3& side : sides_) {
       const bool out = std::any_of(corners.begin(), corners.end(),
                                    [&](const Point3& p) { return side.oriented_side(p) == CGAL::ON_POSITIVE_SIDE; });
@@ -143,7 +146,7 @@ class Builder {
     }
     if (corners.size() < 3) return;
     collapse(corners);
-    sheets_.push_back({kind, triangle, plane, std::move(corners)});
+    sheets_.push_back({kind, triangle, plane, std::move(corners), lit});
   }
 
   void add_surfaces() {
@@ -175,7 +178,7 @@ class Builder {
           if (std::find(corners.begin(), corners.end(), p) == corners.end()) corners.push_back(p);
         }
       }
-      add_sheet(UmbraFacetKind::wedge, 0, w.plane, std::move(corners));
+      add_sheet(UmbraFacetKind::wedge, 0, w.plane, std::move(corners), !piece.holds_cell);
     }
   }
 
@@ -253,7 +256,7 @@ class Builder {
         if (!cut.covers(k, c)) continue;
         const Sheet& s = sheets_[own[k]];
         if (!best || s.kind < best->kind) best = &s;
-        if (s.kind != UmbraFacetKind::wedge) continue;
+        if (!s.lit) continue;
         const bool up = CGAL::is_positive(s.plane.orthogonal_vector() * plane.orthogonal_vector());
         lit |= up ? kLitBefore : kLitBehind;
       }
@@ -291,7 +294,7 @@ class Builder {
   PlaneCut::Trace lit_beside(std::uint32_t other, const std::pair<Point3, Point3>& trace, const Plane3& plane) const {
     const Sheet& sheet = sheets_[other];
     const int source = static_cast<int>(group_of_[other]);
-    if (sheet.kind != UmbraFacetKind::wedge) return {source, 0, 0};
+    if (!sheet.lit) return {source, 0, 0};
     unsigned lit = 0;
     for (const Point3& p : sheet.corners) {
       const CGAL::Oriented_side side = plane.oriented_side(p);

@@ -80,5 +80,11 @@ TEST(Found, ACornerOfThreeWalls) {
   expect_list("corner-of-three-walls.obj", "corner-of-three-walls.cell.obj", {0, 1, 2});
 }
 
+// The reference called most of a side hidden that is seen: it looked at a vertex from one place in V for each local face,
+// but walls cut what V sees of one face into parts, and another part is the lit one.
+TEST(Found, PartsOfAFaceAtAVertex) {
+  expect_list("parts-of-a-face-at-a-vertex.obj", "parts-of-a-face-at-a-vertex.cell.obj", {0, 1, 2});
+}
+
 }  // namespace
 }  // namespace clues::tests
