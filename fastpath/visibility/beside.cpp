@@ -45,6 +45,7 @@ std::optional<ExactPoint> beside_edge(const LocalScene& scene, const PieceSet& s
   return near_enough(level, 2 * kDoubles, place, [&](const ExactPoint& beside) {
     // Between H- and the event surface of the other supporting plane there is one label.
     if (c.plane->side(beside) <= 0 || (c.other && c.other->side(beside) >= 0)) return false;
+    if (scene.is_on_surface(beside)) return false;
     const bool blocked = scene.tree.any(SegmentTest(beside, *part.y), [&](std::uint32_t i) {
       const std::uint32_t t = scene.occluders[i];
       if (std::find(edge.pieces.begin(), edge.pieces.end(), t) != edge.pieces.end()) return false;

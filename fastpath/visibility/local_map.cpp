@@ -265,12 +265,14 @@ class LocalMap::Parts {
     return true;
   }
 
-  // Whether piece t, x on the given side of it, is all that divides x from q: no other surface and no wedge piece, but for those in planes that `leaves_out`.
+  // Whether piece t, x on the given side of it, is all that divides x from q: no other surface and no wedge piece, but for
+  // those in planes that `leaves_out`; x in free space.
   template <class LeavesOut>
   bool nothing_else_between(const ExactPoint& x, const ExactPoint& q, std::uint32_t t, int side,
                             const LeavesOut& leaves_out) const {
     const Plane& h = scene.planes[t];
     if (h.side(x) != side || h.side(q) != -side || scene.crosses(x, q, t) != Crossing::yes) return false;
+    if (scene.is_on_surface(x)) return false;
     const bool blocked = scene.tree.any(SegmentTest(x, q), [&](std::uint32_t i) {
       return scene.occluders[i] != t && scene.crosses(x, q, scene.occluders[i]) != Crossing::no;
     });

@@ -211,6 +211,25 @@ bool LocalScene::may_meet(const ExactPoint& v, const ExactPoint& p) const {
   return tree.any(SegmentTest(v, p), [&](std::uint32_t i) { return crosses(v, p, occluders[i]) != Crossing::no; });
 }
 
+bool LocalScene::is_on_surface(const ExactPoint& x) const {
+  const IntervalBox at = x.approximate();
+  return tree.any([&](const IntervalBox& box) { return overlap(box, at); },
+                  [&](std::uint32_t i) {
+                    const std::uint32_t t = occluders[i];
+                    const Plane& h = planes[t];
+                    if (h.side(x) != 0) return false;
+                    return decide([&]<class NT>() {
+                      const Vec3<NT> n = normal_of<NT>(h), o = coordinates<NT>(x);
+                      for (int k = 0; k < 3; ++k) {
+                        const Vec3<NT> c = coordinates<NT>(corner(t, k));
+                        const Vec3<NT> along = coordinates<NT>(corner(t, (k + 1) % 3)) - c;
+                        if (sign_of(NT(dot(n, cross(along, o - c)))) < 0) return false;
+                      }
+                      return true;
+                    });
+                  });
+}
+
 LocalScene::Last LocalScene::last_crossing(const ExactPoint& v, const ExactPoint& p) const {
   Last out;
   const auto parameter = [&]<class NT>(std::uint32_t piece) {

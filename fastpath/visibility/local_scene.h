@@ -91,6 +91,9 @@ class LocalScene {
   Crossing crosses(const ExactPoint& v, const ExactPoint& p, std::uint32_t piece) const;
   // Whether it meets any piece, or may.
   bool may_meet(const ExactPoint& v, const ExactPoint& p) const;
+  // Whether a closed piece holds x. A place that is chosen to stand for the space beside something must be in free space:
+  // the open segment to it does not show that, and its label would be that of one side of what it lies on.
+  bool is_on_surface(const ExactPoint& x) const;
 
   struct Last {
     bool degenerate = false;

@@ -64,7 +64,9 @@ SetLabel OneLabel::of_uncut(std::span<const IntervalBox> hull, const ExactPoint&
   Pool pool;
   const Walker::Label label = walker_.label(&p, pool, kLabelSeed);
   if (label == Walker::Label::visible) return SetLabel::visible;
-  if (label == Walker::Label::hidden && outside_of_left_out(hull)) return SetLabel::hidden;
+  const IntervalBox at = p.approximate();  // it may be beside the set
+  if (label == Walker::Label::hidden && outside_of_left_out(hull) && outside_of_left_out({&at, 1}))
+    return SetLabel::hidden;
   ++unresolved_;
   return SetLabel::visible;
 }

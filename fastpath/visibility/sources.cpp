@@ -26,9 +26,7 @@ std::vector<Sources::OfVertex> Sources::beside_vertex(std::uint32_t v, Pool& poo
   const ExactPoint& inside = *walker_.viewpoint(v);
   std::vector<OfVertex> found;
   const auto add = [&](const ExactPoint& view) {
-    std::optional<OfVertex> s = towards(
-        v, view, [&](const ExactPoint& beside) { return apex.in_one_face(beside, view); }, pool);
-    found.push_back(s ? std::move(*s) : unresolved(v, view, pool));
+    found.push_back(towards(v, view, pool));
     found.back().separates = apex.flat();
   };
   if (apex.has_piece_in_plane()) {
@@ -54,25 +52,52 @@ std::vector<Sources::OfVertex> Sources::beside_vertex(std::uint32_t v, Pool& poo
     std::vector<double> weights(scene_.cell.vertices.size());
     for (std::size_t j = 0; j < weights.size(); ++j)
       weights[j] = j == i ? 1 : 0x1p-12 * static_cast<double>(3 + (7 * j + 11 * i) % 13);
-    const auto anywhere = [](const ExactPoint&) { return true; };
-    if (auto s = towards(v, scene_.cell.interior_point(weights), anywhere, pool)) found.push_back(std::move(*s));
+    OfVertex s = towards(v, scene_.cell.interior_point(weights), pool);
+    s.view = nullptr;
+    if (s.walk.end != Walk::End::unresolved) found.push_back(std::move(s));
   }
   return found;
 }
 
-// Beside x on the way to `view`, where it is good.
-template <class Good>
-std::optional<Sources::OfVertex> Sources::towards(std::uint32_t v, const ExactPoint& view, const Good& good,
-                                                  Pool& pool) {
-  const ExactPoint& x = scene_.points[v];
-  const auto beside =
-      near_enough(x, view, [&](const ExactPoint& p) { return !equal(p, x) && !scene_.may_meet(p, x) && good(p); });
-  if (!beside) return std::nullopt;
+// Beside x on the way to `view`.
+Sources::OfVertex Sources::towards(std::uint32_t v, const ExactPoint& view, Pool& pool) {
   OfVertex s;
   s.point = v;
-  s.beside = pool.keep(*beside);
-  s.walk = walk(s.beside, s.seed, pool);
+  s.view = pool.keep(view);
+  place(s, pool);
   return s;
+}
+
+// Of those that do not only separate (T10): they hold V, and may hold the way into V.
+bool Sources::piece_between(const ExactPoint& beside, const ExactPoint& x, std::size_t first) const {
+  return pieces_.may_meet(beside, x, first, [&](const Plane& h) {
+    const auto& cell = scene_.cell.vertices;
+    return std::all_of(cell.begin(), cell.end(), [&](const ExactPoint& c) { return h.side(c) == 0; });
+  });
+}
+
+// From level s.level on. Without a place the source counts as visible.
+void Sources::place(OfVertex& s, Pool& pool) {
+  const ExactPoint& x = scene_.points[s.point];
+  const Apex& apex = contacts_.apex_of(s.point, pool);
+  std::optional<ExactPoint> beside;
+  try {
+    beside = near_enough(
+        s.level, kPointNearLevels, [&](int level) { return point_near(x, *s.view, level); },
+        [&](const ExactPoint& p) {
+          return !equal(p, x) && !scene_.may_meet(p, x) && !scene_.is_on_surface(p) && apex.in_one_face(p, *s.view) &&
+                 !piece_between(p, x, 0);
+        });
+  } catch (const scene::Error& error) {  // the vertex is too intricate
+    if (error.code() != scene::ErrorCode::internal) throw;
+  }
+  s.beside = beside ? pool.keep(*beside) : s.view;
+  if (beside) {
+    s.walk = walk(s.beside, s.seed, pool);
+  } else {
+    s.walk = Walk{};
+    s.walk.end = Walk::End::unresolved;
+  }
 }
 
 // It counts as visible.
@@ -140,6 +165,7 @@ bool Sources::newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, s
     w = walk(p, ++seed, pool);
     c = walker_.visible(w, 0);
   }
+  if (c == Crossing::touch) w.end = Walk::End::unresolved;
   return c != Crossing::no;
 }
 
@@ -152,6 +178,15 @@ bool Sources::newly_visible(OfEdge& s, std::size_t first, Pool& pool) {
   return newly_visible(s.beside, s.walk, s.seed, first, pool);
 }
 
+bool Sources::newly_visible(OfVertex& s, std::size_t first, Pool& pool) {
+  if (newly_visible(s.beside, s.walk, s.seed, first, pool)) return true;
+  if (!s.view) return false;
+  if (!piece_between(*s.beside, scene_.points[s.point], first)) return false;
+  ++s.level;
+  place(s, pool);
+  return newly_visible(s.beside, s.walk, s.seed, 0, pool);
+}
+
 Sources::Numbers Sources::newly_lit(std::size_t first) {
   const std::size_t edges = of_edges_.size();
   std::vector<char> visible(edges + of_vertices_.size(), 0);
@@ -161,7 +196,7 @@ Sources::Numbers Sources::newly_lit(std::size_t first) {
       visible[i] = !s.lit && newly_visible(s, first, worker.pool) ? 1 : 0;
     } else {
       OfVertex& s = of_vertices_[i - edges];
-      visible[i] = !s.lit && newly_visible(s.beside, s.walk, s.seed, first, worker.pool) ? 1 : 0;
+      visible[i] = !s.lit && newly_visible(s, first, worker.pool) ? 1 : 0;
     }
   });
   Numbers lit;

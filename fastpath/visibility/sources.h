@@ -28,10 +28,14 @@ class Sources {
     bool lit = false;
   };
 
-  // A mesh vertex and a point beside it on the way to the cell.
+  // A mesh vertex and a point beside it on the way to the cell. If that is visible the vertex is, as its sight lines go on
+  // to it. If it is not, it speaks for the vertex only as long as no surface and no wedge piece is between the two; a piece
+  // that comes between moves the point nearer.
   struct OfVertex {
     std::uint32_t point = 0;
     const ExactPoint* beside = nullptr;
+    const ExactPoint* view = nullptr;  // of a part of V that no other source looks at: on the way there
+    int level = 0;                     // of nearness of `beside`
     std::uint64_t seed = 0xa7;
     Walk walk;
     bool lit = false;
@@ -60,10 +64,12 @@ class Sources {
   Walk walk(const ExactPoint* p, std::uint64_t seed, Pool& pool);
   void place(OfEdge& source, Pool& pool);
   std::vector<OfVertex> beside_vertex(std::uint32_t vertex, Pool& pool);
-  template <class Good>
-  std::optional<OfVertex> towards(std::uint32_t vertex, const ExactPoint& view, const Good& good, Pool& pool);
+  OfVertex towards(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
+  void place(OfVertex& source, Pool& pool);
+  bool piece_between(const ExactPoint& beside, const ExactPoint& x, std::size_t first) const;
   static OfVertex unresolved(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
   bool newly_visible(OfEdge& source, std::size_t first, Pool& pool);
+  bool newly_visible(OfVertex& source, std::size_t first, Pool& pool);
   bool newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first, Pool& pool);
 
   const LocalScene& scene_;

@@ -111,10 +111,10 @@ std::vector<std::uint32_t> Walker::common_edges(const Surface& a, const Surface&
   return found;
 }
 
-std::array<std::uint32_t, 2> Walker::ends_of_chain(const std::vector<std::uint32_t>& edges) const {
-  std::array<std::uint32_t, 2> ends{scene_->edges[edges[0]].a, scene_->edges[edges[0]].b};
+Walker::Chain Walker::chain_of(std::size_t first, const std::vector<std::uint32_t>& edges) const {
+  Chain ends{scene_->edges[edges[first]].a, scene_->edges[edges[first]].b};
   std::vector<bool> used(edges.size(), false);
-  used[0] = true;
+  used[first] = true;
   for (bool grown = true; grown;) {
     grown = false;
     for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -129,9 +129,7 @@ std::array<std::uint32_t, 2> Walker::ends_of_chain(const std::vector<std::uint32
   return ends;
 }
 
-Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b,
-                                      const std::vector<std::uint32_t>& common) const {
-  const std::array<std::uint32_t, 2> ends = common.empty() ? std::array<std::uint32_t, 2>{} : ends_of_chain(common);
+Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b, const std::optional<Chain>& ends) const {
   const auto& vertices = scene_->cell.vertices;
   return decide([&]<class NT>() {
     const auto height = [&](const Surface& s, const ExactPoint& x) {
@@ -147,8 +145,8 @@ Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b,
     // Of the line of both walls, the point of V that divides the way from i to j in these parts.
     const auto touch = [&](std::size_t i, const NT& from_j, std::size_t j, const NT& from_i) {
       touches = true;
-      if (common.empty()) return;
-      const auto x = coordinates<NT>(scene_->points[ends[0]]), y = coordinates<NT>(scene_->points[ends[1]]);
+      if (!ends) return;
+      const auto x = coordinates<NT>(scene_->points[(*ends)[0]]), y = coordinates<NT>(scene_->points[(*ends)[1]]);
       const auto past = [&](const Vec3<NT>& end) {
         const auto along = [&](std::size_t k) { return dot(y - x, coordinates<NT>(vertices[k]) - end); };
         return sign_of(NT(NT(from_j * along(i)) + NT(from_i * along(j))));
@@ -173,7 +171,7 @@ Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b,
         if (s == 0) touch(i, NT(-ha[j]), j, ha[i]);
       }
     }
-    return touches && !(!common.empty() && upon_edge) ? Both::touch : Both::apart;
+    return touches && !(ends && upon_edge) ? Both::touch : Both::apart;
   });
 }
 
@@ -205,11 +203,11 @@ const ExactPoint* Walker::along_groove(const ExactPoint& p, const Surface& on, c
 
 // A groove between two walls that meet in an edge, into which no point of V looks: the walk would go from one wall to the other for ever, towards
 // the edge. Beside the edge all is hidden, as V touches the edge's line nowhere but upon the edge (docs/definition.md, D14); so it ends with a leg from the edge.
-bool Walker::groove_leg(Walk& walk, const Surface& on, const Surface& before, const std::vector<std::uint32_t>& common,
-                        Pool& pool) const {
+bool Walker::groove_leg(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const {
   const Leg& last = walk.legs.back();
-  for (const std::uint32_t id : common) {
-    const LocalEdge& e = scene_->edges[id];
+  const std::vector<std::uint32_t> common = common_edges(on, before);
+  for (std::size_t i = 0; i < common.size(); ++i) {
+    const LocalEdge& e = scene_->edges[common[i]];
     const ExactPoint &a = scene_->points[e.a], &b = scene_->points[e.b];
     const Point pa = a.estimate(), pb = b.estimate(), q = last.next->estimate();
     double along = 0, length = 0;
@@ -219,9 +217,11 @@ bool Walker::groove_leg(Walk& walk, const Surface& on, const Surface& before, co
     }
     const double t = along / length;
     if (!(t > 0 && t < 1)) continue;
+    // Where V touches the line beyond this chain of edges, sight lines come in through the gap.
+    if (how == Both::touch && in_front_of_both(on, before, chain_of(i, common)) != Both::apart) continue;
     const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
-    const bool blocked = scene_->tree.any(SegmentTest(*y, *last.next), [&](std::uint32_t i) {
-      const std::uint32_t piece = scene_->occluders[i];
+    const bool blocked = scene_->tree.any(SegmentTest(*y, *last.next), [&](std::uint32_t occluder) {
+      const std::uint32_t piece = scene_->occluders[occluder];
       if (std::find(e.pieces.begin(), e.pieces.end(), piece) != e.pieces.end()) return false;
       return scene_->crosses(*y, *last.next, piece) != Crossing::no;
     });
@@ -277,18 +277,15 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
     const ExactPoint* along = nullptr;
     if (before) {
       const std::size_t n = walk.legs.size();
-      Both how = in_front_of_both(*on, *before, {});
-      std::vector<std::uint32_t> common;
-      if (how != Both::meet && n >= 4) {  // by now it may be a groove
-        common = common_edges(*on, *before);
-        how = in_front_of_both(*on, *before, common);
-      }
+      const Both how = in_front_of_both(*on, *before, std::nullopt);
       both = how == Both::meet;
-      if (how == Both::touch && n >= 4) along = along_groove(*p, *on, *before, pool);
-      if (how == Both::apart && n >= 4 && is_wall(walk.legs[n - 3].piece, *on, *before) &&
-          is_wall(walk.legs[n - 4].piece, *before, *on) && groove_leg(walk, *on, *before, common, pool)) {
-        walk.end = Walk::End::surface;
-        return walk;
+      if (!both && n >= 4) {  // by now it may be a groove
+        if (is_wall(walk.legs[n - 3].piece, *on, *before) && is_wall(walk.legs[n - 4].piece, *before, *on) &&
+            groove_leg(walk, *on, *before, how, pool)) {
+          walk.end = Walk::End::surface;
+          return walk;
+        }
+        if (how == Both::touch) along = along_groove(*p, *on, *before, pool);
       }
     }
     if (on) {  // next to a flat cell or a segment few points of V may see p: those right beneath it
@@ -332,7 +329,8 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
       }
       if (crossed == Crossing::touch) continue;
       const auto next = near_enough(*m, *p, [&](const ExactPoint& x) {
-        return h.side(x) == side && !scene_->may_meet(x, *p) && !pieces_->may_meet(x, *p, 0, kNothing);
+        return h.side(x) == side && !scene_->may_meet(x, *p) && !scene_->is_on_surface(x) &&
+               !pieces_->may_meet(x, *p, 0, kNothing);
       });
       found = next.has_value();
       if (found) walk.legs.push_back({m, p, pool.keep(*next), *last.piece, side, false});

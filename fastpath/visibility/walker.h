@@ -61,16 +61,16 @@ class Walker {
   bool is_wall(std::uint32_t piece, const Surface& of, const Surface& other) const;
   // The edges in which pieces of both walls of a groove meet, of the flat surface around a: others may cut it into many pieces. They lie on one line.
   std::vector<std::uint32_t> common_edges(const Surface& a, const Surface& b) const;
-  // The two ends of those of them that are connected with the first.
-  std::array<std::uint32_t, 2> ends_of_chain(const std::vector<std::uint32_t>& edges) const;
+  using Chain = std::array<std::uint32_t, 2>;  // its ends
+  // Those of them that are connected with number `first`.
+  Chain chain_of(std::size_t first, const std::vector<std::uint32_t>& edges) const;
   enum class Both : std::uint8_t { apart, touch, meet };  // V, or the closed V only, with the space in front of both
-  // Apart also if the closed V touches that space only upon the common edges.
-  Both in_front_of_both(const Surface& a, const Surface& b, const std::vector<std::uint32_t>& common) const;
+  // Apart also if the closed V touches that space only upon this chain of common edges.
+  Both in_front_of_both(const Surface& a, const Surface& b, const std::optional<Chain>& chain) const;
   // A point of int V in front of `on`, from which the sight line to p comes in past the other wall, where the closed V touches the groove.
   const ExactPoint* along_groove(const ExactPoint& p, const Surface& on, const Surface& before, Pool& pool) const;
   bool corner_leg(Walk& walk) const;
-  bool groove_leg(Walk& walk, const Surface& on, const Surface& before, const std::vector<std::uint32_t>& common,
-                  Pool& pool) const;
+  bool groove_leg(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
 
   const LocalScene* scene_;
   const PieceSet* pieces_;

@@ -135,8 +135,9 @@ std::vector<int> LocalStar::face_of(const Vector3& d) const {
     // through a node or along an arc tells nothing: take another.
     std::optional<int> side = side_met(d, first);
     for (int attempt = 1; !side && attempt < 64; ++attempt) {
-      side =
-          side_met(nudged(d, Vector3(attempt % 7 - 3, (attempt * 3) % 11 - 5, (attempt * 5) % 13 - 6)), first, attempt);
+      const Vector3 by(attempt % 7 - 3, (attempt * 3) % 11 - 5, (attempt * 5) % 13 - 6);
+      const std::optional<Vector3> beside = nudged_if_possible(d, by, CGAL::NULL_VECTOR);  // not along an arc through d
+      if (beside) side = side_met(*beside, first, attempt);
     }
     if (!side) throw scene::Error(scene::ErrorCode::internal, "local star: no clean path to an incident piece");
     name.push_back(root(*side));

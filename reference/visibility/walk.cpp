@@ -150,7 +150,7 @@ std::vector<std::uint32_t> Walker::common_edges(const SurfaceSide& one, const Su
   return found;
 }
 
-bool Walker::touches_only_the_edge(const SurfaceSide& one, const SurfaceSide& two) const {
+bool Walker::touches_only(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two) const {
   std::vector<Point3> shared;  // by V and the closed groove: what is extreme among it, and more
   bool on_line = true;
   const auto note = [&](const Point3& x) {
@@ -164,11 +164,9 @@ bool Walker::touches_only_the_edge(const SurfaceSide& one, const SurfaceSide& tw
   leaves(one, [&](const Point3&, const Point3& x) { return note(x); });
   if (!on_line) return false;
 
-  // From a common edge on, both ways along its line, as far as both walls stand.
+  // From the edge on, both ways along its line, as far as both walls stand: beyond, sight lines may come in.
   const exact::Complex& complex = scene_->complex();
-  const std::vector<std::uint32_t> common = common_edges(one, two);
-  if (common.empty()) return false;
-  std::array<std::uint32_t, 2> ends{complex.edges[common[0]].a, complex.edges[common[0]].b};
+  std::array<std::uint32_t, 2> ends{complex.edges[edge].a, complex.edges[edge].b};
   const auto next = [&](std::uint32_t end, std::uint32_t other) -> std::optional<std::uint32_t> {
     for (const std::uint32_t t : complex.point_pieces[end]) {
       for (const std::uint32_t id : complex.piece_edges[t]) {
@@ -205,7 +203,7 @@ std::optional<Point3> Walker::along_groove(const Point3& p, const SurfaceSide& o
   return std::nullopt;
 }
 
-std::optional<Leg> Walker::groove_leg(const Walk& walk) const {
+std::optional<Leg> Walker::groove_leg(const Walk& walk, bool apart) const {
   const std::size_t n = walk.legs.size();
   if (n < 4) return std::nullopt;
   const Leg &last = walk.legs[n - 1], &one = walk.legs[n - 2], &two = walk.legs[n - 3], &three = walk.legs[n - 4];
@@ -218,6 +216,7 @@ std::optional<Leg> Walker::groove_leg(const Walk& walk) const {
     const Point3 &a = complex.points[e.a], &b = complex.points[e.b];
     const FT t = ((q - a) * (b - a)) / ((b - a) * (b - a));
     if (!CGAL::is_positive(t) || t >= FT(1)) continue;
+    if (!apart && !touches_only(id, wall, other)) continue;
     const Point3 y = exact::collapsed(a + t * (b - a));  // the foot of q on the edge
     const exact::SegmentAnswer between = scene_->crossings(q, y);
     if (between.degenerate || !between.hits.empty()) return std::nullopt;
@@ -311,12 +310,11 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
           anchor = both;
         } else {
           const std::optional<Point3> end = end_of_groove(*surface, *before);
-          if (end && !touches_only_the_edge(*surface, *before)) {
-            along = along_groove(p, *surface, *before, *end);
-          } else if (const std::optional<Leg> leg = groove_leg(walk)) {
+          if (const std::optional<Leg> leg = groove_leg(walk, !end)) {
             walk.legs.push_back(*leg);
             return walk;
           }
+          if (end) along = along_groove(p, *surface, *before, *end);
           before.reset();
         }
       }

@@ -98,16 +98,17 @@ class Walker {
   bool carries_both(const exact::Edge& e, const SurfaceSide& one, const SurfaceSide& two) const;
   // Such edges of the wall that the first side belongs to: the flat surface around it, which others may cut into many pieces.
   std::vector<std::uint32_t> common_edges(const SurfaceSide& one, const SurfaceSide& two) const;
-  // Whether V and the closed groove between two walls share nothing but points of their common edge, and of the edges that carry both walls on along
-  // its line.
-  bool touches_only_the_edge(const SurfaceSide& one, const SurfaceSide& two) const;
+  // Whether V and the closed groove between two walls that meet in this edge share nothing but points of the edge, and of
+  // the edges that carry both walls on along its line without a gap.
+  bool touches_only(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two) const;
   // v in int V near `end`, strictly in front of `on`, such that the sight line to p does not cross `before`; none was found: nullopt.
   std::optional<exact::Point3> along_groove(const exact::Point3& p, const SurfaceSide& on, const SurfaceSide& before,
                                             const exact::Point3& end) const;
   // The last leg of a walk that runs into a dark corner for ever.
   std::optional<Leg> corner_leg(const Walk& walk) const;
-  // The last leg of a walk that runs into the groove between two pieces for ever.
-  std::optional<Leg> groove_leg(const Walk& walk) const;
+  // The last leg of a walk that runs into the groove between two pieces for ever. `apart`: V and the closed groove share no
+  // point; else it is asked for the edge.
+  std::optional<Leg> groove_leg(const Walk& walk, bool apart) const;
   exact::Point3 last_crossing(const exact::Point3& v, const exact::Point3& p, const exact::Hit& hit,
                               const Good& good) const;
   const exact::SceneQuery* scene_;
