@@ -9,6 +9,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "exact/complex.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh_io.h"
 #include "validate/umbra_certificate.h"
@@ -25,6 +26,7 @@ struct VerifyRequest {
 int run_verify(const VerifyRequest& request) {
   const auto mesh = scene::read_mesh(request.scene);
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
+  if (request.solid) exact::require_solid(exact::build_complex(mesh, &cell));  // D4
   const auto facets = validate::read_umbra(request.umbra, mesh.triangles.size()).facets;
   const auto verdict = validate::check_umbra_certificate(mesh, cell, facets);
   if (!verdict.valid) {
@@ -57,7 +59,9 @@ void add_verify_command(CLI::App& program, int& status) {
   command->add_option("--umbra", request->umbra, "The umbra: JSON as `clues map --umbra` writes it")
       ->type_name("FILE")
       ->required();
-  command->add_flag("--solid", request->solid, "Ask for the fronts of triangles only, as in solid mode");
+  command->add_flag(
+      "--solid", request->solid,
+      "Ask for the fronts of triangles only, as in solid mode; the mesh must be closed and consistently oriented");
   command->add_flag("--list", request->list, "List the triangles that the umbra proves hidden");
   command->footer(
       std::string("DESCRIPTION\n"

@@ -8,6 +8,7 @@
 #include "exact/complex.h"
 
 #include <CGAL/Box_intersection_d/Box_with_handle_d.h>
+#include <CGAL/Interval_nt.h>
 #include <CGAL/box_intersection_d.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -216,6 +217,8 @@ Complex build_complex(const std::vector<Point3>& points, const std::vector<Corne
   std::sort(pairs.begin(), pairs.end());
   std::vector<Contact> met(pairs.size());
   // Isolated: who calls this from a task of his own must not be given another one while he waits here.
+  const CGAL::Protect_FPU_rounding<true> as_usual(
+      CGAL_FE_TONEAREST);  // TBB gives its threads that of who calls it first
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
       const Sheet &a = sheets[pairs[k].first], &b = sheets[pairs[k].second];

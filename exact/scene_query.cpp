@@ -9,6 +9,7 @@
 namespace clues::exact {
 
 bool meets_cell(const TriangleCorners& t, const ConvexCell& cell) {
+  if (CGAL::collinear(t[0], t[1], t[2])) return false;
   std::vector<Point3> rest(t.begin(), t.end());
   if (cell.dimension() == 3) {
     for (const CellFacet& f : cell.facets()) {

@@ -24,7 +24,7 @@ struct SegmentAnswer {
   std::vector<Hit> hits;    // ascending in t; complete unless degenerate
 };
 
-// Whether the closed triangle meets the closed cell (D3), exactly. A flat cell is bounded by its plane (both sides) and by its edges.
+// Whether the closed triangle meets the closed cell (D3), exactly. One without area is no surface and meets nothing (D1). A flat cell is bounded by its plane (both sides) and by its edges.
 bool meets_cell(const TriangleCorners& triangle, const ConvexCell& cell);
 
 // Whether an occluder holds v: then what v sees says nothing of what is seen from beside it.

@@ -96,6 +96,16 @@ TEST_F(ThinCells, AnEmptyUmbraHidesNoTriangleThatTouchesAFlatCell) {
   EXPECT_THAT(ran.out, HasSubstr("hidden triangles: 0 of 1\n"));
 }
 
+// An open triangle that is turned away is no solid: asked for fronts only, it was called hidden.
+TEST_F(ThinCells, SolidModeWantsASolid) {
+  folder_.write("scene.off", "OFF\n3 1 0\n0 0 2\n0 2 2\n2 0 2\n3 0 1 2\n");
+  folder_.write(
+      "empty.json",
+      R"({"format":"clues-umbra/1","bounds_exact":[["0","0","0"],["0","0","0"]],"vertices_exact":[],"facets":[]})");
+  const auto ran = run("verify", "box:0,0,0,1,1,1", {"--umbra", "empty.json", "--solid", "--list"});
+  EXPECT_EQ(ran.exit_code, 2) << ran.out;
+}
+
 // Triangle 2 is seen from the line, or the point, at which the two others stand on the cell, and from nowhere
 // else.
 TEST_F(ThinCells, WhatIsSeenFromBetweenTrianglesOnTheCellAloneIsHidden) {

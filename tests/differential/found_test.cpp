@@ -86,5 +86,44 @@ TEST(Found, PartsOfAFaceAtAVertex) {
   expect_list("parts-of-a-face-at-a-vertex.obj", "parts-of-a-face-at-a-vertex.cell.obj", {0, 1, 2});
 }
 
+// The same with a solid cell, in general position: a trough with its tip at a vertex, seen through a hole from the middle of
+// V. Triangle 15 was missing from the reference.
+TEST(Found, ATroughBehindAHole) {
+  expect_list("trough-behind-a-hole.obj", "box:-1,-5,-1,1,-4,1",
+              {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
+}
+
+// Two walls meet in two edges of one line; V touches the line in one of them, and sees the other through the gap. The
+// proof that a groove is dark was made for the first edge and used at the second: triangle 6 was missing.
+TEST(Found, AGrooveWithAGap) {
+  expect_list("groove-with-a-gap.obj", "groove-with-a-gap.cell.obj", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+}
+
+// "A direction cannot leave its arc."
+TEST(Found, AWayAlongAnArc) { expect_list("way-along-an-arc.obj", "way-along-an-arc.cell.obj", {0, 1, 2, 3, 4}); }
+
+// The fast path asked for the label of a side at a place over it which lay on the dark side of a box; triangle 0 was
+// missing.
+TEST(Found, APlaceOnABoxOverAFloor) {
+  expect_list("place-on-a-box-over-a-floor.obj", "box:-100,-10,0,-90,10,10", {0, 1, 2});
+}
+TEST(Found, APlaceOnAWallOverAFloor) {
+  expect_list("place-on-a-wall-over-a-floor.obj", "box:-60,-27,0,-57,-22,10", {0, 1, 2});
+}
+
+// The place beside an edge lay on another surface, the edge stayed dark, and triangle 5 was missing.
+TEST(Found, APlaceBesideAnEdgeOnAFace) {
+  expect_list("place-beside-an-edge-on-a-face.obj", "box:-100,-1040,0,1000,-1024,20", {0, 1, 2, 4, 5});
+}
+
+// The place that spoke for a vertex was in an umbra that ends before the vertex; triangle 6 was missing, and 16.
+TEST(Found, AnUmbraThatEndsBeforeAVertex) {
+  expect_list("umbra-ends-before-a-vertex.obj", "box:-3000,-11000,-1000,3000,-10000,1000", {0, 1, 2, 3, 4, 5, 6});
+}
+TEST(Found, AnUmbraThatEndsBeforeAVertexBehindAFin) {
+  expect_list("umbra-ends-before-a-vertex-behind-a-fin.obj", "box:-30,-110,-10,30,-100,10",
+              {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17});
+}
+
 }  // namespace
 }  // namespace clues::tests

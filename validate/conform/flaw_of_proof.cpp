@@ -19,12 +19,14 @@ exact::Point3 point_of(const RationalPoint& p) {
 std::string flaw_of_proof(const VectorCase& test, const MustBeVisible& proof) {
   const auto cell = exact::ConvexCell::from_doubles(test.cell);
   if (!proof.meets_cell) {
+    if (test.mode == CaseMode::solid && !proof.front) return "a back side does not count in solid mode (D4)";
     const auto verdict =
         exact::check_witness(test.mesh, cell, proof.triangle, proof.front, point_of(proof.v), point_of(proof.p));
     return verdict.valid ? "" : verdict.reason;
   }
   const auto& [a, b, c] = test.mesh.triangles[proof.triangle];
   const auto corner = [&](std::uint32_t i) { return exact::to_exact(test.mesh.points[i]); };
+  if (CGAL::collinear(corner(a), corner(b), corner(c))) return "a triangle without area is no surface (D1)";
   return exact::meets_cell({corner(a), corner(b), corner(c)}, cell) ? "" : "it does not meet the cell";
 }
 
