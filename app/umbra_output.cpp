@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "exact/scene_query.h"
 #include "reference/visibility/umbra.h"
 #include "scene/error.h"
 #include "validate/umbra_certificate.h"
@@ -26,6 +28,16 @@ std::optional<reference::Box> bounds_of(const std::string& text) {
   const auto corners = scene::parse_cell(text).points;
   if (corners.size() != 8) throw Error(ErrorCode::bad_argument, "--bounds " + text + ": the box must be solid");
   return reference::Box{exact::to_exact(corners.front()), exact::to_exact(corners.back())};
+}
+
+// Whether some triangle meets a cell that has no interior: then parts of it may see past it, and a facet may end inside.
+bool stands_in_flat_cell(const scene::TriangleMesh& mesh, const reference::Omega& omega) {
+  const exact::ConvexCell cell = omega.map().range.moved_back(omega.map().cell);
+  if (cell.dimension() == 3) return false;
+  const auto corner = [&](std::uint32_t i) { return exact::to_exact(mesh.points[i]); };
+  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const scene::Triangle& t) {
+    return exact::meets_cell({corner(t[0]), corner(t[1]), corner(t[2])}, cell);
+  });
 }
 
 }  // namespace
@@ -68,6 +80,9 @@ UmbraOutput make_umbra(const reference::Omega& omega, const scene::TriangleMesh&
     if (limits > 0)
       throw Unfinished(fmt::format("the umbra is not closed, because {} labels are visible only by a limit: {}", limits,
                                    verdict.reason));
+    if (stands_in_flat_cell(mesh, omega))
+      throw Unfinished("geometry stands in this cell, which is flat: its umbra has no certificate (" + verdict.reason +
+                       ")");
     throw Error(ErrorCode::internal, "the umbra's certificate fails: " + verdict.reason);
   }
   record.scene_file = fs::path(scene_path).filename().string();

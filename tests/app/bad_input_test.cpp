@@ -55,7 +55,6 @@ INSTANTIATE_TEST_SUITE_P(
                     BadScene{"NotANumber", "nan.off", "OFF\n3 1 0\n0 0 5\nnan 0 5\n0 1 5\n3 0 1 2\n", "finite"},
                     BadScene{"Infinite", "inf.obj", "v 0 0 5\nv inf 0 5\nv 0 1 5\nf 1 2 3\n", "finite"},
                     BadScene{"IndexOutOfRange", "index.off", "OFF\n3 1 0\n0 0 5\n1 0 5\n0 1 5\n3 0 1 3\n", "3"},
-                    BadScene{"FaceWithTwoCorners", "two.obj", "v 0 0 5\nv 1 0 5\nv 0 1 5\nf 1 2\n", "corners"},
                     BadScene{"UnknownExtension", "scene.xyz", "0 0 0\n", ".obj"}),
     [](const auto& test) { return test.param.name; });
 
