@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "app/commands.h"
 #include "scene/error.h"
@@ -110,6 +112,10 @@ int main(int argc, char** argv) {
     return fail(e.what(), app::not_everything_ran);
   } catch (const std::bad_alloc&) {
     return fail("out of memory", app::not_everything_ran);
+  } catch (const std::filesystem::filesystem_error& e) {
+    return fail(e.path1().string() + ": " + e.code().message(), app::bad_usage);
+  } catch (const std::system_error& e) {
+    return fail(e.what(), app::not_everything_ran);
   } catch (const std::exception& e) {
     return fail(std::string("internal: ") + e.what(), app::oracle_contradiction);
   }

@@ -60,9 +60,9 @@ std::string outcome_of(const Attack& attack, const fs::path& folder, const fs::p
   const auto sh = [&](const std::string& text, const char* output) {
     const std::string command =
         "cd " + quoted(folder.string()) + " && CLUES=" + quoted(attacked_program()) +
-        " FINDING=" + quoted(finding.string()) + " SUITE=" + quoted(std::string(CLUES_SOURCE_DIR) + "/vectors") +
+        " FINDING=" + quoted(finding.string()) + " SUITE=" + quoted(std::string(CLUES_SOURCE_DIR "/vectors")) +
         " PYTHON=" + quoted(PYTHON) + " sh -c " +
-        quoted(". " + quoted(std::string(CLUES_TEST_DATA) + "/attacks/prelude.sh") + "\n" + text) + " >" + output +
+        quoted(". " + quoted(std::string(CLUES_TEST_DATA "/attacks/prelude.sh")) + "\n" + text) + " >" + output +
         " 2>&1 </dev/null";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;

@@ -13,7 +13,7 @@ namespace clues::tests {
 namespace {
 
 const std::vector<Attack>& attacks() {
-  static const auto all = read_attacks(std::string(CLUES_TEST_DATA) + "/attacks/stores.txt");
+  static const auto all = read_attacks(std::string(CLUES_TEST_DATA "/attacks/stores.txt"));
   return all;
 }
 
