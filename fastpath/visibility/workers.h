@@ -37,7 +37,8 @@ class Workers {
       return;
     }
     std::atomic<std::uint64_t> decisions{0};
-    const RoundedUp as_usual(CGAL_FE_TONEAREST);  // TBB gives its threads the rounding of whoever calls it first, for good
+    const RoundedUp as_usual(
+        CGAL_FE_TONEAREST);  // TBB gives its threads the rounding of whoever calls it first, for good
     // Isolated: a thread that waits here takes up nothing else, which would be counted here, too.
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count), [&](const tbb::blocked_range<std::size_t>& range) {
