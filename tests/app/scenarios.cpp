@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -47,8 +48,13 @@ int sh(const fs::path& folder, const fs::path& place, const std::string& text) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+// What waits to be moved into place counts as long as a commit stands beside it; and a commit, as long as something waits.
 bool counts_for_nothing(const fs::path& path) {
   const std::string name = path.filename().string();
+  if (path.parent_path().filename() == ".clues-pending") {
+    const auto waiting = std::distance(fs::directory_iterator(path.parent_path()), fs::directory_iterator());
+    return !fs::exists(path.parent_path() / "commit") || waiting == 1;
+  }
   return scene::is_temporary_name(name) || name == ".clues-lock" || name.ends_with(".sqlite-journal");
 }
 
