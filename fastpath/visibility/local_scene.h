@@ -37,6 +37,11 @@ struct LocalCell {
   // A point of int V near the combination of the vertices with these positive weights. Doubles if the cell has dimension 3 and rounding
   // stays inside, else exactly that combination.
   ExactPoint interior_point(const std::vector<double>& weights) const;
+  // Whether the plane of a flat cell divides the two. No sight line crosses it, and labels on its two sides have nothing to
+  // do with each other (T10): a leg of a walk that is not part of a sight line may not cross it either.
+  bool divides(const ExactPoint& x, const ExactPoint& y) const {
+    return dimension == 2 && facet_planes[0].side(x) * facet_planes[0].side(y) < 0;
+  }
   // The point of a flat cell or a segment that is nearest to p, if that is in int V.
   std::optional<ExactPoint> foot(const ExactPoint& p) const;
   // Exactly that combination.

@@ -220,6 +220,7 @@ bool Walker::groove_leg(Walk& walk, const Surface& on, const Surface& before, Bo
     // Where V touches the line beyond this chain of edges, sight lines come in through the gap.
     if (how == Both::touch && in_front_of_both(on, before, chain_of(i, common)) != Both::apart) continue;
     const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
+    if (scene_->cell.divides(*y, *last.next)) continue;
     const bool blocked = scene_->tree.any(SegmentTest(*y, *last.next), [&](std::uint32_t occluder) {
       const std::uint32_t piece = scene_->occluders[occluder];
       if (std::find(e.pieces.begin(), e.pieces.end(), piece) != e.pieces.end()) return false;
@@ -248,6 +249,7 @@ bool Walker::corner_leg(Walk& walk) const {
     });
     if (!of_all) continue;
     const ExactPoint& y = scene_->points[corner];
+    if (scene_->cell.divides(y, *last.next)) continue;
     const auto& incident = scene_->point_pieces[corner];
     const bool blocked = scene_->tree.any(SegmentTest(y, *last.next), [&](std::uint32_t i) {
       const std::uint32_t piece = scene_->occluders[i];

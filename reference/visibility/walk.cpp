@@ -203,6 +203,12 @@ std::optional<Point3> Walker::along_groove(const Point3& p, const SurfaceSide& o
   return std::nullopt;
 }
 
+bool Walker::divided_by_cell(const Point3& x, const Point3& y) const {
+  if (scene_->cell().dimension() != 2) return false;
+  const exact::Plane3& h = scene_->cell().facets()[0].plane;
+  return CGAL::sign(exact::value_at(h, x)) * CGAL::sign(exact::value_at(h, y)) < 0;
+}
+
 std::optional<Leg> Walker::groove_leg(const Walk& walk, bool apart) const {
   const std::size_t n = walk.legs.size();
   if (n < 4) return std::nullopt;
@@ -218,6 +224,7 @@ std::optional<Leg> Walker::groove_leg(const Walk& walk, bool apart) const {
     if (!CGAL::is_positive(t) || t >= FT(1)) continue;
     if (!apart && !touches_only(id, wall, other)) continue;
     const Point3 y = exact::collapsed(a + t * (b - a));  // the foot of q on the edge
+    if (divided_by_cell(y, q)) continue;
     const exact::SegmentAnswer between = scene_->crossings(q, y);
     if (between.degenerate || !between.hits.empty()) return std::nullopt;
     const auto at_edge =
@@ -241,6 +248,7 @@ std::optional<Leg> Walker::corner_leg(const Walk& walk) const {
     if (!of_all) continue;
     const Point3& y = complex.points[corner];
     const Point3 q = exact::collapsed(CGAL::midpoint(last.m, last.p));
+    if (divided_by_cell(y, q)) continue;
     const exact::SegmentAnswer between = scene_->crossings(q, y);
     if (between.degenerate || !between.hits.empty()) continue;
     if (is_dark_corner(complex, scene_->cell(), corner, q - y)) return Leg{y, q, last.piece, last.front, false, true};

@@ -104,6 +104,9 @@ class Walker {
   // v in int V near `end`, strictly in front of `on`, such that the sight line to p does not cross `before`; none was found: nullopt.
   std::optional<exact::Point3> along_groove(const exact::Point3& p, const SurfaceSide& on, const SurfaceSide& before,
                                             const exact::Point3& end) const;
+  // Whether the plane of a flat cell divides the two. No sight line crosses it, and labels on its two sides have nothing to
+  // do with each other (T10): a leg that is not part of a sight line may not cross it either.
+  bool divided_by_cell(const exact::Point3& x, const exact::Point3& y) const;
   // The last leg of a walk that runs into a dark corner for ever.
   std::optional<Leg> corner_leg(const Walk& walk) const;
   // The last leg of a walk that runs into the groove between two pieces for ever. `apart`: V and the closed groove share no
