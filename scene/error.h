@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "scene/printable.h"
+
 namespace clues::scene {
 
 enum class ErrorCode {
@@ -21,10 +23,11 @@ enum class ErrorCode {
   internal = 900,
 };
 
-// what() is one line for a person: file, line or triangle, what is wrong, what to do.
+// what() is one line for a person: file, line or triangle, what is wrong, what to do. It is printable (printable.h)
+// whatever the message holds: names and pieces of files go into many of them.
 class Error : public std::runtime_error {
  public:
-  Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  Error(ErrorCode code, const std::string& message) : std::runtime_error(printable(message)), code_(code) {}
   ErrorCode code() const noexcept { return code_; }
 
  private:

@@ -59,7 +59,7 @@ bool accepted(const Read& read) {
     read();
   } catch (const scene::Error& error) {
     require(error.code() != scene::ErrorCode::internal, std::string("a refusal is no internal error: ") + error.what());
-    require(std::string_view(error.what()).find('\n') == std::string_view::npos, "an error is one line");
+    require(scene::printable(error.what()) == error.what(), "an error is one printable line");
     return false;
   }
   return true;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/error.h"
 #include "scene/percent.h"
 #include "scene/shell_word.h"
 
@@ -26,6 +27,11 @@ TEST(Printable, ShowsWhatATerminalWouldObey) {
   EXPECT_EQ(printable("\xc0\xaf\xed\xa0\x80"), "\\xc0\\xaf\\xed\\xa0\\x80");  // overlong; half a surrogate pair
   EXPECT_EQ(printable("abcdef", 3), "abc...");
   EXPECT_EQ(printable_lines("a\nb\x1b"), "a\nb\\x1b");
+}
+
+// Found by the targets `vectors` and `store`: a name of two lines went into a message.
+TEST(Printable, AnErrorIsOnePrintableLine) {
+  EXPECT_STREQ(Error(ErrorCode::malformed, "scene a\nb: no such\x1b[2J").what(), "scene a\\nb: no such\\x1b[2J");
 }
 
 TEST(ShellWord, Quotes) {
