@@ -14,6 +14,7 @@
 #include "app/progress.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/printable.h"
 #include "validate/conform/program_subject.h"
 #include "validate/conform/report.h"
 #include "validate/conform/result_files.h"
@@ -139,12 +140,12 @@ int run_conform(const ConformRequest& request) {
     options.expected = validate::read_expected_failures(request.expect_failures, suite);
   if (cases.empty()) {
     std::fprintf(stderr, "clues: nothing was executed: none of the %zu cases of %s fits the selection\n", suite.size(),
-                 folder.c_str());
+                 scene::printable(folder.string()).c_str());
     return not_everything_ran;
   }
   if (!request.export_to.empty()) {
     validate::export_cases(cases, request.export_to);
-    std::printf("%zu cases in %s\n", cases.size(), request.export_to.c_str());
+    print(fmt::format("{} cases in {}\n", cases.size(), request.export_to));
     return fine;
   }
 

@@ -19,6 +19,7 @@
 #include "scene/mesh_io.h"
 #include "scene/percent.h"
 #include "scene/result.h"
+#include "scene/shell_word.h"
 #include "validate/judge_report.h"
 
 namespace clues::app {
@@ -90,8 +91,9 @@ bool show(const DemoScene& demo, const DemoRequest& request) {
   scene::write_file_atomically(file(".pvs"), scene::to_pvs_text(map.visible));
   scene::write_file_atomically(file(".ply"), to_ply_text(map));
   scene::write_file_atomically(file(".svg"), to_svg_text(map, demo.title));
-  fmt::print("  wrote {}.svg (from above), .ply (coloured fragments), .off (the scene), .pvs\n", stem.string());
-  fmt::print("  try: clues check {0}.off --cell {1} --pvs {0}.pvs\n\n", stem.string(), box_spec(demo.cell));
+  print(fmt::format("  wrote {}.svg (from above), .ply (coloured fragments), .off (the scene), .pvs\n", stem.string()));
+  print(fmt::format("  try: clues check {} --cell {} --pvs {}\n\n", scene::shell_word(file(".off").string()),
+                    box_spec(demo.cell), scene::shell_word(file(".pvs").string())));
   std::fflush(stdout);
   return check.passed();
 }

@@ -66,6 +66,11 @@ cells() { clues map "$1" --cells $GRID -o "$2" >/dev/null 2>&1; }               
 result() { clues map scene.off --cell $CELL -o "$1" >/dev/null; }                                       # FILE
 judgement() { clues check scene.off --cell $CELL --pvs all.pvs --json > "$1"; return 0; }               # FILE
 campaign() { clues fuzz --subject "$BLIND" --cases 1 --errors 1 --oracle sight-lines --out "$1"; }      # FOLDER
+demo_meshes() {  # FOLDER: a tetrahedron for each animal
+  mkdir "$1" && for animal in elephant cow bull; do
+    printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' > "$1/$animal.off"
+  done
+}
 FOUND=sight-lines-hidden-visible-loose_triangles
 suite() {  # FOLDER
   mkdir "$1" && cp "$SUITE/needles.json" "$1" && clues lint "$1" --write >/dev/null
