@@ -9,6 +9,7 @@
 #include "app/common.h"
 #include "scene/atomic_file.h"
 #include "scene/error.h"
+#include "scene/folder_update.h"
 #include "scene/formats/file_bytes.h"
 #include "scene/sealed_result.h"
 
@@ -20,16 +21,6 @@ using scene::Error;
 using scene::ErrorCode;
 
 constexpr const char* request_file = "cells.json";
-
-// Whether there is a file; what is there and no file is not ours.
-bool is_there(const fs::path& file) {
-  std::error_code error;
-  const auto type = fs::symlink_status(file, error).type();
-  if (type == fs::file_type::not_found) return false;
-  if (type == fs::file_type::regular) return true;
-  throw Error(ErrorCode::bad_argument,
-              file.string() + ": is no regular file, so clues did not make it, and leaves it alone; move it away");
-}
 
 bool is_cell_file(const fs::path& file) {
   const std::string name = file.filename().string();
@@ -53,7 +44,7 @@ CellFolder::CellFolder(fs::path folder, std::string request, const std::vector<s
   try {
     lock_ = std::make_unique<scene::FolderLock>(folder_);
     const fs::path file = folder_ / request_file;
-    const bool begun = is_there(file);
+    const bool begun = scene::is_our_file(file);
     if (begun && !resume) {
       throw Error(
           ErrorCode::bad_argument,
@@ -111,7 +102,7 @@ fs::path CellFolder::file_of(const scene::CellSpec& cell) const {
 
 bool CellFolder::has(const scene::CellSpec& cell) const {
   const fs::path file = file_of(cell);
-  if (!is_there(file)) return false;
+  if (!scene::is_our_file(file)) return false;
   const std::string flaw = scene::flaw_of_sealed(scene::read_file_bytes(file), question_of(request_, cell));
   if (flaw.empty()) return true;
   throw Error(ErrorCode::bad_argument, file.string() + ": " + flaw + "; remove it, and it is made again");

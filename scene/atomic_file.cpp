@@ -17,12 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& target, const std::string& what, int error) {
-  throw Error(ErrorCode::file_unwritable, target.string() + ": " + what + ": " +
-                                              std::generic_category().message(error) +
-                                              "; check the folder, its permissions and the space on the disk");
-}
-
 // Removes itself unless it was moved to its target.
 class TemporaryFile {
  public:
@@ -35,7 +29,7 @@ class TemporaryFile {
       if (descriptor_ >= 0) return;
       if (errno != EEXIST) break;
     }
-    fail(target_, "cannot create a file in this folder", errno);
+    fail_unwritable(target_, "cannot create a file in this folder", errno);
   }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -47,7 +41,7 @@ class TemporaryFile {
   void keep_mode_of_target() {
     struct stat status {};
     if (::stat(target_.c_str(), &status) == 0 && ::fchmod(descriptor_, status.st_mode & 0777) != 0) {
-      fail(target_, "cannot keep the permissions", errno);
+      fail_unwritable(target_, "cannot keep the permissions", errno);
     }
   }
 
@@ -55,17 +49,17 @@ class TemporaryFile {
     while (!bytes.empty()) {
       const auto written = ::write(descriptor_, bytes.data(), bytes.size());
       if (written < 0 && errno == EINTR) continue;
-      if (written < 0) fail(target_, "cannot write", errno);
+      if (written < 0) fail_unwritable(target_, "cannot write", errno);
       bytes.remove_prefix(static_cast<std::size_t>(written));
     }
   }
 
   void move_to_target() {
-    if (::fsync(descriptor_) != 0) fail(target_, "cannot write", errno);
+    if (::fsync(descriptor_) != 0) fail_unwritable(target_, "cannot write", errno);
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
-    if (closed != 0) fail(target_, "cannot write", errno);
-    if (std::rename(path_.c_str(), target_.c_str()) != 0) fail(target_, "cannot replace the file", errno);
+    if (closed != 0) fail_unwritable(target_, "cannot write", errno);
+    if (std::rename(path_.c_str(), target_.c_str()) != 0) fail_unwritable(target_, "cannot replace the file", errno);
     moved_ = true;
   }
 
@@ -76,7 +70,8 @@ class TemporaryFile {
   bool moved_ = false;
 };
 
-// So that the new name outlives a power cut. Some file systems cannot do it; the file itself is complete anyway.
+}  // namespace
+
 void flush_folder(const fs::path& folder) {
   const int descriptor = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -84,7 +79,10 @@ void flush_folder(const fs::path& folder) {
   ::close(descriptor);
 }
 
-}  // namespace
+void fail_unwritable(const fs::path& path, const std::string& what, int error) {
+  throw Error(ErrorCode::file_unwritable, path.string() + ": " + what + ": " + std::generic_category().message(error) +
+                                              "; check the folder, its permissions and the space on the disk");
+}
 
 bool is_temporary_name(std::string_view name) {
   constexpr std::string_view before = ".clues-", after = ".tmp";
@@ -102,14 +100,14 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
   }
   std::error_code failed;
   const auto target = fs::is_symlink(path, ignored) ? fs::canonical(path, failed) : path;
-  if (failed) fail(path, "cannot follow this link", failed.value());
+  if (failed) fail_unwritable(path, "cannot follow this link", failed.value());
   const auto type = fs::status(target, ignored).type();
-  if (type == fs::file_type::directory) fail(path, "cannot write", EISDIR);
+  if (type == fs::file_type::directory) fail_unwritable(path, "cannot write", EISDIR);
   // A rename would replace the device itself.
   if (type != fs::file_type::regular && type != fs::file_type::not_found) {
     throw Error(ErrorCode::file_unwritable, path.string() + ": is not a regular file; name one, or a new one");
   }
-  if (!target.has_filename()) fail(path, "cannot write", ENOENT);
+  if (!target.has_filename()) fail_unwritable(path, "cannot write", ENOENT);
   TemporaryFile file(target);
   file.keep_mode_of_target();
   file.write(bytes);

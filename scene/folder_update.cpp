@@ -19,11 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& what, int error) {
-  throw Error(ErrorCode::file_unwritable, path.string() + ": " + what + ": " + std::generic_category().message(error) +
-                                              "; check the folder, its permissions and the space on the disk");
-}
-
 [[noreturn]] void not_ours(const fs::path& path, const char* needed) {
   throw Error(ErrorCode::bad_argument,
               path.string() + ": is no " + needed + ", so clues did not make it, and leaves it alone; move it away");
@@ -35,7 +30,7 @@ Kind kind_of(const fs::path& path) {
   struct stat status {};
   if (::lstat(path.c_str(), &status) != 0) {
     if (errno == ENOENT || errno == ENOTDIR) return Kind::none;
-    fail(path, "cannot look at it", errno);
+    fail_unwritable(path, "cannot look at it", errno);
   }
   return S_ISREG(status.st_mode) ? Kind::file : S_ISDIR(status.st_mode) ? Kind::folder : Kind::other;
 }
@@ -61,23 +56,15 @@ void require_ours(const fs::path& folder, FileNames names) {
       if (kind == Kind::none) continue;
       if (kind != Kind::folder) not_ours(folder / name.parent_path(), "folder");
     }
-    const Kind kind = kind_of(folder / name);
-    if (kind != Kind::none && kind != Kind::file) not_ours(folder / name, "regular file");
+    is_our_file(folder / name);
   }
-}
-
-void flush(const fs::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
 }
 
 // What is there under our names, and temporary files of ours; then the folder, if that was all.
 void clear(const fs::path& folder, FileNames names) {
   if (kind_of(pending_in(folder)) != Kind::folder) return;
   ::unlink(pending_file(folder, "commit").c_str());
-  flush(pending_in(folder));
+  flush_folder(pending_in(folder));
   for (const char* name : names) ::unlink(pending_file(folder, name).c_str());
   std::error_code ignored;
   std::vector<fs::path> temporaries;
@@ -96,24 +83,30 @@ void move_committed(const fs::path& folder, FileNames names) {
     const fs::path from = pending_file(folder, names[i]), to = folder / names[i];
     if (kind_of(from) != Kind::file) continue;
     if (to.parent_path() != folder && ::mkdir(to.parent_path().c_str(), 0777) != 0 && errno != EEXIST)
-      fail(to.parent_path(), "cannot make this folder", errno);
-    if (std::rename(from.c_str(), to.c_str()) != 0) fail(to, "cannot replace the file", errno);
-    if (to.parent_path() != folder) flush(to.parent_path());
+      fail_unwritable(to.parent_path(), "cannot make this folder", errno);
+    if (std::rename(from.c_str(), to.c_str()) != 0) fail_unwritable(to, "cannot replace the file", errno);
+    if (to.parent_path() != folder) flush_folder(to.parent_path());
   }
-  flush(folder);
+  flush_folder(folder);
   clear(folder, names);
 }
 
 }  // namespace
 
+bool is_our_file(const fs::path& path) {
+  const Kind kind = kind_of(path);
+  if (kind != Kind::none && kind != Kind::file) not_ours(path, "regular file");
+  return kind == Kind::file;
+}
+
 FolderUpdate::FolderUpdate(fs::path folder, FileNames names)
     : folder_(std::move(folder)), names_(names), lock_(folder_) {
   if (is_committed(folder_)) move_committed(folder_, names_);
   clear(folder_, names_);
-  if (is_committed(folder_)) fail(pending_file(folder_, "commit"), "cannot remove it", errno);
+  if (is_committed(folder_)) fail_unwritable(pending_file(folder_, "commit"), "cannot remove it", errno);
   require_ours(folder_, names_);
   if (::mkdir(pending_in(folder_).c_str(), 0777) != 0 && errno != EEXIST)
-    fail(pending_in(folder_), "cannot make this folder", errno);
+    fail_unwritable(pending_in(folder_), "cannot make this folder", errno);
 }
 
 FolderUpdate::~FolderUpdate() {

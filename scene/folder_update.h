@@ -16,6 +16,10 @@ namespace clues::scene {
 // Names may have one folder in them: "original/scene.off". The first is the one that says that there is something: it is moved last.
 using FileNames = std::span<const char* const>;
 
+// Whether there is a file of this name. Throws Error bad_argument where there is something else: a link, a folder, a pipe; then
+// clues did not make it.
+bool is_our_file(const std::filesystem::path& path);
+
 class FolderUpdate {
  public:
   // The folder must exist; it is locked until the end. Finishes an update that was committed and killed. Throws Error file_unwritable; bad_argument as FolderLock, and
