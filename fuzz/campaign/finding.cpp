@@ -70,17 +70,11 @@ Finding to_finding(const json& in) {
 
 template <class Read>
 auto parsed(const std::string& text, const Read& read) {
-  try {
-    return read(scene::parse_json_text(text));
-  } catch (const json::exception& error) {
-    throw scene::Error(scene::ErrorCode::malformed, std::string("this is not a finding: ") + error.what());
-  } catch (const scene::JsonError& error) {
-    throw scene::Error(scene::ErrorCode::malformed, std::string("this is not a finding: ") + error.what());
-  }
+  return reading_fields([&] { return read(scene::parse_json_text(text)); },
+                        [](const std::string& what) {
+                          return scene::Error(scene::ErrorCode::malformed, "this is not a finding: " + what);
+                        });
 }
-
-// What programs say about themselves need not be UTF-8; JSON must.
-std::string dumped(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 bool rests_on_a_sight_line(const std::string& verdict) {
   return verdict == "hidden/visible" || verdict == "hidden-region/visible";

@@ -43,13 +43,12 @@ json witness_json(const Finding& f) {
   return out;
 }
 
-// Explanations may hold what a program said, in any bytes.
-std::string dumped(const json& value) { return value.dump(2, ' ', false, json::error_handler_t::replace) + "\n"; }
+std::string text_of(const json& about) { return dumped(about, 2) + "\n"; }
 
 // finding.json vouches for itself too: "checksum" is the SHA-256 of its text without that line. It tells what was changed, not who wrote it.
 std::string sealed(json about) {
-  about["checksum"] = scene::sha256_of(dumped(about));
-  return dumped(about);
+  about["checksum"] = scene::sha256_of(text_of(about));
+  return text_of(about);
 }
 
 void put_case(scene::FolderUpdate& update, const Finding& f, const std::string& folder, json& sums) {
@@ -85,7 +84,7 @@ void require_sealed(json about, const fs::path& file) {
   const auto checksum = about.find("checksum");
   const json said = checksum == about.end() ? json() : *checksum;
   about.erase("checksum");
-  if (said != scene::sha256_of(dumped(about)))
+  if (said != scene::sha256_of(text_of(about)))
     throw Error(ErrorCode::malformed, file.string() + ": was changed after the finding was saved");
 }
 
@@ -143,17 +142,9 @@ SavedFinding finding_of(const json& about, const CaseTexts& now, const CaseTexts
 // Runs `read`; what JSON says of a field becomes an error that names the folder.
 template <class Read>
 SavedFinding with_place(const fs::path& folder, const Read& read) {
-  const auto fail = [&](const std::string& what) {
-    throw Error(ErrorCode::malformed, folder.string() + ": not the folder of a finding, or changed: " + what);
-  };
-  try {
-    return read();
-  } catch (const json::exception& problem) {
-    fail(problem.what());
-  } catch (const scene::JsonError& problem) {
-    fail(problem.what());
-  }
-  return {};
+  return reading_fields(read, [&](const std::string& what) {
+    return Error(ErrorCode::malformed, folder.string() + ": not the folder of a finding, or changed: " + what);
+  });
 }
 
 // A name as an argument that is no option.

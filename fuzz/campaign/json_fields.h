@@ -13,6 +13,23 @@
 
 namespace clues::fuzz {
 
+// Runs read(); what it throws about the JSON becomes error_of(what), which is thrown in its place.
+template <class Read, class ErrorOf>
+auto reading_fields(const Read& read, const ErrorOf& error_of) {
+  try {
+    return read();
+  } catch (const nlohmann::json::exception& problem) {
+    throw error_of(problem.what());
+  } catch (const scene::JsonError& problem) {
+    throw error_of(problem.what());
+  }
+}
+
+// What programs say about themselves need not be UTF-8; JSON must.
+inline std::string dumped(const nlohmann::json& value, int indent = -1) {
+  return value.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 template <class Number>
 Number whole(const nlohmann::json& value, const std::string& what = "a number") {
   return static_cast<Number>(scene::whole_number(value, what, std::numeric_limits<Number>::max()));

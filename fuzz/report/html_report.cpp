@@ -221,7 +221,7 @@ verdict.oninput=filter;text.oninput=filter;
 }  // namespace
 
 std::optional<ReportSection> section_of(const std::string& bytes, const fs::path& file, bool look_around) {
-  try {
+  const auto read = [&]() -> std::optional<ReportSection> {
     const json j = scene::parse_json(bytes, file.string());
     const auto format = j.is_object() ? j.find("format") : j.end();
     if (!j.is_object() || format == j.end() || !format->is_string()) return std::nullopt;
@@ -233,14 +233,12 @@ std::optional<ReportSection> section_of(const std::string& bytes, const fs::path
       if (name.starts_with(kind) && name != "clues-finding/2")
         throw Error(ErrorCode::unsupported, file.string() + ": is of another version of clues; make it anew");
     }
-  } catch (const json::exception& error) {
-    throw Error(ErrorCode::malformed, file.string() + ": is no complete result of this version of clues (" +
-                                          error.what() + "); make it anew");
-  } catch (const scene::JsonError& error) {
-    throw Error(ErrorCode::malformed, file.string() + ": is no complete result of this version of clues (" +
-                                          error.what() + "); make it anew");
-  }
-  return std::nullopt;
+    return std::nullopt;
+  };
+  return reading_fields(read, [&](const std::string& what) {
+    return Error(ErrorCode::malformed,
+                 file.string() + ": is no complete result of this version of clues (" + what + "); make it anew");
+  });
 }
 
 std::vector<ReportSection> read_results(const fs::path& folder) {
