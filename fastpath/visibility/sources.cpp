@@ -70,10 +70,7 @@ Sources::OfVertex Sources::towards(std::uint32_t v, const ExactPoint& view, Pool
 
 // Of those that do not only separate (T10): they hold V, and may hold the way into V.
 bool Sources::piece_between(const ExactPoint& beside, const ExactPoint& x, std::size_t first) const {
-  return pieces_.may_meet(beside, x, first, [&](const Plane& h) {
-    const auto& cell = scene_.cell.vertices;
-    return std::all_of(cell.begin(), cell.end(), [&](const ExactPoint& c) { return h.side(c) == 0; });
-  });
+  return pieces_.may_meet(beside, x, first, [&](const Plane& h) { return scene_.cell.lies_in(h); });
 }
 
 // From level s.level on. Without a place the source counts as visible.

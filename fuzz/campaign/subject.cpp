@@ -184,21 +184,18 @@ std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<
 }
 
 std::unique_ptr<Subject> make_subject(const std::string& text) {
+  if (is_program(text)) return std::make_unique<CommandSubject>(text);
   if (text == "reference") return reference_subject(text, PlantedBug::none);
   if (text == "fast") return fast_subject(text);
   if (text == "subdivided") return refined_subject(text, validate::Refinement::cells);
   if (text == "backprojected") return refined_subject(text, validate::Refinement::backprojection);
   if (text == "fast:subdivided") return refined_fast_subject(text, fastpath::RefineBy::cells);
   if (text == "fast:backprojected") return refined_fast_subject(text, fastpath::RefineBy::backprojection);
-  const std::string prefix = "reference:";
-  if (text.starts_with(prefix)) {
-    const auto bug = planted_bugs.find(text.substr(prefix.size()));
-    if (bug == planted_bugs.end())
-      throw Error(ErrorCode::bad_argument,
-                  "--subject " + text + ": no such planted bug; `clues fuzz --help` lists the subjects");
-    return reference_subject(text, bug->second);
-  }
-  return std::make_unique<CommandSubject>(text);
+  const auto bug = planted_bugs.find(text.substr(std::string_view("reference:").size()));
+  if (bug == planted_bugs.end())
+    throw Error(ErrorCode::bad_argument,
+                "--subject " + text + ": no such planted bug; `clues fuzz --help` lists the subjects");
+  return reference_subject(text, bug->second);
 }
 
 }  // namespace clues::fuzz

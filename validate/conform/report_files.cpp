@@ -62,9 +62,6 @@ Json to_json(const Tally& tally) {
           {"looser_than_first_order", tally.looser}};
 }
 
-// XML 1.0 knows no control characters, not even escaped, and no bytes that are no UTF-8.
-std::string printable(const std::string& text) { return scene::printable_lines(text); }
-
 }  // namespace
 
 std::string to_json_text(const Run& run, const ReportContext& context) {
@@ -92,10 +89,11 @@ std::string to_json_text(const Run& run, const ReportContext& context) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+// XML 1.0 knows no control characters, not even escaped, and no bytes that are no UTF-8: printable_lines().
 std::string to_junit_text(const Run& run, const ReportContext& context) {
   namespace pt = boost::property_tree;
   pt::ptree suites;
-  suites.put("<xmlattr>.name", printable(context.subject));
+  suites.put("<xmlattr>.name", scene::printable_lines(context.subject));
   for (const auto& [topic, tally] : run.topics) {
     pt::ptree suite;
     std::uint64_t failures = 0, errors = 0, skipped = 0;
@@ -119,10 +117,12 @@ std::string to_junit_text(const Run& run, const ReportContext& context) {
       if (verdict != nullptr) {
         pt::ptree detail;
         const std::string prefix = run.is_expected(result) ? "expected to fail: " : "";
-        detail.put("<xmlattr>.message", printable(prefix + to_string(result.outcome) + ": " + describe(run, result)));
+        detail.put("<xmlattr>.message",
+                   scene::printable_lines(prefix + to_string(result.outcome) + ": " + describe(run, result)));
         if (verdict != std::string("skipped")) {
           detail.put("<xmlattr>.type", to_string(result.outcome));
-          detail.put_value(printable("repeat: " + context.repeat + " --case " + result.test->id +
+          detail.put_value(
+              scene::printable_lines("repeat: " + context.repeat + " --case " + result.test->id +
                                      (result.answer.stderr_tail.empty() ? "" : "\n" + result.answer.stderr_tail)));
         }
         item.add_child(verdict, detail);
