@@ -1,25 +1,13 @@
 #include "tests/app/attacks.h"
 
-#include <sys/wait.h>
-
-#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 
 #include "tests/app/program.h"
+#include "tests/app/script.h"
 
 namespace clues::tests {
-namespace {
-
 namespace fs = std::filesystem;
-
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-}  // namespace
 
 std::vector<Attack> read_attacks(const fs::path& table) {
   std::vector<Attack> all;
@@ -58,17 +46,10 @@ std::string outcome_of(const Attack& attack, const fs::path& folder, const fs::p
   std::ofstream(folder / "other.off") << other.replace(other.find("9 0 2"), 5, "8 0 2");
   std::ofstream(folder / "all.pvs") << "0\n1\n2\n3\n4\n";
   const auto sh = [&](const std::string& text, const char* output) {
-    const std::string command =
-        "cd " + quoted(folder.string()) + " && CLUES=" + quoted(attacked_program()) +
-        " FINDING=" + quoted(finding.string()) + " SUITE=" + quoted(std::string(CLUES_SOURCE_DIR "/vectors")) +
-        " PYTHON=" + quoted(PYTHON) + " sh -c " +
-        quoted(". " + quoted(std::string(CLUES_TEST_DATA "/attacks/prelude.sh")) + "\n" + text) + " >" + output +
-        " 2>&1 </dev/null";
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return run_script(folder, finding, text, folder / output);
   };
   if (!attack.make.empty() && sh(attack.make, "made") != 0) return "cannot be prepared: " + read_all(folder / "made");
-  const int code = sh("export CLUES\n" + attack.run, "output");
+  const int code = sh(attack.run, "output");
   const std::string output = read_all(folder / "output");
   if (code != attack.exit_code)
     return "exit code " + std::to_string(code) + " and not " + std::to_string(attack.exit_code) + ": " + output;

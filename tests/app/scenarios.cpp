@@ -19,6 +19,7 @@
 #include "scene/atomic_file.h"
 #include "tests/app/finding_fixture.h"
 #include "tests/app/program.h"
+#include "tests/app/script.h"
 
 namespace clues::tests {
 namespace {
@@ -26,26 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-std::string quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
-std::string environment(const fs::path& place) {
-  return "CLUES=" + quoted(attacked_program()) + " FINDING=" + quoted((place / "finding").string()) +
-         " SUITE=" + quoted(std::string(CLUES_SOURCE_DIR "/vectors")) + " PYTHON=" + quoted(PYTHON);
-}
-
-std::string script(const std::string& text) {
-  return " sh -c " + quoted(". " + quoted(std::string(CLUES_TEST_DATA "/attacks/prelude.sh")) + "\n" + text);
-}
-
 int sh(const fs::path& folder, const fs::path& place, const std::string& text) {
-  const std::string command = "cd " + quoted(folder.string()) + " && export " + environment(place) + " &&" +
-                              script(text) + " >" + quoted((place / "sh-output").string()) + " 2>&1 </dev/null";
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return run_script(folder, place / "finding", text, place / "sh-output");
 }
 
 // What waits to be moved into place counts as long as a commit stands beside it; and a commit, as long as something waits.
@@ -86,6 +69,8 @@ const std::vector<Scenario>& scenarios() {
       {"promote", "finding f && suite s && echo mine > s/notes.txt",
        "replay f --subject \"$BLIND\" --promote s --id new-one", "clues lint s"},
       {"lint", "suite s && sed -i 's/^  //' s/needles.json", "lint s --write", ":"},
+      {"demo", "demo_meshes m && mkdir d && echo old > d/city.pvs", "demo --quick --mesh-dir m --out d",
+       "clues demo --quick --mesh-dir m --out d", true},
       {"report", "mkdir r && judgement r/a.json && finding r/f", "report r", ":"},
   };
   return all;
@@ -170,9 +155,8 @@ Stage::Run Stage::run(const fs::path& folder, const std::string& fault, double k
     if (!fault.empty()) words += "export CLUES_FAULT=" + quoted(fault) + "; ";
   }
   words += "exec \"$CLUES\" \"$@\"";
-  const std::string command = "cd " + quoted(folder.string()) + " && export " + environment(place_) + " && exec" +
-                              script(words) + " >" + quoted(out.string()) + " 2>" + quoted(err.string()) +
-                              " </dev/null";
+  const std::string command = script_command(folder, place_ / "finding", words) + " >" + quoted(out.string()) + " 2>" +
+                              quoted(err.string()) + " </dev/null";
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) {

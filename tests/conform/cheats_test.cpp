@@ -88,6 +88,12 @@ TEST_P(CheatTest, IsWorthNoMoreAndChargedToItsCase) {
 
 constexpr const char* bad = "malformed_output";
 
+std::string name_of(const testing::TestParamInfo<Cheat>& test) {
+  std::string name = test.param.mode;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Said, CheatTest,
     testing::Values(
@@ -108,11 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
         Cheat{"minus-zero", bad, "'visible' holds"}, Cheat{"the-same-ids-a-thousand-times", "unsound"},
         Cheat{"deep-lists", bad, "nested more than 32 deep"},
         Cheat{"deep-statistics", bad, "nested more than 32 deep"}),
-    [](const auto& test) {
-      std::string name = test.param.mode;
-      std::replace(name.begin(), name.end(), '-', '_');
-      return name;
-    });
+    name_of);
 
 INSTANTIATE_TEST_SUITE_P(
     Lines, CheatTest,
@@ -136,11 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
         Cheat{"exits-after-its-answer", "crash", "exit status 0", Cheat::at_first},
         Cheat{"kills-itself-after-its-answer", "crash", "signal 9", Cheat::at_last},
         Cheat{"ends-with-7", "crash", "exit status 7", Cheat::at_last}),
-    [](const auto& test) {
-      std::string name = test.param.mode;
-      std::replace(name.begin(), name.end(), '-', '_');
-      return name;
-    });
+    name_of);
 
 INSTANTIATE_TEST_SUITE_P(Processes, CheatTest,
                          testing::Values(Cheat{"answers-from-a-grandchild", "crash", "exit status 0"},
@@ -153,11 +151,7 @@ INSTANTIATE_TEST_SUITE_P(Processes, CheatTest,
                                          Cheat{"kills-its-parent", "crash", "killed the process that watches it"},
                                          Cheat{"stops-its-parent", "timeout", "", Cheat::at_first, true},
                                          Cheat{"signals-its-parent", "unsound"}, Cheat{"writes-the-report", "unsound"}),
-                         [](const auto& test) {
-                           std::string name = test.param.mode;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         name_of);
 
 INSTANTIATE_TEST_SUITE_P(Shown, CheatTest,
                          testing::Values(Cheat{"nul-in-a-message", "errored", "a\\x00b"},
@@ -171,11 +165,7 @@ INSTANTIATE_TEST_SUITE_P(Shown, CheatTest,
                                          Cheat{"escape-sequences-instead-of-json", bad, "'\\x1b[2J"},
                                          Cheat{"escape-sequences-in-a-key", bad, "unknown field '\\x1b[2J'"},
                                          Cheat{"no-utf-8-in-a-message", bad, "is not JSON"}),
-                         [](const auto& test) {
-                           std::string name = test.param.mode;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+                         name_of);
 
 // ---- at the start
 

@@ -23,8 +23,6 @@ using thin::Scene;
 using thin::text;
 using thin::Triangle;
 
-constexpr int kPoints = 10000;  // of each dimension
-
 using HiddenProof = std::function<bool(const scene::TriangleMesh&, const ConvexCell&, const UmbraCertificate&, bool)>;
 
 struct Proved {
@@ -34,7 +32,7 @@ struct Proved {
 Proved compare_proofs(int dimension, std::uint64_t seed, const HiddenProof& proves, bool complain) {
   Random random(seed + 20 + static_cast<std::uint64_t>(dimension));
   Proved total;
-  while (total.triangles < kPoints) {
+  while (total.triangles < thin::kPoints) {
     const Frustum frustum(random, dimension);
     Scene scene(random, dimension, 1);
     scene.cell = frustum.cell;

@@ -21,8 +21,6 @@ using thin::Scene;
 using thin::text;
 using thin::Triangle;
 
-constexpr int kPoints = 10000;  // of each dimension
-
 struct Asked {
   const Scene& scene;
   const ConvexCell& cell;  // the same
@@ -87,7 +85,7 @@ Compared compare(int dimension, std::uint64_t seed, const Oracle& oracle, bool c
     total.wrong += flaw.empty() ? 0 : 1;
     if (complain && !flaw.empty()) ADD_FAILURE() << flaw << "\n" << scene.words();
   }
-  while (total.points < kPoints) {
+  while (total.points < thin::kPoints) {
     const Scene scene(random, dimension, 5);
     const ConvexCell cell = scene.exact_cell();
     for (int k = 0; k < 5; ++k) {

@@ -17,6 +17,8 @@ namespace clues::validate::thin {
 
 using fuzz::Random;
 
+constexpr int kPoints = 10000;  // lines, triangles: of each dimension
+
 // CLUES_SEED, or always the same; printed.
 std::uint64_t seed_of_run();
 

@@ -17,8 +17,6 @@ using thin::Scene;
 using thin::text;
 using thin::Triangle;
 
-constexpr int kPoints = 10000;  // of each dimension
-
 // Moves of both ends by 2^-100, within the cell and the target: far less than lies between anything in these
 // scenes.
 bool neighbours_are_free(const Line& line, Random& random) {
@@ -46,7 +44,7 @@ struct Checked {
 Checked check_witnesses(int dimension, std::uint64_t seed, bool lenient) {
   Random random(seed + 10 + static_cast<std::uint64_t>(dimension));
   Checked total;
-  while (total.lines < kPoints) {
+  while (total.lines < thin::kPoints) {
     const Scene scene(random, dimension, 4);
     const scene::TriangleMesh mesh = scene.mesh();
     const ConvexCell cell = scene.exact_cell();
