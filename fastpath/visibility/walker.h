@@ -4,7 +4,9 @@
 // A walk does not depend on the wedge pieces but for that; it is made once and looked at again when new pieces appear (D17a).
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "exact/dials.h"
@@ -57,20 +59,34 @@ class Walker {
   // A point of int V strictly in front of the surface (and of `also`, if given and possible); none if V has none in front of the first, or it is not found
   // within 2^-992 of a vertex.
   const ExactPoint* in_front(const Surface& on, const Surface* also, std::uint64_t seed, Pool& pool) const;
-  // Whether the piece lies in the plane of a surface and in front of the other, at least in part.
-  bool is_wall(std::uint32_t piece, const Surface& of, const Surface& other) const;
-  // The edges in which pieces of both walls of a groove meet, of the flat surface around a: others may cut it into many pieces. They lie on one line.
-  std::vector<std::uint32_t> common_edges(const Surface& a, const Surface& b) const;
-  using Chain = std::array<std::uint32_t, 2>;  // its ends
-  // Those of them that are connected with number `first`.
-  Chain chain_of(std::size_t first, const std::vector<std::uint32_t>& edges) const;
   enum class Both : std::uint8_t { apart, touch, meet };  // V, or the closed V only, with the space in front of both
+  using Chain = std::array<std::uint32_t, 2>;             // the ends of edges that are connected
+
+  // ---- what does not end (grooves.cpp)
+
   // Apart also if the closed V touches that space only upon this chain of common edges.
   Both in_front_of_both(const Surface& a, const Surface& b, const std::optional<Chain>& chain) const;
-  // A point of int V in front of `on`, from which the sight line to p comes in past the other wall, where the closed V touches the groove.
+  // Whether the piece lies in the plane of a surface and in front of the other, at least in part.
+  bool is_wall(std::uint32_t piece, const Surface& of, const Surface& other) const;
+  // A wall of a groove is all of a flat surface, which others may cut into many pieces.
+  struct Wall {
+    std::vector<std::uint32_t> pieces;
+    std::vector<std::uint32_t> edges;  // at which the other wall stands on it: on one line
+  };
+  Wall wall_of(const Surface& a, const Surface& b) const;
+  // Those of such edges that are connected with number `first`.
+  Chain chain_of(std::size_t first, const std::vector<std::uint32_t>& edges) const;
+  // A point of int V in front of `on`, from which the sight line to p comes in past the other wall, where the closed V
+  // touches the groove.
   const ExactPoint* along_groove(const ExactPoint& p, const Surface& on, const Surface& before, Pool& pool) const;
+  // Each adds the last leg of a walk that has none, if it can.
   bool corner_leg(Walk& walk) const;
   bool groove_leg(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
+  bool leg_from_edge(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
+  bool leg_in_slice(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
+  // A piece of the wall that holds y, a point of its plane, and what comes next in direction d.
+  std::optional<std::uint32_t> piece_from(const ExactPoint& y, const Exact3& d, const Surface& wall,
+                                          const Surface& other) const;
 
   const LocalScene* scene_;
   const PieceSet* pieces_;

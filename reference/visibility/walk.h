@@ -13,6 +13,14 @@
 // Edges that carry both walls on along the line count as one edge. Where V touches the line elsewhere, sight lines nearly along the edge come in at the
 // groove's end, past the walls, however near the edge p is: then the walk looks that way.
 //
+// With a segment as cell, all of a walk lies in one plane with it, a slice, and what is seen there is a matter of the slice
+// alone: no sight line leaves it, no continuation, and no wedge that only separates (T10) divides it. So such a walk ends by
+// T2 in the slice. Its walls are two rays from the tip y of the groove, and if a line of the slice through y has V on one side
+// and both rays strictly on the other, then next to y all between them is hidden: a parallel line just beyond y cuts a
+// triangle off. Such a line exists if V and the closed angle between the rays are disjoint. If y is on the line of V and both
+// rays leave it on one side, that line is one, wherever V lies on it: a segment that goes through a groove's edge is as
+// blind in the groove as one that ends there. The leg from y stays on one side of the line of V.
+//
 // So walks are made once, and only their legs are looked at again when new wedge pieces appear (D17a).
 #pragma once
 
@@ -85,25 +93,35 @@ class Walker {
   std::optional<exact::Point3> foot(const exact::Point3& p) const;
   // A multiple of the distance of x from the piece's plane, positive on the given side.
   exact::FT height(const SurfaceSide& on, const exact::Point3& x) const;
-  // Calls visit(s, x) for each edge or diagonal of V that leaves the open side at x, a point of its plane, from the vertex s; until it says true.
-  template <class Visit>
-  void leaves(const SurfaceSide& side, const Visit& visit) const;
+  // Calls visit(s, x) for each edge or diagonal of V that leaves the open side at x, a point of its plane, from the vertex
+  // s; until it says true.
+  using Leaving = std::function<bool(const exact::Point3&, const exact::Point3&)>;
+  void leaves(const SurfaceSide& side, const Leaving& visit) const;
   // A point of V strictly on the given side of the piece's plane, and, if `also` is given, on that side of that plane too; none when V has no such point.
   std::optional<exact::Point3> anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const;
-  // A point of the closed V in both closed half spaces, for two walls that no point of V is strictly in front of at once; none if V keeps away.
+
+  // ---- what does not end (grooves.cpp)
+
+  // A point of the closed V in both closed half spaces, for two walls that no point of V is strictly in front of at once;
+  // none if V keeps away.
   std::optional<exact::Point3> end_of_groove(const SurfaceSide& one, const SurfaceSide& two) const;
+  // v in int V near `end`, strictly in front of `on`, such that the sight line to p does not cross `before`; none was
+  // found: nullopt.
+  std::optional<exact::Point3> along_groove(const exact::Point3& p, const SurfaceSide& on, const SurfaceSide& before,
+                                            const exact::Point3& end) const;
   // Whether the piece lies in the plane of the side `in` and in front of `before`, at least in part.
   bool is_wall(std::uint32_t piece, const SurfaceSide& in, const SurfaceSide& before) const;
   // Whether pieces of both walls of a groove meet in the edge.
   bool carries_both(const exact::Edge& e, const SurfaceSide& one, const SurfaceSide& two) const;
-  // Such edges of the wall that the first side belongs to: the flat surface around it, which others may cut into many pieces.
-  std::vector<std::uint32_t> common_edges(const SurfaceSide& one, const SurfaceSide& two) const;
+  // A wall of a groove is all of a flat surface, which others may cut into many pieces.
+  struct Wall {
+    std::vector<std::uint32_t> pieces;
+    std::vector<std::uint32_t> edges;  // at which the other wall stands on it
+  };
+  Wall wall_of(const SurfaceSide& one, const SurfaceSide& other) const;
   // Whether V and the closed groove between two walls that meet in this edge share nothing but points of the edge, and of
   // the edges that carry both walls on along its line without a gap.
   bool touches_only(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two) const;
-  // v in int V near `end`, strictly in front of `on`, such that the sight line to p does not cross `before`; none was found: nullopt.
-  std::optional<exact::Point3> along_groove(const exact::Point3& p, const SurfaceSide& on, const SurfaceSide& before,
-                                            const exact::Point3& end) const;
   // Whether the plane of a flat cell divides the two. No sight line crosses it, and labels on its two sides have nothing to
   // do with each other (T10): a leg that is not part of a sight line may not cross it either.
   bool divided_by_cell(const exact::Point3& x, const exact::Point3& y) const;
@@ -112,6 +130,16 @@ class Walker {
   // The last leg of a walk that runs into the groove between two pieces for ever. `apart`: V and the closed groove share no
   // point; else it is asked for the edge.
   std::optional<Leg> groove_leg(const Walk& walk, bool apart) const;
+  // Its leg from the edge to q, a point in front of both walls; or, if the cell is a segment, the one from the tip of the
+  // groove in the plane through the cell and q.
+  std::optional<Leg> leg_from_edge(const SurfaceSide& wall, const SurfaceSide& other, const exact::Point3& q,
+                                   bool apart) const;
+  std::optional<Leg> leg_in_slice(const SurfaceSide& wall, const SurfaceSide& other, const exact::Point3& q,
+                                  bool apart) const;
+  // A piece of the wall that holds y, a point of its plane, and what comes next in direction d.
+  std::optional<std::uint32_t> piece_from(const exact::Point3& y, const exact::Vector3& d, const SurfaceSide& wall,
+                                          const SurfaceSide& other) const;
+
   exact::Point3 last_crossing(const exact::Point3& v, const exact::Point3& p, const exact::Hit& hit,
                               const Good& good) const;
   const exact::SceneQuery* scene_;
