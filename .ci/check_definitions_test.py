@@ -22,7 +22,7 @@ class Planted(unittest.TestCase):
 
     def test_two_of_one_name(self):
         for path, text in [
-            ("fastpath/visibility/box.h", "namespace clues::fastpath {\nstruct Box {\n  Point low{}, high{};\n};\n}\n"),
+            ("fastpath/visibility/points/box.h", "namespace clues::fastpath {\nstruct Box {\n  Point low{}, high{};\n};\n}\n"),
             ("fastpath/box.cpp", BOX),
             ("tests/fastpath/box.h", BOX),
             ("exact/a.h", "namespace clues {\nnamespace fastpath {\nclass Box final : public Base<int> {};\n} }\n"),
@@ -33,10 +33,10 @@ class Planted(unittest.TestCase):
             ("exact/a.h", 'namespace clues::fastpath { const char* s = "}"; struct [[nodiscard]] Box { int x; }; }\n'),
         ]:
             with self.subTest(path=path, text=text):
-                found = self.found({"fastpath/bvh_build.h": BOX, path: text})
+                found = self.found({"fastpath/queries/bvh_build.h": BOX, path: text})
                 self.assertEqual(len(found), 1)
                 self.assertIn("clues::fastpath::Box", found[0])
-                self.assertIn("fastpath/bvh_build.h:2", found[0])
+                self.assertIn("fastpath/queries/bvh_build.h:2", found[0])
 
     def test_in_a_class(self):
         self.assertEqual(len(self.found({
@@ -56,7 +56,7 @@ class Planted(unittest.TestCase):
             "namespace clues::fastpath { struct Box make() { return {}; } }\n",
         ]:
             with self.subTest(text=text):
-                self.assertEqual(self.found({"fastpath/bvh_build.h": BOX, "fastpath/other.h": text}), [])
+                self.assertEqual(self.found({"fastpath/queries/bvh_build.h": BOX, "fastpath/other.h": text}), [])
 
     def test_nothing_checked_is_no_pass(self):
         self.assertEqual(len(self.found({"scene/empty.h": "#pragma once\n"})), 1)

@@ -2,6 +2,8 @@
 """Includes point down only: app -> fuzz -> validate -> {reference, fastpath} -> exact -> scene.
 
 reference and fastpath never see each other. tests/ and bench/ may include anything and are included by nothing.
+Within a folder the chapters (its subfolders) have an order, and a file includes its own chapter and earlier ones only.
+A chapter that is not named here, or has more files than one looks through, is a violation too.
 Usage: check_includes.py [ROOT]; prints one line per violation and exits 1 if there is one."""
 import pathlib
 import re
@@ -16,6 +18,23 @@ MAY_SEE = {
     "fuzz": {"validate", "reference", "fastpath", "exact", "scene"},
     "app": {"fuzz", "validate", "reference", "fastpath", "exact", "scene"},
 }
+# Of each folder, in the order in which a reader meets them; "." is the folder itself.
+CHAPTERS = {
+    "scene": ["messages", "mesh", "formats", "files", "."],
+    "exact": [".", "cell", "complex", "sight"],
+    "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
+                  "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",
+                  "visibility/refinement"],
+    "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
+                 "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
+                 "visibility/refinement"],
+    "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "vectors", "conform"],
+    "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets"],
+    "app": [".", "demo", "commands"],
+}
+NO_CHAPTERS = {"validate/adapters"}  # to be copied; they include nothing of ours
+MOST_FILES = 22
+SOURCES = {".h", ".hpp", ".c", ".cpp", ".cc"}
 NEVER_INCLUDED = {"tests", "bench"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*["<](?:clues/)?([^">]+)[">]')
 
@@ -29,11 +48,37 @@ def layer_of(included, source, root):
     return first if "/" in included and (first in MAY_SEE or first in NEVER_INCLUDED) else None
 
 
+def chapter_violations(root):
+    for layer, order in CHAPTERS.items():
+        place = {chapter: i for i, chapter in enumerate(order)}
+        files = {}
+        for source in sorted((root / layer).rglob("*")):
+            path = source.relative_to(root)
+            if source.suffix not in SOURCES or any(path.is_relative_to(p) for p in NO_CHAPTERS):
+                continue
+            chapter = str(path.parent.relative_to(layer))
+            files.setdefault(chapter, []).append(path)
+            if chapter not in place:
+                yield f"{path}: {layer}/{chapter} is no chapter of check_includes.py"
+                continue
+            for number, line in enumerate(source.read_text(encoding="utf-8").splitlines(), 1):
+                match = INCLUDE.match(line)
+                if not match or not match[1].startswith(layer + "/"):
+                    continue
+                target = str(pathlib.PurePosixPath(match[1]).parent.relative_to(layer))
+                if place.get(target, -1) > place[chapter]:
+                    yield f"{path}:{number}: chapter {chapter} must not include the later {target}: {line.strip()}"
+        for chapter, paths in files.items():
+            if len(paths) > MOST_FILES:
+                yield f"{layer}/{chapter}: {len(paths)} files; more than {MOST_FILES} are no chapter"
+
+
 def violations(root):
+    yield from chapter_violations(root)
     seen = 0
     for layer, allowed in MAY_SEE.items():
         for source in sorted((root / layer).rglob("*")):
-            if source.suffix not in {".h", ".hpp", ".c", ".cpp", ".cc"}:
+            if source.suffix not in SOURCES:
                 continue
             seen += 1
             for number, line in enumerate(source.read_text(encoding="utf-8").splitlines(), 1):

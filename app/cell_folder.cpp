@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "app/common.h"
-#include "scene/atomic_file.h"
-#include "scene/error.h"
-#include "scene/folder_update.h"
+#include "scene/files/atomic_file.h"
+#include "scene/files/folder_update.h"
 #include "scene/formats/file_bytes.h"
+#include "scene/messages/error.h"
 #include "scene/sealed_result.h"
 
 namespace clues::app {

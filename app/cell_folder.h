@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scene/cell_spec.h"
-#include "scene/folder_lock.h"
+#include "scene/files/folder_lock.h"
 
 namespace clues::app {
 

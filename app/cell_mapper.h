@@ -11,7 +11,7 @@
 #include "app/umbra_output.h"
 #include "reference/visibility/first_order.h"
 #include "scene/cell_spec.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::app {
 

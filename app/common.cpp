@@ -9,9 +9,9 @@
 #include <cstdio>
 
 #include "exact/area.h"
-#include "reference/visibility/sides.h"
-#include "scene/error.h"
-#include "scene/printable.h"
+#include "reference/visibility/map/sides.h"
+#include "scene/messages/error.h"
+#include "scene/messages/printable.h"
 
 namespace clues::app {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "reference/visibility/first_order.h"
-#include "reference/visibility/subdivision.h"
-#include "validate/precision.h"
+#include "reference/visibility/refinement/subdivision.h"
+#include "validate/verdicts/precision.h"
 
 namespace clues::app {
 
@@ -42,7 +42,7 @@ struct RefineChoice {
 // The two paragraphs about SPEC and exit codes that every footer needs.
 extern const char* const cell_help;
 
-// Text for a person, on standard output: with nothing in it that a terminal would obey, wherever it came from (scene/printable.h).
+// Text for a person, on standard output: with nothing in it that a terminal would obey, wherever it came from (scene/messages/printable.h).
 void print(const std::string& text);
 
 // Throws Error file_unwritable now, and not after an hour, when a file could not be made at `path`.

@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "app/cell_mapper.h"
-#include "exact/scene_query.h"
-#include "reference/visibility/bounds.h"
-#include "reference/visibility/omega.h"
+#include "exact/sight/scene_query.h"
+#include "reference/visibility/map/omega.h"
+#include "reference/visibility/refinement/bounds.h"
 #include "reference/visibility/traversal/overlap.h"
-#include "scene/percent.h"
+#include "scene/messages/percent.h"
 
 namespace clues::app {
 namespace {

@@ -5,8 +5,8 @@
 #include "app/cell_mapper.h"
 #include "exact/threads.h"
 #include "fastpath/visibility/first_order.h"
-#include "fastpath/visibility/refinement.h"
-#include "scene/error.h"
+#include "fastpath/visibility/refinement/refinement.h"
+#include "scene/messages/error.h"
 
 namespace clues::app {
 namespace {

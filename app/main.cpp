@@ -11,9 +11,9 @@
 #include <system_error>
 
 #include "app/commands.h"
-#include "scene/error.h"
-#include "scene/printable.h"
-#include "scene/warning.h"
+#include "scene/messages/error.h"
+#include "scene/messages/printable.h"
+#include "scene/messages/warning.h"
 
 namespace {
 

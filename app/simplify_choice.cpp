@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "scene/error.h"
-#include "scene/percent.h"
+#include "scene/messages/error.h"
+#include "scene/messages/percent.h"
 
 namespace clues::app {
 

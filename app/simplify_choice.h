@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "reference/visibility/effective_occlusion.h"
+#include "reference/visibility/hidden/effective_occlusion.h"
 #include "scene/simplification.h"
 
 namespace clues::app {

@@ -8,11 +8,11 @@
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "exact/scene_query.h"
-#include "reference/visibility/umbra.h"
-#include "scene/error.h"
-#include "validate/umbra_certificate.h"
-#include "validate/umbra_file.h"
+#include "exact/sight/scene_query.h"
+#include "reference/visibility/hidden/umbra.h"
+#include "scene/messages/error.h"
+#include "validate/certificates/umbra_certificate.h"
+#include "validate/certificates/umbra_file.h"
 
 namespace clues::app {
 namespace {

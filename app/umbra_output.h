@@ -4,9 +4,9 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "reference/visibility/omega.h"
+#include "reference/visibility/map/omega.h"
 #include "scene/cell_spec.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::app {
 

@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "exact/convex_cell.h"
+#include "exact/cell/convex_cell.h"
 #include "fastpath/visibility/first_order.h"
 #include "fuzz/generators/city.h"
 #include "reference/visibility/first_order.h"

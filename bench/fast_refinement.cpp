@@ -10,12 +10,12 @@
 #include <ctime>
 #include <vector>
 
-#include "exact/convex_cell.h"
-#include "fastpath/visibility/refinement.h"
+#include "exact/cell/convex_cell.h"
+#include "fastpath/visibility/refinement/refinement.h"
 #include "fuzz/generators/city.h"
-#include "reference/visibility/backprojection.h"
-#include "reference/visibility/bounds.h"
-#include "reference/visibility/subdivision.h"
+#include "reference/visibility/refinement/backprojection.h"
+#include "reference/visibility/refinement/bounds.h"
+#include "reference/visibility/refinement/subdivision.h"
 
 namespace {
 

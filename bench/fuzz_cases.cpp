@@ -6,7 +6,7 @@
 #include <ctime>
 
 #include "fuzz/campaign/generators.h"
-#include "fuzz/campaign/oracle.h"
+#include "fuzz/oracles/oracle.h"
 
 namespace {
 

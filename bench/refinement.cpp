@@ -11,7 +11,7 @@
 
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/skew_edges.h"
-#include "reference/visibility/backprojection.h"
+#include "reference/visibility/refinement/backprojection.h"
 
 namespace {
 

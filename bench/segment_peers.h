@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fastpath/filter.h"
+#include "fastpath/predicates/filter.h"
 
 #ifdef CLUES_EMBREE
 #include <embree3/rtcore.h>

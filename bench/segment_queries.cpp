@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "fastpath/bvh.h"
-#include "fastpath/segment_queries.h"
+#include "fastpath/queries/bvh.h"
+#include "fastpath/queries/segment_queries.h"
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/random.h"
 #include "segment_peers.h"

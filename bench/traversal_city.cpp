@@ -10,7 +10,7 @@
 #include <ctime>
 #include <string>
 
-#include "exact/convex_cell.h"
+#include "exact/cell/convex_cell.h"
 #include "fuzz/generators/city.h"
 #include "reference/visibility/first_order.h"
 

@@ -10,10 +10,10 @@
 #include <string_view>
 #include <utility>
 
-#include "scene/error.h"
 #include "scene/formats/number.h"
 #include "scene/formats/place.h"
 #include "scene/formats/readers.h"
+#include "scene/messages/error.h"
 
 namespace clues::scene {
 namespace {

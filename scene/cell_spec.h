@@ -1,11 +1,11 @@
 // D2: a view cell is given by points; the cell is their convex hull. This header only reads what the user
-// wrote; exact/convex_cell.h builds the polytope.
+// wrote; exact/cell/convex_cell.h builds the polytope.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::scene {
 

@@ -13,7 +13,7 @@
 
 #include "scene/formats/file_bytes.h"
 #include "scene/formats/place.h"
-#include "scene/printable.h"
+#include "scene/messages/printable.h"
 
 namespace clues::scene {
 namespace {

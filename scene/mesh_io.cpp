@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "scene/error.h"
 #include "scene/formats/file_bytes.h"
 #include "scene/formats/readers.h"
+#include "scene/messages/error.h"
 
 namespace clues::scene {
 namespace {

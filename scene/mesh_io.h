@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::scene {
 

@@ -5,11 +5,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "scene/error.h"
 #include "scene/formats/file_bytes.h"
 #include "scene/formats/line_reader.h"
 #include "scene/formats/number.h"
 #include "scene/json_reader.h"
+#include "scene/messages/error.h"
 #include "scene/result.h"
 
 namespace clues::scene {

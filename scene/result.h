@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::scene {
 

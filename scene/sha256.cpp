@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "scene/error.h"
 #include "scene/formats/file_bytes.h"
+#include "scene/messages/error.h"
 #include "scene/result.h"
 
 namespace clues::scene {

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "exact/complex.h"
+#include "exact/complex/complex.h"
 #include "exact/threads.h"
 
 namespace clues::fastpath {

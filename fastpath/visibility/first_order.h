@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "exact/standard_range.h"
-#include "fastpath/bvh.h"
-#include "fastpath/visibility/closure.h"
-#include "fastpath/visibility/local_map.h"
+#include "exact/cell/standard_range.h"
+#include "fastpath/queries/bvh.h"
+#include "fastpath/visibility/closure/closure.h"
+#include "fastpath/visibility/map/local_map.h"
 
 namespace clues::fastpath {
 
@@ -21,7 +21,7 @@ struct FirstOrder {
 };
 
 // One tree serves many cells at once. The same answer for any number of threads. Solid mode takes the mesh as
-// closed: see require_solid. A scene outside the standard range (exact/standard_range.h) is moved there and
+// closed: see require_solid. A scene outside the standard range (exact/cell/standard_range.h) is moved there and
 // gets a tree of its own; regions are moved back. Throws scene::Error for coordinates that are not finite,
 // and unsupported as StandardRange does.
 FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,

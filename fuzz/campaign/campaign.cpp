@@ -6,15 +6,15 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "fuzz/campaign/dials.h"
-#include "fuzz/campaign/finding_folder.h"
 #include "fuzz/campaign/generators.h"
-#include "fuzz/campaign/oracle.h"
-#include "scene/error.h"
+#include "fuzz/findings/dials.h"
+#include "fuzz/oracles/oracle.h"
+#include "fuzz/shrinking/finding_folder.h"
 #include "scene/json_reader.h"
-#include "scene/printable.h"
-#include "scene/shell_word.h"
-#include "validate/workers.h"
+#include "scene/messages/error.h"
+#include "scene/messages/printable.h"
+#include "scene/messages/shell_word.h"
+#include "validate/processes/workers.h"
 
 namespace clues::fuzz {
 namespace {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "fuzz/campaign/given_files.h"
-#include "fuzz/campaign/shrink.h"
-#include "fuzz/campaign/store.h"
+#include "fuzz/findings/store.h"
+#include "fuzz/shrinking/shrink.h"
 
 namespace clues::fuzz {
 

@@ -7,7 +7,7 @@
 #include "fuzz/generators/parts.h"
 #include "fuzz/generators/random_scenes.h"
 #include "fuzz/generators/touching_scenes.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::fuzz {
 namespace {

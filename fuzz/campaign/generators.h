@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "fuzz/campaign/finding.h"
 #include "fuzz/campaign/given_files.h"
+#include "fuzz/findings/finding.h"
 
 namespace clues::fuzz {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "scene/error.h"
 #include "scene/mesh_io.h"
+#include "scene/messages/error.h"
 #include "scene/result.h"
 #include "validate/vectors/reader.h"
 

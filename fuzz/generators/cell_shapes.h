@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fuzz/generators/random.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::fuzz {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::fuzz {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::fuzz {
 namespace {

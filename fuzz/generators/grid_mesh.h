@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::fuzz {
 

@@ -7,7 +7,7 @@
 
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::fuzz {
 

@@ -6,7 +6,7 @@
 
 #include "fuzz/generators/grid_mesh.h"
 #include "fuzz/generators/random.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::fuzz {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::fuzz {
 

@@ -9,14 +9,14 @@
 #include <optional>
 #include <set>
 
-#include "fuzz/campaign/finding_folder.h"
-#include "fuzz/campaign/json_fields.h"
-#include "scene/error.h"
+#include "fuzz/findings/json_fields.h"
+#include "fuzz/shrinking/finding_folder.h"
 #include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
 #include "scene/mesh_io.h"
-#include "scene/printable.h"
-#include "scene/shell_word.h"
+#include "scene/messages/error.h"
+#include "scene/messages/printable.h"
+#include "scene/messages/shell_word.h"
 #include "validate/vectors/reader.h"
 
 namespace clues::fuzz {

@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-#include "fuzz/campaign/finding.h"
+#include "fuzz/findings/finding.h"
 
 namespace clues::fuzz {
 

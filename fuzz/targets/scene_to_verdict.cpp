@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "exact/point_occlusion.h"
-#include "exact/scene_query.h"
-#include "fastpath/segment_queries.h"
+#include "exact/sight/point_occlusion.h"
+#include "exact/sight/scene_query.h"
+#include "fastpath/queries/segment_queries.h"
 #include "fastpath/visibility/first_order.h"
 #include "fuzz/targets/scene_bytes.h"
 #include "fuzz/targets/targets.h"

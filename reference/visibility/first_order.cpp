@@ -5,14 +5,14 @@
 #include <string>
 #include <utility>
 
-#include "exact/scene_query.h"
+#include "exact/sight/scene_query.h"
 #include "exact/threads.h"
-#include "reference/visibility/discontinuity_mesh.h"
-#include "reference/visibility/fixpoint.h"
-#include "reference/visibility/omega.h"
-#include "reference/visibility/regions.h"
-#include "reference/visibility/render_states.h"
-#include "reference/visibility/sides.h"
+#include "reference/visibility/hidden/render_states.h"
+#include "reference/visibility/map/discontinuity_mesh.h"
+#include "reference/visibility/map/omega.h"
+#include "reference/visibility/map/regions.h"
+#include "reference/visibility/map/sides.h"
+#include "reference/visibility/search/fixpoint.h"
 #include "reference/visibility/traversal/traversal.h"
 
 namespace clues::reference {

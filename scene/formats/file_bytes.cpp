@@ -8,7 +8,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::scene {
 namespace {

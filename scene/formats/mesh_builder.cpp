@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "scene/warning.h"
+#include "scene/messages/warning.h"
 
 namespace clues::scene {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/formats/place.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::scene {
 

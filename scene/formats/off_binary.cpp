@@ -8,7 +8,7 @@
 #include "scene/formats/line_reader.h"
 #include "scene/formats/mesh_builder.h"
 #include "scene/formats/off_header.h"
-#include "scene/warning.h"
+#include "scene/messages/warning.h"
 
 namespace clues::scene {
 namespace {

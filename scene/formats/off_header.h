@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "scene/formats/place.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::scene {
 

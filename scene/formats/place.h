@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::scene {
 

@@ -10,7 +10,7 @@
 
 #include "scene/formats/line_reader.h"
 #include "scene/formats/number.h"
-#include "scene/warning.h"
+#include "scene/messages/warning.h"
 
 namespace clues::scene {
 namespace {

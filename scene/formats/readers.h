@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::scene {
 

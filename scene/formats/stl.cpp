@@ -9,7 +9,7 @@
 #include "scene/formats/mesh_builder.h"
 #include "scene/formats/number.h"
 #include "scene/formats/readers.h"
-#include "scene/warning.h"
+#include "scene/messages/warning.h"
 
 namespace clues::scene {
 namespace {

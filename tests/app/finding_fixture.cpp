@@ -1,6 +1,6 @@
 #include "tests/app/finding_fixture.h"
 
-#include "fuzz/campaign/finding_folder.h"
+#include "fuzz/shrinking/finding_folder.h"
 
 namespace clues::tests {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh.h"
-#include "scene/temporary_folder.h"
+#include "scene/files/temporary_folder.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::tests {
 

@@ -16,7 +16,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "scene/atomic_file.h"
+#include "scene/files/atomic_file.h"
 #include "tests/app/finding_fixture.h"
 #include "tests/app/program.h"
 #include "tests/app/script.h"

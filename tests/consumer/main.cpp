@@ -1,7 +1,7 @@
 // Uses the installed package as a stranger would: a screen before a wall, seen from a point.
 #include <cstdio>
 
-#include "exact/convex_cell.h"
+#include "exact/cell/convex_cell.h"
 #include "reference/visibility/first_order.h"
 
 int main() {

@@ -5,13 +5,13 @@
 #include <iterator>
 
 #include "exact/area.h"
-#include "fastpath/bvh.h"
+#include "fastpath/queries/bvh.h"
 #include "fastpath/visibility/first_order.h"
-#include "fastpath/visibility/refinement.h"
+#include "fastpath/visibility/refinement/refinement.h"
 #include "fuzz/campaign/generators.h"
-#include "reference/visibility/bounds.h"
-#include "validate/precision.h"
-#include "validate/visible_set.h"
+#include "reference/visibility/refinement/bounds.h"
+#include "validate/verdicts/precision.h"
+#include "validate/visible_set/visible_set.h"
 
 namespace clues::tests {
 

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "exact/convex_cell.h"
+#include "exact/cell/convex_cell.h"
 #include "exact/dials.h"
-#include "exact/point_occlusion.h"
-#include "fastpath/visibility/local_map.h"
-#include "fuzz/campaign/finding.h"
+#include "exact/sight/point_occlusion.h"
+#include "fastpath/visibility/map/local_map.h"
+#include "fuzz/findings/finding.h"
 #include "reference/visibility/first_order.h"
 
 namespace clues::tests {
@@ -35,7 +35,7 @@ Answer refined_fast_answer(const fuzz::Case& scene, const exact::Dials& dials, b
 // Ids of all that is not in `some`.
 std::vector<std::uint32_t> missing_from(const std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& some);
 
-// Visible triangles, by the exact visible set (validate/visible_set.h).
+// Visible triangles, by the exact visible set (validate/visible_set/visible_set.h).
 std::vector<std::uint32_t> truly_visible(const fuzz::Case& scene);
 
 // Asks exact point occlusion (D18) about points of triangles.

@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdlib>
 
-#include "fuzz/campaign/dials.h"
+#include "fuzz/findings/dials.h"
 #include "fuzz/generators/touching_scenes.h"
 #include "tests/differential/series.h"
 

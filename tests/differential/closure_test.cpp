@@ -1,12 +1,12 @@
 // The closure over the exact reference gives the answer of the exact reference alone, from a part of the scene.
-#include "fastpath/visibility/closure.h"
+#include "fastpath/visibility/closure/closure.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
 #include <numeric>
 
-#include "fastpath/bvh.h"
+#include "fastpath/queries/bvh.h"
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/random_scenes.h"
 #include "reference/visibility/first_order.h"

@@ -7,9 +7,9 @@
 #include <iostream>
 #include <set>
 
-#include "fastpath/bvh.h"
+#include "fastpath/queries/bvh.h"
 #include "fastpath/visibility/first_order.h"
-#include "fastpath/visibility/local_map.h"
+#include "fastpath/visibility/map/local_map.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh_io.h"
 #include "tests/differential/answers.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fastpath/visibility/local_map.h"
+#include "fastpath/visibility/map/local_map.h"
 #include "fuzz/generators/random_scenes.h"
 #include "reference/visibility/first_order.h"
 

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "exact/scene_query.h"
+#include "exact/sight/scene_query.h"
 #include "reference/visibility/first_order.h"
-#include "reference/visibility/fixpoint.h"
-#include "reference/visibility/walk.h"
+#include "reference/visibility/labels/walk.h"
+#include "reference/visibility/search/fixpoint.h"
 
 namespace clues::tests {
 namespace {

@@ -1,11 +1,11 @@
-// The exact reference as the map of a part that the closure asks for (fastpath/visibility/closure.h): so the closure is tested without the engine of
+// The exact reference as the map of a part that the closure asks for (fastpath/visibility/closure/closure.h): so the closure is tested without the engine of
 // the fast path.
 #pragma once
 
 #include <memory>
 
-#include "exact/convex_cell.h"
-#include "fastpath/visibility/closure.h"
+#include "exact/cell/convex_cell.h"
+#include "fastpath/visibility/closure/closure.h"
 
 namespace clues::tests {
 

@@ -1,5 +1,5 @@
 // Cutting the cell (D21) in the fast path and in the reference: the same parts, and so the same triangles and areas, by two ways that share only the cutting of cells.
-#include "fastpath/visibility/refinement.h"
+#include "fastpath/visibility/refinement/refinement.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 
 #include "fuzz/campaign/generators.h"
 #include "fuzz/generators/random_scenes.h"
-#include "reference/visibility/bounds.h"
-#include "reference/visibility/subdivision.h"
+#include "reference/visibility/refinement/bounds.h"
+#include "reference/visibility/refinement/subdivision.h"
 
 namespace clues {
 namespace {

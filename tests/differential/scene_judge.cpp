@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact/scene_query.h"
-#include "exact/witness.h"
-#include "fuzz/campaign/oracle.h"
+#include "exact/sight/scene_query.h"
+#include "exact/sight/witness.h"
 #include "fuzz/generators/random.h"
-#include "validate/region_points.h"
-#include "validate/visible_set.h"
+#include "fuzz/oracles/oracle.h"
+#include "validate/certificates/region_points.h"
+#include "validate/visible_set/visible_set.h"
 
 namespace clues::tests {
 namespace {

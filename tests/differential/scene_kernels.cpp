@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "fastpath/visibility/first_order.h"
-#include "fastpath/visibility/refinement.h"
-#include "fuzz/campaign/dials.h"
-#include "reference/visibility/backprojection.h"
-#include "reference/visibility/bounds.h"
-#include "reference/visibility/subdivision.h"
+#include "fastpath/visibility/refinement/refinement.h"
+#include "fuzz/findings/dials.h"
+#include "reference/visibility/refinement/backprojection.h"
+#include "reference/visibility/refinement/bounds.h"
+#include "reference/visibility/refinement/subdivision.h"
 
 namespace clues::tests {
 namespace {

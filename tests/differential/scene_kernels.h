@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "exact/convex_cell.h"
-#include "fastpath/visibility/local_map.h"
-#include "fuzz/campaign/finding.h"
+#include "exact/cell/convex_cell.h"
+#include "fastpath/visibility/map/local_map.h"
+#include "fuzz/findings/finding.h"
 #include "reference/visibility/first_order.h"
 
 namespace clues::tests {

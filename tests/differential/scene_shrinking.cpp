@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "exact/convex_cell.h"
+#include "exact/cell/convex_cell.h"
 
 namespace clues::tests {
 namespace {

@@ -13,9 +13,9 @@
 #include <thread>
 #include <vector>
 
-#include "exact/convex_cell.h"
+#include "exact/cell/convex_cell.h"
 #include "tests/differential/scene_shrinking.h"
-#include "validate/workers.h"
+#include "validate/processes/workers.h"
 
 namespace clues::tests {
 namespace {

@@ -1,6 +1,6 @@
 // The unit of length does not matter (D1): scenes times 2^k, for any k that doubles have room for, have the
 // answers of the scene itself, times 2^k. Both kernels.
-#include "exact/standard_range.h"
+#include "exact/cell/standard_range.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,12 +10,12 @@
 #include <tuple>
 
 #include "fastpath/visibility/first_order.h"
-#include "fastpath/visibility/refinement.h"
+#include "fastpath/visibility/refinement/refinement.h"
 #include "fuzz/generators/random_scenes.h"
-#include "reference/visibility/bounds.h"
-#include "reference/visibility/omega.h"
-#include "reference/visibility/subdivision.h"
-#include "reference/visibility/umbra.h"
+#include "reference/visibility/hidden/umbra.h"
+#include "reference/visibility/map/omega.h"
+#include "reference/visibility/refinement/bounds.h"
+#include "reference/visibility/refinement/subdivision.h"
 #include "scene/result.h"
 
 namespace clues {

@@ -1,5 +1,5 @@
 // Cells cut by planes.
-#include "exact/cell_cut.h"
+#include "exact/complex/cell_cut.h"
 
 #include <gtest/gtest.h>
 

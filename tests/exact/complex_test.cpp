@@ -1,5 +1,5 @@
 // D16: the refined scene is embedded (two pieces meet in a common vertex, a common edge, or not at all) and covers exactly the input.
-#include "exact/complex.h"
+#include "exact/complex/complex.h"
 
 #include <CGAL/intersections.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <map>
 
-#include "exact/complex_internal.h"
+#include "exact/complex/complex_internal.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
 

@@ -1,14 +1,14 @@
 // D2: exact view cells of every dimension, independent of the order of their points.
-#include "exact/convex_cell.h"
+#include "exact/cell/convex_cell.h"
 
-#include "exact/scene_query.h"
+#include "exact/sight/scene_query.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "fuzz/generators/random.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::exact {
 namespace {

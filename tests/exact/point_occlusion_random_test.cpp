@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-#include "exact/point_occlusion.h"
+#include "exact/sight/point_occlusion.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
 

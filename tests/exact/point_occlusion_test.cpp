@@ -1,9 +1,9 @@
 // D18: the point-occlusion oracle against closed forms, touching and flat cases (D3, D5).
-#include "exact/point_occlusion.h"
+#include "exact/sight/point_occlusion.h"
 
 #include <gtest/gtest.h>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::exact {
 namespace {

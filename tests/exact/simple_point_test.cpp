@@ -1,5 +1,5 @@
 // Short points: near what they stand for, and never a number that is none.
-#include "exact/simple_point.h"
+#include "exact/complex/simple_point.h"
 
 #include <gtest/gtest.h>
 

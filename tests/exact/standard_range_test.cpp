@@ -1,5 +1,5 @@
 // Scenes are moved into the range that engines compute in by a power of two, exactly or not at all.
-#include "exact/standard_range.h"
+#include "exact/cell/standard_range.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "fuzz/generators/random.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::exact {
 namespace {

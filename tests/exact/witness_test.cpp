@@ -1,11 +1,11 @@
 // D5, D6: what the witness checker accepts and what it must refuse.
-#include "exact/witness.h"
+#include "exact/sight/witness.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "exact/point_occlusion.h"
+#include "exact/sight/point_occlusion.h"
 #include "fuzz/generators/random_scenes.h"
 
 namespace clues::exact {

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numeric>
 
-#include "exact/convex_cell.h"
-#include "fastpath/visibility/apex.h"
-#include "fastpath/visibility/integers.h"
+#include "exact/cell/convex_cell.h"
+#include "fastpath/visibility/points/integers.h"
+#include "fastpath/visibility/wedges/apex.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/generators/random.h"
 

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include "fastpath/local_segment.h"
-#include "fastpath/triangle_block.h"
+#include "fastpath/queries/local_segment.h"
+#include "fastpath/queries/triangle_block.h"
 #include "oracle.h"
 
 namespace clues::fastpath {

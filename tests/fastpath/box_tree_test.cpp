@@ -1,5 +1,5 @@
 // The tree over boxes against looking at every box: which boxes are found, for boxes that halve badly, and where segments run.
-#include "fastpath/visibility/box_tree.h"
+#include "fastpath/visibility/scene/box_tree.h"
 
 #include <gtest/gtest.h>
 

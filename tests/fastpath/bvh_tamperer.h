@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "fastpath/bvh.h"
+#include "fastpath/queries/bvh.h"
 
 namespace clues::fastpath {
 

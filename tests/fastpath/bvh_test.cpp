@@ -1,5 +1,5 @@
 // The tree itself: every triangle once, inside all boxes above it in exact arithmetic, the same for any number of threads.
-#include "fastpath/bvh.h"
+#include "fastpath/queries/bvh.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The one-sided test of contact against CGAL's exact intersections, on grid triangles where every kind of contact occurs.
-#include "fastpath/visibility/contact.h"
+#include "fastpath/visibility/wedges/contact.h"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <gtest/gtest.h>

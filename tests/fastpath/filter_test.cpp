@@ -1,5 +1,5 @@
 // Stage 2: the constant of the filter recomputed, its answers against exact ones, and what a smaller constant would do.
-#include "fastpath/filter.h"
+#include "fastpath/predicates/filter.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fastpath/exact_segment.h"
+#include "fastpath/predicates/exact_segment.h"
 #include "oracle.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::fastpath {
 namespace {

@@ -1,5 +1,5 @@
 // The fast path's engine against the exact reference, which shares no code with it: the PVS, and the label beside every region.
-#include "fastpath/visibility/local_map.h"
+#include "fastpath/visibility/map/local_map.h"
 
 #include <gtest/gtest.h>
 
@@ -11,9 +11,9 @@
 #include <limits>
 #include <map>
 
-#include "exact/convex_cell.h"
-#include "exact/standard_range.h"
-#include "fastpath/visibility/contour.h"
+#include "exact/cell/convex_cell.h"
+#include "exact/cell/standard_range.h"
+#include "fastpath/visibility/wedges/contour.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/generators/random_scenes.h"
 #include "reference/visibility/first_order.h"

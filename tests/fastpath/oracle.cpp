@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "exact/sight_segment.h"
+#include "exact/sight/sight_segment.h"
 
 namespace clues::fastpath {
 

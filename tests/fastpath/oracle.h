@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "exact/convex_cell.h"
-#include "fastpath/filter.h"
+#include "exact/cell/convex_cell.h"
+#include "fastpath/predicates/filter.h"
 #include "fuzz/generators/random.h"
 
 namespace clues::fastpath {

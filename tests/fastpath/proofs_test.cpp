@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "exact/convex_cell.h"
-#include "fastpath/box_lanes.h"
-#include "fastpath/visibility/apex.h"
-#include "fastpath/visibility/closure.h"
-#include "fastpath/visibility/local_map.h"
-#include "fastpath/visibility/star.h"
+#include "exact/cell/convex_cell.h"
+#include "fastpath/queries/box_lanes.h"
+#include "fastpath/visibility/closure/closure.h"
+#include "fastpath/visibility/map/local_map.h"
+#include "fastpath/visibility/wedges/apex.h"
+#include "fastpath/visibility/wedges/star.h"
 #include "fuzz/generators/random.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::fastpath {
 namespace {

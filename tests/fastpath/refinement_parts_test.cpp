@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "exact/cell_cut.h"
-#include "fastpath/visibility/adjusted_cut.h"
-#include "fastpath/visibility/area_bounds.h"
+#include "exact/complex/cell_cut.h"
+#include "fastpath/visibility/refinement/adjusted_cut.h"
+#include "fastpath/visibility/refinement/area_bounds.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
 #include "slit_scenes.h"

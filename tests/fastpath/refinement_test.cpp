@@ -1,6 +1,6 @@
 // Refined maps of the fast path against what shares no algorithm with them: the exact visible set, the point-occlusion oracle, and for the scenes with numbers in the
 // hazard list those numbers. tests/differential compares them with the reference's.
-#include "fastpath/visibility/refinement.h"
+#include "fastpath/visibility/refinement/refinement.h"
 
 #include <gtest/gtest.h>
 
@@ -9,14 +9,14 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "exact/complex.h"
-#include "exact/point_occlusion.h"
-#include "fastpath/visibility/adjusted_cut.h"
+#include "exact/complex/complex.h"
+#include "exact/sight/point_occlusion.h"
+#include "fastpath/visibility/refinement/adjusted_cut.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
 #include "slit_scenes.h"
-#include "validate/visible_set.h"
+#include "validate/visible_set/visible_set.h"
 
 namespace clues::fastpath {
 namespace {

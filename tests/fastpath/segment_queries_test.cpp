@@ -1,5 +1,5 @@
 // D3, D5: every answer of the tree against one that knows no tree and no filter.
-#include "fastpath/segment_queries.h"
+#include "fastpath/queries/segment_queries.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/random_scenes.h"
 #include "oracle.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::fastpath {
 namespace {

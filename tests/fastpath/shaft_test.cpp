@@ -1,19 +1,19 @@
 // Shafts: nothing that meets the hull of triangle and cell is left out (exact hulls decide), and not much else is let in.
-#include "fastpath/shaft.h"
+#include "fastpath/queries/shaft.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "exact/complex.h"
-#include "exact/scene_query.h"
-#include "fastpath/cell.h"
-#include "fastpath/segment_queries.h"
+#include "exact/complex/complex.h"
+#include "exact/sight/scene_query.h"
+#include "fastpath/predicates/cell.h"
+#include "fastpath/queries/segment_queries.h"
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/random_scenes.h"
 #include "oracle.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::fastpath {
 namespace {

@@ -1,5 +1,5 @@
 // The first guess of the closure: it need not be complete, but the time of a map goes with what it leaves out.
-#include "fastpath/visibility/sight_rays.h"
+#include "fastpath/visibility/closure/sight_rays.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>

@@ -6,7 +6,7 @@
 #include <numeric>
 #include <vector>
 
-#include "fastpath/visibility/refinement.h"
+#include "fastpath/visibility/refinement/refinement.h"
 
 namespace clues::fastpath {
 

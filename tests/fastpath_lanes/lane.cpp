@@ -5,8 +5,8 @@
 #include <cstring>
 #include <vector>
 
-#include "fastpath/segment_queries.h"
-#include "fastpath/shaft.h"
+#include "fastpath/queries/segment_queries.h"
+#include "fastpath/queries/shaft.h"
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/random.h"
 

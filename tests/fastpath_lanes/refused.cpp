@@ -1,8 +1,8 @@
 // Built with fused products on purpose: require_float_rules() must notice. Prints "refused" when it does.
 #include <cstdio>
 
-#include "fastpath/float_rules.h"
-#include "scene/error.h"
+#include "fastpath/predicates/float_rules.h"
+#include "scene/messages/error.h"
 
 int main() {
   if (!__builtin_cpu_supports("fma")) {

@@ -5,15 +5,15 @@
 
 #include <cmath>
 
-#include "exact/complex.h"
-#include "exact/convex_cell.h"
+#include "exact/cell/convex_cell.h"
+#include "exact/complex/complex.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/campaign/given_files.h"
 #include "fuzz/generators/parts.h"
-#include "scene/atomic_file.h"
-#include "scene/error.h"
+#include "scene/files/atomic_file.h"
+#include "scene/files/temporary_folder.h"
 #include "scene/mesh_io.h"
-#include "scene/temporary_folder.h"
+#include "scene/messages/error.h"
 
 namespace clues::fuzz {
 namespace {

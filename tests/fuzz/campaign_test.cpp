@@ -10,11 +10,11 @@
 #include <sstream>
 
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/campaign/finding_folder.h"
 #include "fuzz/generators/random_scenes.h"
+#include "fuzz/shrinking/finding_folder.h"
 #include "planted_subjects.h"
-#include "scene/error.h"
-#include "scene/temporary_folder.h"
+#include "scene/files/temporary_folder.h"
+#include "scene/messages/error.h"
 
 namespace clues::fuzz {
 namespace {

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "fuzz/campaign/oracle.h"
+#include "fuzz/oracles/oracle.h"
 #include "fuzz/targets/scene_bytes.h"
 #include "fuzz/targets/targets.h"
-#include "scene/error.h"
 #include "scene/formats/file_bytes.h"
+#include "scene/messages/error.h"
 
 namespace clues::fuzz {
 namespace {

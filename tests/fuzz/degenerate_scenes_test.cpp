@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
-#include "exact/complex.h"
-#include "exact/scene_query.h"
+#include "exact/complex/complex.h"
+#include "exact/sight/scene_query.h"
 #include "fuzz/generators/degenerate_scenes.h"
 
 namespace clues::fuzz {

@@ -1,5 +1,5 @@
 // Dials of cases: a pure function of the case's name, kept with a finding, honoured when it is repeated and made smaller, and counted.
-#include "fuzz/campaign/dials.h"
+#include "fuzz/findings/dials.h"
 
 #include <gtest/gtest.h>
 
@@ -8,11 +8,11 @@
 #include <set>
 
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/campaign/finding_folder.h"
 #include "fuzz/campaign/generators.h"
-#include "fuzz/campaign/oracle.h"
-#include "scene/error.h"
-#include "scene/temporary_folder.h"
+#include "fuzz/oracles/oracle.h"
+#include "fuzz/shrinking/finding_folder.h"
+#include "scene/files/temporary_folder.h"
+#include "scene/messages/error.h"
 
 namespace clues::fuzz {
 namespace {

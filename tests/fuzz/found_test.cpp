@@ -6,8 +6,8 @@
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/generators.h"
-#include "fuzz/campaign/oracle.h"
-#include "scene/temporary_folder.h"
+#include "fuzz/oracles/oracle.h"
+#include "scene/files/temporary_folder.h"
 
 namespace clues::fuzz {
 namespace {

@@ -1,8 +1,8 @@
 // What the generators promise in their headers, checked exactly: sizes, purity, closedness, no contacts where none are meant.
 #include <gtest/gtest.h>
 
-#include "exact/complex.h"
-#include "exact/scene_query.h"
+#include "exact/complex/complex.h"
+#include "exact/sight/scene_query.h"
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/random_scenes.h"
 

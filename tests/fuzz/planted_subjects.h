@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "exact/scene_query.h"
-#include "fuzz/campaign/subject.h"
+#include "exact/sight/scene_query.h"
+#include "fuzz/subjects/subject.h"
 
 namespace clues::fuzz {
 

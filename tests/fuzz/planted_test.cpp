@@ -9,12 +9,12 @@
 
 #include "../conform/planted/answers.h"
 #include "fuzz/campaign/campaign.h"
-#include "fuzz/campaign/finding_folder.h"
 #include "fuzz/campaign/generators.h"
-#include "fuzz/campaign/oracle.h"
 #include "fuzz/generators/random_scenes.h"
+#include "fuzz/oracles/oracle.h"
+#include "fuzz/shrinking/finding_folder.h"
 #include "planted_subjects.h"
-#include "scene/temporary_folder.h"
+#include "scene/files/temporary_folder.h"
 
 namespace clues::fuzz {
 namespace {

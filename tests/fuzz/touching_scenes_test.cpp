@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "exact/scene_query.h"
+#include "exact/sight/scene_query.h"
 #include "fuzz/generators/cell_shapes.h"
 
 namespace clues::fuzz {

@@ -1,5 +1,5 @@
 // Simpler borders of flat hidden regions, in closed form. Each outcome is also held against the old region as an exact set.
-#include "reference/visibility/boundary_simplification.h"
+#include "reference/visibility/hidden/boundary_simplification.h"
 
 #include <gtest/gtest.h>
 

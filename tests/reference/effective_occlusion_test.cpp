@@ -1,5 +1,5 @@
 // Effective static occlusion and the simplification of maps (FIG. 30): scenes built by hand, random scenes against the independent judges, and the literal readings.
-#include "reference/visibility/effective_occlusion.h"
+#include "reference/visibility/hidden/effective_occlusion.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "exact/point_occlusion.h"
-#include "exact/scene_query.h"
+#include "exact/sight/point_occlusion.h"
+#include "exact/sight/scene_query.h"
 #include "fuzz/generators/random_scenes.h"
 #include "judges.h"
-#include "reference/visibility/backprojection.h"
-#include "reference/visibility/bounds.h"
-#include "reference/visibility/subdivision.h"
+#include "reference/visibility/refinement/backprojection.h"
+#include "reference/visibility/refinement/bounds.h"
+#include "reference/visibility/refinement/subdivision.h"
 
 namespace clues::test {
 namespace {

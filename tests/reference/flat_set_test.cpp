@@ -1,5 +1,5 @@
 // Exact planar sets: what the bounds of a refinement are made of.
-#include "reference/visibility/flat_set.h"
+#include "reference/visibility/planar/flat_set.h"
 
 #include <gtest/gtest.h>
 

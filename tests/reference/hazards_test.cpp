@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "exact/scene_query.h"
+#include "exact/sight/scene_query.h"
 #include "fuzz/generators/random_scenes.h"
 #include "judges.h"
-#include "reference/visibility/anticone.h"
-#include "reference/visibility/contour.h"
-#include "reference/visibility/fixpoint.h"
+#include "reference/visibility/search/fixpoint.h"
+#include "reference/visibility/wedges/anticone.h"
+#include "reference/visibility/wedges/contour.h"
 
 namespace clues::test {
 namespace {

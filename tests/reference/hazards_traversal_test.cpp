@@ -7,14 +7,14 @@
 #include <optional>
 #include <set>
 
-#include "exact/scene_query.h"
+#include "exact/sight/scene_query.h"
 #include "judges.h"
-#include "reference/visibility/anticone.h"
-#include "reference/visibility/contour.h"
-#include "reference/visibility/fixpoint.h"
+#include "reference/visibility/labels/walk.h"
+#include "reference/visibility/search/fixpoint.h"
 #include "reference/visibility/traversal/shaft.h"
 #include "reference/visibility/traversal/traversal.h"
-#include "reference/visibility/walk.h"
+#include "reference/visibility/wedges/anticone.h"
+#include "reference/visibility/wedges/contour.h"
 #include "same_map.h"
 #include "support.h"
 

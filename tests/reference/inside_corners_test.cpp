@@ -1,5 +1,5 @@
 // FIG. 20B: planes that meet in place of swept wedges, on a scene whose areas are known, and on random ones.
-#include "reference/visibility/inside_corners.h"
+#include "reference/visibility/hidden/inside_corners.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "fuzz/generators/random_scenes.h"
 #include "judges.h"
-#include "reference/visibility/effective_occlusion.h"
+#include "reference/visibility/hidden/effective_occlusion.h"
 #include "support.h"
 
 namespace clues::test {

@@ -1,9 +1,9 @@
 #include "judges.h"
 
-#include "exact/point_occlusion.h"
-#include "exact/scene_query.h"
+#include "exact/sight/point_occlusion.h"
+#include "exact/sight/scene_query.h"
 #include "fuzz/generators/random.h"
-#include "validate/region_points.h"
+#include "validate/certificates/region_points.h"
 
 namespace clues::test {
 

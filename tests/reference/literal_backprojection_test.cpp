@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "exact/point_occlusion.h"
-#include "exact/scene_query.h"
-#include "exact/witness.h"
-#include "reference/visibility/deviation.h"
-#include "reference/visibility/fixpoint.h"
+#include "exact/sight/point_occlusion.h"
+#include "exact/sight/scene_query.h"
+#include "exact/sight/witness.h"
+#include "reference/visibility/refinement/deviation.h"
+#include "reference/visibility/search/fixpoint.h"
 #include "strip_scenes.h"
 
 namespace clues::test {

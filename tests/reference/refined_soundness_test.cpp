@@ -6,11 +6,11 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "exact/point_occlusion.h"
+#include "exact/sight/point_occlusion.h"
 #include "fuzz/campaign/generators.h"
 #include "judges.h"
-#include "validate/precision.h"
-#include "validate/visible_set.h"
+#include "validate/verdicts/precision.h"
+#include "validate/visible_set/visible_set.h"
 
 namespace clues::test {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "validate/precision.h"
 #include "validate/vectors/reader.h"
+#include "validate/verdicts/precision.h"
 
 namespace clues::test {
 namespace {

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 
-#include "exact/cell_cut.h"
+#include "exact/complex/cell_cut.h"
 #include "fuzz/generators/skew_edges.h"
 #include "judges.h"
-#include "reference/visibility/bounds.h"
-#include "reference/visibility/deviation.h"
-#include "reference/visibility/retraction.h"
+#include "reference/visibility/refinement/bounds.h"
+#include "reference/visibility/refinement/deviation.h"
+#include "reference/visibility/refinement/retraction.h"
 #include "strip_scenes.h"
 
 namespace clues::test {

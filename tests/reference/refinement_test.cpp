@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "exact/cell_cut.h"
+#include "exact/complex/cell_cut.h"
 #include "fuzz/generators/skew_edges.h"
 #include "judges.h"
-#include "reference/visibility/backprojection.h"
-#include "reference/visibility/bounds.h"
-#include "reference/visibility/exactness.h"
-#include "reference/visibility/subdivision.h"
+#include "reference/visibility/refinement/backprojection.h"
+#include "reference/visibility/refinement/bounds.h"
+#include "reference/visibility/refinement/exactness.h"
+#include "reference/visibility/refinement/subdivision.h"
 
 namespace clues::test {
 namespace {

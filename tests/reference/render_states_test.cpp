@@ -4,10 +4,10 @@
 
 #include <map>
 
-#include "exact/scene_query.h"
+#include "exact/sight/scene_query.h"
 #include "fuzz/generators/random_scenes.h"
-#include "reference/visibility/discontinuity_mesh.h"
-#include "reference/visibility/render_states.h"
+#include "reference/visibility/hidden/render_states.h"
+#include "reference/visibility/map/discontinuity_mesh.h"
 #include "support.h"
 
 namespace clues::test {

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "exact/complex.h"
-#include "exact/convex_cell.h"
-#include "reference/visibility/backprojection.h"
+#include "exact/cell/convex_cell.h"
+#include "exact/complex/complex.h"
+#include "reference/visibility/refinement/backprojection.h"
 #include "support.h"
 
 namespace clues::test {

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "exact/complex_internal.h"
+#include "exact/complex/complex_internal.h"
 
 namespace clues::test {
 

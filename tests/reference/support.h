@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "exact/convex_cell.h"
+#include "exact/cell/convex_cell.h"
 #include "reference/visibility/first_order.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::test {
 

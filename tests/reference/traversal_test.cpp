@@ -10,7 +10,7 @@
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/random_scenes.h"
 #include "judges.h"
-#include "reference/visibility/regions.h"
+#include "reference/visibility/map/regions.h"
 #include "same_map.h"
 #include "support.h"
 #include "validate/vectors/reader.h"

@@ -6,10 +6,10 @@
 #include <CGAL/convex_hull_3.h>
 #include <gtest/gtest.h>
 
-#include "reference/visibility/umbra.h"
+#include "reference/visibility/hidden/umbra.h"
 #include "support.h"
-#include "validate/umbra_certificate.h"
-#include "validate/umbra_file.h"
+#include "validate/certificates/umbra_certificate.h"
+#include "validate/certificates/umbra_file.h"
 
 namespace clues::test {
 namespace {

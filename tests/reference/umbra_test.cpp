@@ -8,13 +8,13 @@
 #include <filesystem>
 
 #include "fuzz/generators/random_scenes.h"
-#include "reference/visibility/umbra.h"
-#include "scene/error.h"
+#include "reference/visibility/hidden/umbra.h"
+#include "scene/messages/error.h"
 #include "support.h"
-#include "validate/judge.h"
-#include "validate/umbra_certificate.h"
-#include "validate/umbra_file.h"
+#include "validate/certificates/umbra_certificate.h"
+#include "validate/certificates/umbra_file.h"
 #include "validate/vectors/reader.h"
+#include "validate/verdicts/judge.h"
 
 namespace clues::test {
 namespace {

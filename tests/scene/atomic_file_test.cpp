@@ -1,5 +1,5 @@
 // Whole or nothing: after a failure the folder is as it was.
-#include "scene/atomic_file.h"
+#include "scene/files/atomic_file.h"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>

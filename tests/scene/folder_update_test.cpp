@@ -1,5 +1,5 @@
 // Files of a folder change together or not at all; what clues did not write stays.
-#include "scene/folder_update.h"
+#include "scene/files/folder_update.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-#include "scene/atomic_file.h"
+#include "scene/files/atomic_file.h"
 #include "tests/scene/support.h"
 
 namespace clues::tests {

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/printable.h"
+#include "scene/messages/printable.h"
 #include "support.h"
 
 namespace clues::tests {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::tests {
 namespace {

@@ -4,8 +4,8 @@
 #include <unistd.h>
 
 #include "scene/formats/file_bytes.h"
+#include "scene/messages/warning.h"
 #include "scene/result.h"
-#include "scene/warning.h"
 #include "tests/scene/support.h"
 
 namespace clues::tests {

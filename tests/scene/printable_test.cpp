@@ -1,14 +1,14 @@
 // What files and programs say is shown without being obeyed.
-#include "scene/printable.h"
+#include "scene/messages/printable.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "scene/error.h"
-#include "scene/percent.h"
-#include "scene/shell_word.h"
+#include "scene/messages/error.h"
+#include "scene/messages/percent.h"
+#include "scene/messages/shell_word.h"
 
 namespace clues::scene {
 namespace {

@@ -12,10 +12,10 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/error.h"
-#include "scene/mesh.h"
+#include "scene/files/temporary_folder.h"
+#include "scene/mesh/mesh.h"
 #include "scene/mesh_io.h"
-#include "scene/temporary_folder.h"
+#include "scene/messages/error.h"
 
 namespace clues::tests {
 

@@ -1,5 +1,5 @@
 // A temporary folder is there, is nobody else's, and leaves nothing behind.
-#include "scene/temporary_folder.h"
+#include "scene/files/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // D18: chains as certificates of first-order visible. Each chain that is found was accepted by the checker; here is how many are found, and that the
 // checker accepts nothing else.
-#include "validate/chain.h"
+#include "validate/certificates/chain.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,9 +11,9 @@
 #include <iostream>
 
 #include "fuzz/campaign/generators.h"
-#include "validate/chain_search.h"
-#include "validate/judge.h"
+#include "validate/certificates/chain_search.h"
 #include "validate/vectors/reader.h"
+#include "validate/verdicts/judge.h"
 
 namespace clues::validate {
 namespace {

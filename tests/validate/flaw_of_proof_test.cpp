@@ -1,7 +1,7 @@
 // D1, D4: what a suite may not say of a triangle, whatever its author proves by it.
 #include <gtest/gtest.h>
 
-#include "exact/scene_query.h"
+#include "exact/sight/scene_query.h"
 #include "validate/conform/grade.h"
 
 namespace clues::validate {

@@ -1,6 +1,6 @@
 // D19: the judge on a scene whose answers are known, and tests of the test: implementations that are wrong on purpose must
 // get the right bad verdict.
-#include "validate/judge.h"
+#include "validate/verdicts/judge.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 #include <algorithm>
 #include <numeric>
 
-#include "exact/witness.h"
+#include "exact/sight/witness.h"
 #include "fuzz/generators/random_scenes.h"
-#include "validate/judge_report.h"
-#include "validate/measures.h"
+#include "validate/verdicts/judge_report.h"
+#include "validate/verdicts/measures.h"
 
 namespace clues::validate {
 namespace {

@@ -4,13 +4,13 @@
 
 #include <fstream>
 
-#include "exact/witness.h"
+#include "exact/sight/witness.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
-#include "scene/error.h"
-#include "validate/point_query.h"
-#include "validate/points_file.h"
-#include "validate/segment_query.h"
+#include "scene/messages/error.h"
+#include "validate/certificates/point_query.h"
+#include "validate/certificates/points_file.h"
+#include "validate/certificates/segment_query.h"
 
 namespace clues::validate {
 namespace {

@@ -1,5 +1,5 @@
 // Regions with holes and notches: the triangles fill them exactly, and the points lie inside.
-#include "validate/region_points.h"
+#include "validate/certificates/region_points.h"
 
 #include <gtest/gtest.h>
 

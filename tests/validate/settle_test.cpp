@@ -1,5 +1,5 @@
 // A judgement without `undecided`: in the cases of the suite in which something is in Omega and yet hidden, the exhaustive search says so of every triangle.
-#include "validate/settle.h"
+#include "validate/visible_set/settle.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <set>
 
 #include "reference/visibility/first_order.h"
-#include "validate/measures.h"
 #include "validate/vectors/reader.h"
+#include "validate/verdicts/measures.h"
 
 namespace clues::validate {
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "validate/rational.h"
+#include "validate/windows/rational.h"
 
 namespace clues::validate::thin {
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <iostream>
 #include "tests/validate/thin_scenes.h"
-#include "validate/umbra_certificate.h"
-#include "validate/visible_set.h"
+#include "validate/certificates/umbra_certificate.h"
+#include "validate/visible_set/visible_set.h"
 
 namespace clues::validate {
 namespace {

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
-#include "exact/point_occlusion.h"
+#include "exact/sight/point_occlusion.h"
 #include "tests/validate/thin_scenes.h"
 
 namespace clues::validate {

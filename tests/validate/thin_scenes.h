@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "exact/convex_cell.h"
-#include "exact/point_occlusion.h"
+#include "exact/cell/convex_cell.h"
+#include "exact/sight/point_occlusion.h"
 #include "fuzz/generators/random.h"
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 #include "tests/validate/thin_cells.h"
-#include "validate/umbra_certificate.h"
+#include "validate/certificates/umbra_certificate.h"
 
 namespace clues::validate::thin {
 

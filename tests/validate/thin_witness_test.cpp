@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <iostream>
-#include "exact/witness.h"
+#include "exact/sight/witness.h"
 #include "tests/validate/thin_scenes.h"
 
 namespace clues::validate {

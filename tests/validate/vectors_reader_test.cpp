@@ -8,7 +8,7 @@
 #include <cstring>
 #include <limits>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 #include "tests/validate/vectors_support.h"
 #include "validate/vectors/writer.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 #include "validate/vectors/reader.h"
 #include "validate/vectors/writer.h"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "scene/temporary_folder.h"
+#include "scene/files/temporary_folder.h"
 
 namespace clues::validate::tests {
 

@@ -8,11 +8,11 @@
 #include <iostream>
 #include <string>
 
-#include "exact/witness.h"
+#include "exact/sight/witness.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
-#include "validate/judge.h"
-#include "validate/visible_set.h"
+#include "validate/verdicts/judge.h"
+#include "validate/visible_set/visible_set.h"
 
 namespace clues::validate {
 namespace {

@@ -1,15 +1,15 @@
 // The exact visible set (D6) where the answer is known in closed form, to the last unit of a double.
-#include "validate/visible_set.h"
+#include "validate/visible_set/visible_set.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "exact/witness.h"
+#include "exact/sight/witness.h"
 #include "fuzz/generators/random_scenes.h"
-#include "scene/error.h"
-#include "validate/sight_window.h"
+#include "scene/messages/error.h"
+#include "validate/windows/sight_window.h"
 
 namespace clues::validate {
 namespace {

@@ -1,5 +1,5 @@
 // Worker processes: what they return, and what becomes of tasks that crash, throw or do not end.
-#include "validate/workers.h"
+#include "validate/processes/workers.h"
 
 #include <gmock/gmock.h>
 

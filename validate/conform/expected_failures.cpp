@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "scene/error.h"
 #include "scene/json_reader.h"
+#include "scene/messages/error.h"
 
 namespace clues::validate {
 namespace {

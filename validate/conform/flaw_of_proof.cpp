@@ -1,9 +1,9 @@
 // The suite is not believed either: before a program is called unsound, the sight line that says so is checked once more.
 #include <string>
 
-#include "exact/convex_cell.h"
-#include "exact/scene_query.h"
-#include "exact/witness.h"
+#include "exact/cell/convex_cell.h"
+#include "exact/sight/scene_query.h"
+#include "exact/sight/witness.h"
 #include "validate/conform/grade.h"
 
 namespace clues::validate {

@@ -65,7 +65,7 @@ struct Tally {
   std::optional<double> under_estimate() const;  // Qu
 };
 
-// Checks the suite's proof that a triangle is visible, with exact arithmetic (exact/witness.h). Empty, or what is wrong with it: then it is the
+// Checks the suite's proof that a triangle is visible, with exact arithmetic (exact/sight/witness.h). Empty, or what is wrong with it: then it is the
 // suite that is wrong and not the implementation.
 std::string flaw_of_proof(const VectorCase& test, const MustBeVisible& proof);
 

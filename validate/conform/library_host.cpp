@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 #include "validate/clues_iut.h"
 #include "validate/conform/server.h"
 

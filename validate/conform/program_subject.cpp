@@ -11,8 +11,8 @@
 #include <memory>
 #include <optional>
 
-#include "scene/error.h"
-#include "validate/conform/child_process.h"
+#include "scene/messages/error.h"
+#include "validate/processes/child_process.h"
 
 namespace clues::validate {
 namespace {

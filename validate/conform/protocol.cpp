@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/json_reader.h"
-#include "scene/printable.h"
+#include "scene/messages/printable.h"
 
 namespace clues::validate {
 namespace {

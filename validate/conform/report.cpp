@@ -7,7 +7,7 @@
 #include <cctype>
 #include <optional>
 
-#include "scene/printable.h"
+#include "scene/messages/printable.h"
 
 namespace clues::validate {
 namespace {

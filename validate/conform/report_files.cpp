@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "scene/printable.h"
-#include "validate/area.h"
+#include "scene/messages/printable.h"
 #include "validate/conform/report.h"
+#include "validate/verdicts/area.h"
 
 namespace clues::validate {
 namespace {

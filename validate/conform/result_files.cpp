@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/atomic_file.h"
-#include "scene/error.h"
+#include "scene/files/atomic_file.h"
 #include "scene/mesh_io.h"
+#include "scene/messages/error.h"
 #include "scene/result.h"
 
 namespace clues::validate {

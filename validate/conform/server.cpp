@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::validate {
 namespace {

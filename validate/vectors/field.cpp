@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
-#include "scene/error.h"
 #include "scene/formats/number.h"
-#include "scene/printable.h"
-#include "validate/vectors/words.h"
+#include "scene/messages/error.h"
+#include "scene/messages/printable.h"
+#include "validate/certificates/words.h"
 
 namespace clues::validate {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 #include "validate/vectors/suite.h"
 
 namespace clues::validate {

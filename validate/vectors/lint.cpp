@@ -8,13 +8,13 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "scene/atomic_file.h"
-#include "scene/error.h"
+#include "scene/files/atomic_file.h"
 #include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
+#include "scene/messages/error.h"
+#include "validate/processes/workers.h"
 #include "validate/vectors/reader.h"
 #include "validate/vectors/writer.h"
-#include "validate/workers.h"
 
 namespace clues::validate {
 namespace {

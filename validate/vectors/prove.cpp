@@ -5,14 +5,14 @@
 
 #include <algorithm>
 
-#include "exact/point_occlusion.h"
-#include "exact/scene_query.h"
-#include "exact/witness.h"
+#include "exact/sight/point_occlusion.h"
+#include "exact/sight/scene_query.h"
+#include "exact/sight/witness.h"
 #include "reference/visibility/first_order.h"
-#include "validate/judge.h"
-#include "validate/judge_report.h"
 #include "validate/vectors/short_witness.h"
-#include "validate/visible_set.h"
+#include "validate/verdicts/judge.h"
+#include "validate/verdicts/judge_report.h"
+#include "validate/visible_set/visible_set.h"
 
 namespace clues::validate {
 namespace {

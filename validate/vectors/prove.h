@@ -1,4 +1,4 @@
-// Proves what one case of the suite says, with nothing taken on trust: witnesses by exact/witness.h, contacts with the cell exactly,
+// Proves what one case of the suite says, with nothing taken on trust: witnesses by exact/sight/witness.h, contacts with the cell exactly,
 // umbra by the first-order map (T1) and by the exhaustive visible set, and each answer once more by the point-occlusion oracle (D18), which shares
 // no algorithm with them.
 #pragma once

@@ -7,12 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "scene/error.h"
-#include "scene/folder_update.h"
+#include "scene/files/folder_update.h"
 #include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
+#include "scene/messages/error.h"
+#include "validate/certificates/words.h"
 #include "validate/vectors/field.h"
-#include "validate/vectors/words.h"
 
 namespace clues::validate {
 namespace {

@@ -16,7 +16,7 @@ namespace clues::validate {
 // the index, and every expectation present. Throws Error file_not_found (no such folder, no index), malformed.
 std::vector<VectorCase> read_suite(const std::filesystem::path& folder);
 
-// What `clues replay --promote` changes together (scene/folder_update.h). The readers of folders finish what it was killed in.
+// What `clues replay --promote` changes together (scene/files/folder_update.h). The readers of folders finish what it was killed in.
 inline constexpr const char* suite_files[] = {"index.json", "found.json"};
 
 // The pieces, for who needs more than the cases. A case without "expect" is accepted when `drafts`.

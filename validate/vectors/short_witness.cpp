@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "exact/simple_point.h"
-#include "exact/witness.h"
+#include "exact/complex/simple_point.h"
+#include "exact/sight/witness.h"
 
 namespace clues::validate {
 namespace {

@@ -3,13 +3,13 @@
 
 #include <optional>
 
-#include "exact/convex_cell.h"
-#include "scene/mesh.h"
-#include "validate/judge.h"
+#include "exact/cell/convex_cell.h"
+#include "scene/mesh/mesh.h"
+#include "validate/verdicts/judge.h"
 
 namespace clues::validate {
 
-// Tries a few hundred segments between simple points of cell and triangle; the first that exact/witness.h confirms. O(triangles) for each.
+// Tries a few hundred segments between simple points of cell and triangle; the first that exact/sight/witness.h confirms. O(triangles) for each.
 std::optional<Witness> short_witness(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                      std::uint32_t triangle, bool fronts_only);
 

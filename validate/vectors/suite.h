@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh.h"
+#include "scene/mesh/mesh.h"
 
 namespace clues::validate {
 
@@ -31,7 +31,7 @@ struct MustBeVisible {
 // A triangle that is hidden, and how that was proved.
 enum class UmbraProof {
   first_order_map,  // outside Omega (T1)
-  exhaustive,       // inside Omega, but validate/visible_set.h proved that no sight line reaches it
+  exhaustive,       // inside Omega, but validate/visible_set/visible_set.h proved that no sight line reaches it
 };
 struct Umbra {
   std::uint32_t triangle = 0;

@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include "exact/cell/direction_cone.h"
 #include "exact/dials.h"
-#include "exact/direction_cone.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::reference {
 

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "exact/scene_query.h"
-#include "reference/visibility/fixpoint.h"
-#include "reference/visibility/walk.h"
+#include "exact/sight/scene_query.h"
+#include "reference/visibility/labels/walk.h"
+#include "reference/visibility/search/fixpoint.h"
 
 namespace clues::reference {
 

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <set>
 
-#include "reference/visibility/contour.h"
 #include "reference/visibility/traversal/shaft.h"
+#include "reference/visibility/wedges/contour.h"
 
 namespace clues::reference {
 

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/scene_query.h"
+#include "exact/sight/scene_query.h"
 
 namespace clues::reference {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "exact/direction_cone.h"
+#include "exact/cell/direction_cone.h"
 
 namespace clues::reference {
 

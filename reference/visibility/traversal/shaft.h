@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/convex_cell.h"
+#include "exact/cell/convex_cell.h"
 #include "exact/kernel.h"
 
 namespace clues::reference {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "exact/dials.h"
-#include "exact/scene_query.h"
-#include "reference/visibility/first_order.h"
+#include "exact/sight/scene_query.h"
+#include "reference/visibility/search/options.h"
 
 namespace clues::reference {
 

@@ -22,10 +22,10 @@
 #include <memory>
 #include <vector>
 
-#include "exact/complex.h"
-#include "exact/scene_query.h"
-#include "reference/visibility/first_order.h"
-#include "reference/visibility/fixpoint.h"
+#include "exact/complex/complex.h"
+#include "exact/sight/scene_query.h"
+#include "reference/visibility/search/fixpoint.h"
+#include "reference/visibility/search/options.h"
 
 namespace clues::reference {
 

@@ -9,11 +9,11 @@
 #include <random>
 #include <stdexcept>
 
-#include "exact/complex.h"
-#include "exact/convex_cell.h"
-#include "exact/scene_query.h"
+#include "exact/cell/convex_cell.h"
+#include "exact/complex/complex.h"
+#include "exact/sight/scene_query.h"
 #include "reference/visibility/first_order.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::planted {
 namespace {

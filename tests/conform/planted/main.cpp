@@ -13,7 +13,7 @@
 
 #include "answers.h"
 #include "cheats.h"
-#include "scene/error.h"
+#include "scene/messages/error.h"
 #include "validate/conform/protocol.h"
 
 namespace {

@@ -1,0 +1,110 @@
+// clues check: judges one PVS for one scene and cell (D19, basic form).
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/progress.h"
+#include "scene/cell_spec.h"
+#include "scene/mesh_io.h"
+#include "scene/result.h"
+#include "validate/certificates/chain_search.h"
+#include "validate/verdicts/judge.h"
+#include "validate/verdicts/judge_report.h"
+#include "validate/visible_set/settle.h"
+
+namespace clues::app {
+namespace {
+
+struct CheckRequest {
+  std::string scene, cell, pvs;
+  bool json = false;
+  MethodOptions method;
+};
+
+int run_check(const CheckRequest& request) {
+  auto options = request.method.to_reference();
+  const auto mesh = scene::read_mesh(request.scene);
+  const auto spec = scene::parse_cell(request.cell);
+  const auto cell = exact::ConvexCell::from_doubles(spec.points);
+  const auto pvs = scene::read_pvs(
+      request.pvs, {mesh.triangles.size(), scene::sha256_of_file(request.scene), request.method.mode, spec.points});
+
+  validate::Judgement judgement;
+  validate::Surroundings around{request.scene, spec.points, {}, {}, {}};
+  {
+    ProgressBar bar("clues check");
+    options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
+      bar.show(stage, done, total);
+    };
+    const auto map = reference::first_order_visibility(mesh, cell, options);
+    validate::JudgeOptions judge_options;
+    judge_options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("witnesses", done, total); };
+    judgement = validate::judge_pvs(mesh, map, pvs, judge_options);
+    if (mesh.triangles.size() <= validate::kSettleTriangles) {
+      bar.show("exact visible set", 0, 1);
+      validate::settle(judgement, mesh, cell, options.mode);
+    }
+    judgement.chains = validate::find_chains(mesh, map, validate::undecided(judgement));
+    around.counts = validate::count_weights(judgement);
+    around.areas = validate::area_weights(judgement, mesh);
+    around.first_order_fractions = validate::first_order_fractions(mesh, map);
+  }
+  if (request.json) {
+    std::fputs(validate::to_json_text(judgement, around).c_str(), stdout);
+  } else {
+    print(validate::to_text(judgement, around));
+  }
+  if (!judgement.contradictions.empty()) return oracle_contradiction;
+  switch (judgement.verdict) {
+    case validate::Verdict::sound:
+      return fine;
+    case validate::Verdict::unsound:
+      return findings;
+    case validate::Verdict::undecided:
+      return not_everything_ran;
+  }
+  return oracle_contradiction;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& program, int& status) {
+  auto* command = program.add_subcommand("check", "Judge a potentially visible set: is a visible triangle missing?");
+  auto request = std::make_shared<CheckRequest>();
+  command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL")->required();
+  command->add_option("--cell", request->cell, "The view cell")->type_name("SPEC")->required();
+  command
+      ->add_option("--pvs", request->pvs,
+                   "The PVS: one triangle id a line with # comments, or a *.json result of clues")
+      ->type_name("FILE")
+      ->required();
+  request->method.add_to(*command);
+  command->add_flag("--json", request->json, "Print the judgement as JSON (docs/formats.md)");
+  command->footer(
+      std::string(
+          "DESCRIPTION\n"
+          "  unsound    a visible triangle is missing. The proof is printed: a point of the cell and a point of the\n"
+          "             triangle, as fractions, between which nothing lies.\n"
+          "  sound      every missing triangle is proved to be hidden.\n"
+          "  undecided  a missing triangle is visible to the first-order method, but no free sight line was found.\n"
+          "             Scenes of up to 60 triangles are searched exhaustively: there nothing stays undecided.\n"
+          "  Listed triangles are exact (visible, with proof), first-order (no sight line was found) or loose "
+          "(hidden).\n"
+          "  For a first-order triangle the proof that the method must list it is a chain of points, each on the free\n"
+          "  continuation of a sight line through the one before; where one was found it is printed.\n"
+          "  Qo and Qu are the over- and underestimate of Bittner et al. (2005): triangles (or area) listed and "
+          "hidden, and\n"
+          "  visible and missing, over visible ones; from the lowest to the highest value that the undecided "
+          "allow.\n\n") +
+      cell_help +
+      "\n\nEXAMPLES\n"
+      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt\n"
+      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs town.clues.json --json\n\n"
+      "EXIT CODES\n"
+      "  0 sound   1 unsound   2 bad usage or input   3 undecided   4 an oracle contradicted itself");
+  command->callback([request, &status] { status = run_check(*request); });
+}
+
+}  // namespace clues::app

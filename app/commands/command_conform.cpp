@@ -1,0 +1,257 @@
+// clues conform: runs the conformance suite against an implementation, and says what came of it.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/progress.h"
+#include "scene/files/atomic_file.h"
+#include "scene/messages/error.h"
+#include "scene/messages/printable.h"
+#include "validate/conform/program_subject.h"
+#include "validate/conform/report.h"
+#include "validate/conform/result_files.h"
+#include "validate/conform/runner.h"
+#include "validate/vectors/reader.h"
+
+namespace clues::app {
+namespace {
+
+namespace fs = std::filesystem;
+using scene::Error;
+using scene::ErrorCode;
+
+struct ConformRequest {
+  std::string implementation, results, export_to, suite;
+  std::vector<std::string> globs, flags, topics;
+  std::string level = "full", shard;
+  int jobs = 0;
+  double time_limit = 10;
+  std::int64_t memory_limit = 0, errors = 0;
+  std::string expect_failures, json, junit;
+  bool every_case = false;
+};
+
+[[noreturn]] void fail_usage(const std::string& message) {
+  throw Error(ErrorCode::bad_argument, message + " (see `clues conform --help`)");
+}
+
+// "3/8" -> 3 of 8.
+void parse_shard(const std::string& text, validate::Selection& selection) {
+  const char* const end = text.data() + text.size();
+  const auto first = std::from_chars(text.data(), end, selection.shard);
+  const bool has_slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
+  const auto second = has_slash ? std::from_chars(first.ptr + 1, end, selection.shards) : first;
+  if (!has_slash || second.ec != std::errc() || second.ptr != end || selection.shard < 1 ||
+      selection.shard > selection.shards) {
+    fail_usage("--shard " + text + ": write it as I/N, with 1 <= I <= N");
+  }
+}
+
+validate::Selection selection_of(const ConformRequest& request) {
+  validate::Selection selection;
+  selection.case_globs = request.globs;
+  selection.flags = request.flags;
+  selection.topics = request.topics;
+  if (request.level != "core" && request.level != "full") fail_usage("--level " + request.level + ": use core or full");
+  selection.core_only = request.level == "core";
+  if (!request.shard.empty()) parse_shard(request.shard, selection);
+  return selection;
+}
+
+fs::path own_path() { return fs::read_symlink("/proc/self/exe"); }
+
+// Beside the installed program, or in the source folder.
+fs::path find_suite(const std::string& given) {
+  if (!given.empty()) return given;
+  const fs::path installed = own_path().parent_path().parent_path() / "share" / "clues" / "vectors";
+  for (const fs::path& folder : {installed, fs::path("vectors")}) {
+    if (fs::exists(folder / "index.json")) return folder;
+  }
+  throw Error(ErrorCode::file_not_found,
+              "no conformance suite in " + installed.string() + " nor in ./vectors; give its folder with --suite DIR");
+}
+
+bool is_library(const std::string& implementation) { return implementation.ends_with(".so"); }
+
+std::unique_ptr<validate::Subject> make_subject(const ConformRequest& request) {
+  if (!request.results.empty()) return std::make_unique<validate::ResultFiles>(request.results);
+  validate::ProgramLimits limits;
+  if (!(request.time_limit > 0) || request.time_limit > 86400)
+    fail_usage("--time-limit: give seconds, above 0 and up to 86400");
+  limits.time = std::chrono::milliseconds(static_cast<std::int64_t>(std::ceil(request.time_limit * 1000)));
+  if (request.memory_limit < 0 || request.memory_limit > 1000000000) {
+    fail_usage(fmt::format("--memory-limit {}: give megabytes, 0 (no limit) to 10^9", request.memory_limit));
+  }
+  limits.memory_bytes = static_cast<std::uint64_t>(request.memory_limit) * 1000000;
+  if (!is_library(request.implementation)) {
+    return std::make_unique<validate::ProgramSubject>(validate::split_command(request.implementation), limits);
+  }
+  if (!fs::exists(request.implementation)) {
+    throw Error(ErrorCode::file_not_found,
+                request.implementation + ": no such file; give the path of a shared library");
+  }
+  const std::vector<std::string> words{own_path().string(), "iut", "--library", request.implementation};
+  return std::make_unique<validate::ProgramSubject>(words, limits);
+}
+
+std::string quoted(const std::string& word) {
+  const auto plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// The command that runs the same subject under the same limits, but for the selection.
+std::string repeat_command(const ConformRequest& request, const fs::path& suite) {
+  std::string command = "clues conform --suite " + quoted(suite.string());
+  if (!request.results.empty()) return command + " --results " + quoted(request.results);
+  command += " --impl " + quoted(request.implementation);
+  if (request.time_limit != 10) command += fmt::format(" --time-limit {}", request.time_limit);
+  if (request.memory_limit != 0) command += fmt::format(" --memory-limit {}", request.memory_limit);
+  return command;
+}
+
+int run_conform(const ConformRequest& request) {
+  if (!request.implementation.empty() + !request.results.empty() + !request.export_to.empty() != 1) {
+    fail_usage("give exactly one of --impl, --results and --export");
+  }
+  if (request.jobs < 0 || request.jobs > 4096)
+    fail_usage(fmt::format("--jobs {}: use 0 (all cores) to 4096", request.jobs));
+  if (request.errors < 0) fail_usage(fmt::format("--errors {}: use 0 (never stop) or more", request.errors));
+  for (const auto& file : {request.json, request.junit}) {
+    if (!file.empty()) require_writable_parent(file);
+  }
+  require_apart({&request.json, &request.junit}, {&request.expect_failures, &request.implementation});
+  const auto selection = selection_of(request);
+  const auto folder = find_suite(request.suite);
+  const auto suite = validate::read_suite(folder);
+  const auto cases = validate::select_cases(suite, selection);
+  validate::RunOptions options;
+  if (!request.expect_failures.empty())
+    options.expected = validate::read_expected_failures(request.expect_failures, suite);
+  if (cases.empty()) {
+    std::fprintf(stderr, "clues: nothing was executed: none of the %zu cases of %s fits the selection\n", suite.size(),
+                 scene::printable(folder.string()).c_str());
+    return not_everything_ran;
+  }
+  if (!request.export_to.empty()) {
+    validate::export_cases(cases, request.export_to);
+    print(fmt::format("{} cases in {}\n", cases.size(), request.export_to));
+    return fine;
+  }
+
+  const auto subject = make_subject(request);
+  options.jobs = request.jobs > 0 ? request.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  options.error_limit = static_cast<std::uint64_t>(request.errors);
+  validate::Run run;
+  {
+    ProgressBar bar("clues conform");
+    options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("cases", done, total); };
+    run = validate::run_cases(*subject, cases, options);
+  }
+  validate::ReportContext context;
+  context.about = subject->about();
+  context.version = CLUES_VERSION;
+  context.suite = folder.string();
+  context.subject = request.results.empty() ? request.implementation : request.results;
+  context.repeat = repeat_command(request, folder);
+  if (!request.json.empty()) scene::write_file_atomically(request.json, validate::to_json_text(run, context));
+  if (!request.junit.empty()) scene::write_file_atomically(request.junit, validate::to_junit_text(run, context));
+  print(validate::to_text(run, context, request.every_case));
+  if (run.executed() == 0) std::fputs("clues: nothing was executed: not one case was answered\n", stderr);
+  return validate::exit_code(run);
+}
+
+constexpr const char* footer = R"(DESCRIPTION
+  Puts the cases of the suite to an implementation and compares each answer, a potentially visible set (PVS), with what the
+  suite proves about the case: which triangles are visible from the cell, and which are hidden.
+
+  tight             exactly the visible triangles
+  conservative      all visible triangles, and others
+  unsound           a visible triangle is missing; a sight line that proves it is printed, after it was checked once more  (fails)
+  malformed_output  what came back is no answer: not JSON, wrong sequence number, two replies, ids out of range...       (fails)
+  crash             the program ended, or was killed by a signal, instead of answering                                     (fails)
+  timeout           no answer in time; the program was killed, with its process group                                     (fails)
+  errored           the program says that it failed, or the result file is not there                                  (exit code 3)
+  resource          it ran out of memory                                                                              (exit code 3)
+  unsupported       not put: the mode is not among its capabilities
+  skipped           not put: the coordinates are not all single-precision numbers, and it reads these; or it declined
+  rejected_input    the program calls the input bad
+
+  Table: Qo is the overestimate (triangles listed without being visible / visible triangles), Qu the underestimate (visible triangles
+  missing / visible triangles), over all answers of the topic. `looser` counts answers with a triangle that is not even
+  first-order visible. The output is the same for any --jobs.
+
+THREE WAYS IN
+  --impl CMD        A program that speaks JSON lines on its standard input and output (docs/protocol.md). CMD is split into words as
+                    by a shell, but runs without one. Write one in an afternoon: docs/adding-an-implementation.md
+  --impl LIB.so     A shared library with the C function of clues_iut.h. It runs in a process of its own.
+  --results DIR     Files: DIR/ID.clues.json, DIR/ID.pvs or DIR/ID.txt (one triangle id a line) for every case. --export DIR writes
+                    the scenes and cells of the cases as OFF files, and cases.json, which lists them.
+
+EXPECTED FAILURES
+  --expect-failures FILE: {"format": "clues-expected-failures/1", "cases": [{"case": ID, "issue": URL, "date": "2026-11-21"}]}
+  A listed case that fails does not count. One that does not fail any more is an error, and so is an id that the suite does not have.
+
+EXAMPLES
+  clues conform --impl 'python3 my_adapter.py' --jobs 4
+  clues conform --impl ./libmine.so --topic grazing --junit conform.xml
+  clues conform --impl 'clues iut --kernel exact' --case '*-one-ulp-*' -v
+  clues conform --export cases && ./my_tool cases && clues conform --results cases
+
+EXIT CODES
+  0  no failure, or expected ones only
+  1  a case failed, or one that was expected to fail did not
+  2  bad usage or input; the implementation cannot be started; nothing was run
+  3  nothing was executed (empty selection, everything skipped), or a case was left without an answer
+  4  a proof of the suite itself does not hold: please report it)";
+
+}  // namespace
+
+void add_conform_command(CLI::App& program, int& status) {
+  auto* command = program.add_subcommand("conform", "Run the conformance suite against an implementation");
+  auto request = std::make_shared<ConformRequest>();
+  command->add_option("--impl", request->implementation, "What is tested: a command, or a shared library (*.so)")
+      ->type_name("CMD|LIB.so");
+  command->add_option("--results", request->results, "What is tested: answers in files")->type_name("DIR");
+  command->add_option("--export", request->export_to, "Tests nothing: writes the selected cases as files")
+      ->type_name("DIR");
+  command->add_option("--suite", request->suite, "The suite; default: the installed one, or ./vectors")
+      ->type_name("DIR");
+  command
+      ->add_option("--case", request->globs,
+                   "Only cases whose id fits; * and ? are wild. May be given again, as the next two")
+      ->type_name("GLOB");
+  command->add_option("--flag", request->flags, "Only cases with this flag")->type_name("F");
+  command->add_option("--topic", request->topics, "Only cases of this topic")->type_name("T");
+  command->add_option("--level", request->level, "core: what every implementation should run; full: all (default)")
+      ->type_name("core|full");
+  command->add_option("--shard", request->shard, "Every N-th of the selected cases, beginning with the I-th")
+      ->type_name("I/N");
+  command->add_option("--jobs", request->jobs, "How many processes at a time; 0: one per core (default)")
+      ->type_name("N");
+  command->add_option("--time-limit", request->time_limit, "Seconds for one case (default 10)")->type_name("S");
+  command
+      ->add_option("--memory-limit", request->memory_limit,
+                   "Address space of the implementation; 0: no limit (default)")
+      ->type_name("MB");
+  command->add_option("--errors", request->errors, "Stop after so many problems; 0: never (default)")->type_name("N");
+  command->add_option("--expect-failures", request->expect_failures, "Cases that are known to fail")->type_name("FILE");
+  command->add_option("--json", request->json, "Write the whole report as JSON (docs/formats.md)")->type_name("FILE");
+  command->add_option("--junit", request->junit, "Write JUnit XML")->type_name("FILE");
+  command->add_flag("-v,--verbose", request->every_case, "A line for every case");
+  for (const char* name : {"--case", "--flag", "--topic"}) command->get_option(name)->allow_extra_args(false);
+  command->footer(footer);
+  command->callback([request, &status] { status = run_conform(*request); });
+}
+
+}  // namespace clues::app

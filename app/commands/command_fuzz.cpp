@@ -1,0 +1,277 @@
+// clues fuzz, clues shrink, clues replay: campaigns on random scenes, and what becomes of their findings.
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/progress.h"
+#include "fuzz/campaign/campaign.h"
+#include "fuzz/campaign/generators.h"
+#include "fuzz/findings/dials.h"
+#include "fuzz/oracles/oracle.h"
+#include "fuzz/shrinking/finding_folder.h"
+#include "fuzz/shrinking/promote.h"
+#include "scene/messages/error.h"
+#include "scene/messages/printable.h"
+
+namespace clues::app {
+namespace {
+
+using scene::Error;
+using scene::ErrorCode;
+
+// The only way a signal handler has to tell.
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void on_interrupt(int) { interrupted.store(true); }
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  action.sa_flags = SA_RESETHAND;  // a second Ctrl-C ends the program at once; the store is safe all the same
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+struct FuzzRequest {
+  fuzz::CampaignOptions options;
+  std::string subject = "reference";
+  std::vector<std::string> scenes;
+  std::uint64_t cases = 0, seconds = 0;
+  bool no_dials = false;
+};
+
+int run_fuzz(FuzzRequest& request) {
+  auto& options = request.options;
+  if (request.cases > 0) options.cases = request.cases;
+  if (request.seconds > 0) options.time = std::chrono::seconds(request.seconds);
+  if (!options.cases && !options.time) options.time = std::chrono::seconds(60);
+  options.dials = !request.no_dials;
+  const auto subject = fuzz::make_subject(request.subject);
+  options.given = fuzz::read_given_scenes(request.scenes);
+  ProgressBar bar("clues fuzz");
+  const auto begin = std::chrono::steady_clock::now();
+  std::uint64_t first = UINT64_MAX;
+  options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
+    first = std::min(first, done);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    bar.show(fmt::format("{} ({:.1f}/s)", stage, static_cast<double>(done - first) / std::max(seconds, 0.001)), done,
+             total);
+  };
+  catch_interrupts();
+  options.stop = &interrupted;
+  const auto summary = fuzz::run_campaign(options, *subject);
+  bar.clear();
+  print(to_text(summary, options.out));
+  std::fprintf(stderr, "clues fuzz: %.1f s, %.1f cases a second\n", summary.seconds_now,
+               static_cast<double>(summary.cases_now) / std::max(summary.seconds_now, 0.001));
+  return summary.exit_code();
+}
+
+struct FolderRequest {
+  std::string folder, subject, suite, id;
+  bool run_subject = false;
+  std::uint64_t steps = fuzz::ShrinkLimits{}.steps, seconds = 60;
+};
+
+// The user's, or the finding's. A command line that a file names is shown, and run only where the user asked for that.
+std::unique_ptr<fuzz::Subject> subject_of(const FolderRequest& request, const fuzz::SavedFinding& saved) {
+  if (!request.subject.empty()) return fuzz::make_subject(request.subject);
+  if (fuzz::is_program(saved.subject)) {
+    const std::string command = scene::printable(saved.subject);
+    if (!request.run_subject)
+      throw Error(ErrorCode::bad_argument, request.folder +
+                                               ": the finding is about the program that runs as: " + command +
+                                               "; read that line, then give --run-subject to run it, or --subject");
+    std::fprintf(stderr, "clues: running the subject of the finding: %s\n", command.c_str());
+  }
+  return fuzz::make_subject(saved.subject);
+}
+
+// A subject that fails is not one that is mended.
+std::string flaw_now(const fuzz::Finding& finding, const fuzz::Subject& subject) {
+  try {
+    return fuzz::flaw_of(finding, subject);
+  } catch (const fuzz::NoAnswer& error) {
+    throw Unfinished(subject.name() + ": the subject gives no answer: " + error.what());
+  }
+}
+
+int run_replay(const FolderRequest& request) {
+  const auto saved = fuzz::load_finding(request.folder);
+  const auto subject = subject_of(request, saved);
+  if (!request.suite.empty()) {
+    fuzz::promote(saved.finding, request.id, request.suite);
+    std::printf("%s: has the case %s now, with proofs\n", scene::printable(request.suite).c_str(), request.id.c_str());
+  }
+  const std::string flaw = flaw_now(saved.finding, *subject);
+  if (!flaw.empty()) {
+    std::printf("not reproduced: %s\n", scene::printable(flaw).c_str());
+    return fine;
+  }
+  std::printf("reproduced: %s, %zu triangles\n  %s\n", scene::printable(saved.finding.signature()).c_str(),
+              saved.finding.where.mesh.triangles.size(), scene::printable(saved.finding.explanation).c_str());
+  return findings;
+}
+
+int run_shrink(const FolderRequest& request) {
+  auto saved = fuzz::load_finding(request.folder);
+  const auto subject = subject_of(request, saved);
+  const std::string flaw = flaw_now(saved.finding, *subject);
+  if (!flaw.empty()) throw Error(ErrorCode::bad_argument, request.folder + ": there is nothing to shrink: " + flaw);
+  const auto before = saved.finding.where.mesh.triangles.size();
+  const auto shrunk = fuzz::shrink(saved.finding, *subject, {request.steps, std::chrono::seconds(request.seconds)});
+  saved.finding = shrunk.finding;
+  saved.steps += shrunk.steps;
+  saved.subject = subject->name();
+  fuzz::save_finding(saved, request.folder);
+  std::printf("%zu -> %zu triangles in %llu steps\n", before, saved.finding.where.mesh.triangles.size(),
+              static_cast<unsigned long long>(shrunk.steps));
+  return fine;
+}
+
+std::string fuzz_footer() {
+  std::string text =
+      "DESCRIPTION\n"
+      "  Makes scenes, asks the subject what the cell sees, and looks for visible triangles that it denies. Every "
+      "finding has\n"
+      "  a witness: a sight line in fractions, confirmed by a checker that shares nothing with the search. Each is "
+      "shrunk,\n"
+      "  verified and saved in a folder of DIR; DIR/findings.sqlite remembers progress, counters and findings. The "
+      "same\n"
+      "  command goes on where the last run ended, however it ended; with more --cases it goes further.\n"
+      "  Case n is a pure function of the seed and n, so findings do not depend on --jobs.\n"
+      "\nSUBJECT\n"
+      "  reference      the exact first-order reference of clues (default)\n"
+      "  fast           the fast path, compared with the reference too\n"
+      "  subdivided, backprojected\n"
+      "                 the reference refined to depth 2, its hidden regions included\n"
+      "  fast:subdivided, fast:backprojected\n"
+      "                 the fast path refined to depth 3\n"
+      "  COMMAND LINE   a program, run once for each scene; {scene}, {cell} and {pvs} stand for an OFF file, an OBJ "
+      "file of\n"
+      "                 the cell's points, and the list of visible triangle ids that it has to write, one a line;\n"
+      "                 {mode} for sheet or solid (without it, answer as for sheet). Without these words the three\n"
+      "                 files are appended. It has 60 s, and must exit with 0.\n"
+      "\nGENERATORS\n";
+  for (const auto& g : fuzz::all_generators({})) text += fmt::format("  {:<22} {}\n", g.name, g.degeneracy);
+  text += "\nDIALS (turned in every other case, one to three of them)\n";
+  for (const auto& d : fuzz::all_dials()) text += fmt::format("  {:<22} {}\n", d.name, d.what);
+  text += "\nORACLES\n";
+  for (const auto& o : fuzz::all_oracles()) text += fmt::format("  {:<22} {}\n", o->name(), o->what());
+  return text +
+         "\nEXAMPLES\n"
+         "  clues fuzz --time 600 --jobs 2 --out fuzz-out\n"
+         "  clues fuzz --subject './bake {scene} {cell} -o {pvs}' --seed 7 --cases 1000 --errors 5\n"
+         "  clues fuzz --generator axis_boxes --oracle sight-lines --cases 200\n"
+         "  clues fuzz --generator umbrellas:1 --cases 50            # gaps of one ulp only\n"
+         "  clues fuzz --scenes vectors --scenes meshes --time 600\n"
+         "\nFILES\n"
+         "  DIR/findings.sqlite, and a folder for each finding (docs/fuzzing.md)\n"
+         "\nEXIT CODES\n"
+         "  0 no finding   1 findings   2 bad usage or input   3 interrupted, or vacuous: something that the campaign "
+         "must meet\n"
+         "  never occurred   4 an oracle contradicted itself";
+}
+
+void add_subject(CLI::App& command, std::string& subject, const char* help) {
+  command.add_option("--subject", subject, help)->type_name("SUBJECT");
+}
+
+void add_run_subject(CLI::App& command, bool& run_subject) {
+  command.add_flag("--run-subject", run_subject,
+                   "Run the command line that the finding names. Read it first: it runs with your rights");
+}
+
+}  // namespace
+
+void add_fuzz_commands(CLI::App& program, int& status) {
+  auto* fuzz = program.add_subcommand("fuzz", "Search for scenes in which something visible is called hidden");
+  auto request = std::make_shared<FuzzRequest>();
+  auto& options = request->options;
+  add_subject(*fuzz, request->subject,
+              "What is tested: reference (default), another name, or a command line, see below");
+  fuzz->add_option("--seed", options.seed, "Which scenes (default 1)")->type_name("N");
+  fuzz->add_option("--first", options.first, "Number of the first scene of each generator (default 0)")->type_name("N");
+  fuzz->add_option("--cases", request->cases, "Cases in all, those of earlier runs in DIR included")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  fuzz->add_option("--time", request->seconds,
+                   "Seconds for new cases (default 60 without --cases); shrinking comes on top")
+      ->type_name("T")
+      ->check(CLI::PositiveNumber);
+  fuzz->add_option("--jobs", options.jobs, "Processes that work at once (default 1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  fuzz->add_option("--generator", options.generators,
+                   "Only this generator; may be repeated. NAME:D: with its dial at D, 0 to 7")
+      ->type_name("NAME");
+  fuzz->add_option("--scenes", request->scenes,
+                   "A mesh, a vector file or a folder of them, to be cut up or mutated; may be repeated")
+      ->type_name("PATH");
+  fuzz->add_flag("--no-dials", request->no_dials,
+                 "All settings of the engines as usual, all scenes where they are made");
+  fuzz->add_option("--oracle", options.oracles, "Only this oracle; may be repeated")->type_name("NAME");
+  fuzz->add_option("--errors", options.errors, "Stop at this many different findings; 0: never (default)")
+      ->type_name("N");
+  fuzz->add_option("--out", options.out, "Folder of the campaign (default fuzz-out)")->type_name("DIR");
+  fuzz->footer(fuzz_footer());
+  fuzz->callback([request, &status] { status = run_fuzz(*request); });
+
+  auto folder = std::make_shared<FolderRequest>();
+  auto* replay = program.add_subcommand("replay", "Verify a finding of clues fuzz");
+  replay->add_option("FINDING", folder->folder, "Its folder")->required();
+  add_subject(*replay, folder->subject, "Ask this subject instead of the one that the finding names");
+  add_run_subject(*replay, folder->run_subject);
+  auto* suite = replay
+                    ->add_option("--promote", folder->suite,
+                                 "Also add the scene to the conformance suite in this folder, as a case of found.json")
+                    ->type_name("SUITE");
+  auto* id =
+      replay->add_option("--id", folder->id, "The id of the new case, such as gap-beside-a-pillar")->type_name("ID");
+  suite->needs(id);
+  id->needs(suite);
+  replay->footer(
+      "DESCRIPTION\n"
+      "  Refuses files that were changed after they were saved; checks the witness exactly; asks the subject again.\n"
+      "  A subject that is a program runs only with --run-subject, or as you name it with --subject.\n"
+      "  With --promote, what is visible and hidden in the new case is proved as `clues lint` does; where that fails\n"
+      "  the suite stays as it was.\n"
+      "\nEXAMPLES\n"
+      "  clues replay fuzz-out/sight-lines-hidden-visible-axis_boxes\n"
+      "  clues replay received-finding --subject './bake {scene} {cell} -o {pvs}'\n"
+      "  clues replay fuzz-out/sight-lines-hidden-visible-axis_boxes --promote vectors --id gap-beside-a-box\n"
+      "\nEXIT CODES\n"
+      "  0 the subject no longer fails   1 reproduced   2 bad usage or input, or the finding was changed\n"
+      "  3 the subject gives no answer");
+  replay->callback([folder, &status] { status = run_replay(*folder); });
+
+  auto* shrink = program.add_subcommand("shrink", "Make a finding of clues fuzz smaller");
+  shrink
+      ->add_option("FINDING", folder->folder,
+                   "Its folder; our files in it are written again, with the original as it was")
+      ->required();
+  add_subject(*shrink, folder->subject, "Ask this subject instead of the one that the finding names");
+  add_run_subject(*shrink, folder->run_subject);
+  shrink->add_option("--max-steps", folder->steps, "Scenes put to the subject at most (default 600)")->type_name("N");
+  shrink->add_option("--time", folder->seconds, "Seconds at most (default 60)")->type_name("T");
+  shrink->footer(
+      "DESCRIPTION\n"
+      "  Fewer triangles, fewer points of the cell, shorter coordinates; the same oracle and verdict throughout, with "
+      "a new\n"
+      "  witness at every step. Deterministic unless the time ends it.\n"
+      "\nEXAMPLES\n"
+      "  clues shrink fuzz-out/sight-lines-hidden-visible-axis_boxes --max-steps 2000 --time 600\n"
+      "\nEXIT CODES\n"
+      "  0 fine   2 bad usage or input, or the finding no longer shows itself");
+  shrink->callback([folder, &status] { status = run_shrink(*folder); });
+}
+
+}  // namespace clues::app

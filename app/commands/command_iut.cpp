@@ -1,0 +1,100 @@
+// clues iut: the reference, or a shared library, as an implementation under test: a speaker of docs/protocol.md.
+
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "exact/cell/convex_cell.h"
+#include "exact/threads.h"
+#include "fastpath/visibility/first_order.h"
+#include "reference/visibility/first_order.h"
+#include "scene/messages/error.h"
+#include "validate/conform/library_host.h"
+#include "validate/conform/server.h"
+
+namespace clues::app {
+namespace {
+
+struct IutRequest {
+  std::string kernel, library;
+};
+
+// One thread: `clues conform --jobs` starts as many of us as it likes.
+std::vector<std::uint32_t> exact_pvs(const validate::Request& request) {
+  reference::Options options;
+  options.threads = 1;
+  options.mode = request.mode == validate::CaseMode::solid ? reference::Mode::solid : reference::Mode::sheet;
+  return reference::first_order_visibility(request.mesh, exact::ConvexCell::from_doubles(request.cell), options)
+      .visible;
+}
+
+std::vector<std::uint32_t> fast_pvs(const validate::Request& request) {
+  fastpath::LocalMapOptions options;
+  if (request.mode == validate::CaseMode::solid) {
+    fastpath::require_solid(request.mesh);
+    options.mode = fastpath::SideMode::solid;
+  }
+  return exact::by_threads(
+      1, [&] { return fastpath::first_order_visibility(fastpath::Bvh(request.mesh), request.cell, options).visible; });
+}
+
+void serve_kernel(const std::string& kernel) {
+  MethodOptions method;
+  method.kernel = kernel;
+  method.check();
+  validate::Implementation about;
+  about.name = kernel == "fast" ? "clues fast path" : "clues first-order reference";
+  about.version = CLUES_VERSION;
+  about.language = "C++";
+  validate::serve(std::cin, stdout, about, [&](const validate::Request& request) {
+    validate::Answer answer;
+    answer.visible = kernel == "fast" ? fast_pvs(request) : exact_pvs(request);
+    return answer;
+  });
+}
+
+int run_iut(const IutRequest& request) {
+  if (request.kernel.empty() == request.library.empty()) {
+    throw scene::Error(scene::ErrorCode::bad_argument, "give one of --kernel and --library (see `clues iut --help`)");
+  }
+  try {
+    if (!request.library.empty()) {
+      validate::serve_library(request.library, std::cin);
+    } else {
+      serve_kernel(request.kernel);
+    }
+  } catch (const validate::ProtocolError& error) {
+    throw scene::Error(scene::ErrorCode::malformed,
+                       std::string("standard input: ") + error.what() + "; see docs/protocol.md");
+  }
+  return fine;
+}
+
+}  // namespace
+
+void add_iut_command(CLI::App& program, int& status) {
+  auto* command =
+      program.add_subcommand("iut", "Be an implementation under test: speak JSON lines on standard input and output");
+  auto request = std::make_shared<IutRequest>();
+  command->add_option("--kernel", request->kernel, "Answer ourselves: exact (the first-order reference) or fast")
+      ->type_name("NAME");
+  command->add_option("--library", request->library, "Answer with the function clues_iut_pvs of a shared library")
+      ->type_name("LIB.so");
+  command->footer(
+      "DESCRIPTION\n"
+      "  Speaks docs/protocol.md until it is told to stop or its input ends: the program to look at when writing an "
+      "adapter, and the\n"
+      "  way in which `clues conform --impl LIB.so` runs a library.\n\n"
+      "EXAMPLES\n"
+      "  clues conform --impl 'clues iut --kernel exact'\n"
+      "  echo '{\"cmd\":\"start\",\"protocol\":1}' | clues iut --kernel exact\n\n"
+      "EXIT CODES\n"
+      "  0 stopped as told   2 bad usage, a request that is none, or no such library");
+  command->callback([request, &status] { status = run_iut(*request); });
+}
+
+}  // namespace clues::app

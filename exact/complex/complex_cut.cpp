@@ -1,0 +1,130 @@
+// The exact steps behind D16: triangle-triangle contact, and the constrained triangulation of one plane.
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Constrained_triangulation_plus_2.h>
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact/complex/complex_internal.h"
+
+namespace clues::exact {
+namespace {
+
+using Tds = CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_2<Kernel>,
+                                                 CGAL::Constrained_triangulation_face_base_2<Kernel>>;
+using Cdt = CGAL::Constrained_triangulation_plus_2<
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, Tds, CGAL::Exact_intersections_tag>>;
+
+bool inside(const std::array<Point2, 3>& t, const Point2& p) {
+  const CGAL::Orientation o = CGAL::orientation(t[0], t[1], t[2]);
+  return CGAL::orientation(t[0], t[1], p) == o && CGAL::orientation(t[1], t[2], p) == o &&
+         CGAL::orientation(t[2], t[0], p) == o;
+}
+
+}  // namespace
+
+Point2 drop_axis(const Point3& p, int axis, double unit) {
+  const Point2 q(p[(axis + 1) % 3], p[(axis + 2) % 3]);
+  return unit == 1 ? q : Point2(q.x() / unit, q.y() / unit);
+}
+
+int dominant_axis(const Vector3& normal) {
+  int best = -1;
+  double size = -1;
+  for (int i = 0; i < 3; ++i) {
+    const FT& c = normal[i];
+    if (CGAL::is_zero(c)) continue;
+    const double d = std::fabs(CGAL::to_double(c));
+    if (d > size) {
+      size = d;
+      best = i;
+    }
+  }
+  return best;
+}
+
+Contact meet(const Kernel::Triangle_3& a, const Kernel::Triangle_3& b) {
+  Contact contact;
+  if (!CGAL::do_intersect(a, b)) return contact;
+  const auto result = CGAL::intersection(a, b);
+  if (!result) return contact;
+  if (const auto* p = boost::get<Point3>(&*result)) {
+    contact.points = {*p};
+  } else if (const auto* s = boost::get<Kernel::Segment_3>(&*result)) {
+    contact.points = {s->source(), s->target()};
+  } else if (const auto* t = boost::get<Kernel::Triangle_3>(&*result)) {
+    contact.points = {t->vertex(0), t->vertex(1), t->vertex(2)};
+    contact.overlap = true;
+  } else if (const auto* polygon = boost::get<std::vector<Point3>>(&*result)) {
+    contact.points = *polygon;
+    contact.overlap = true;
+  }
+  return contact;
+}
+
+std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& triangles,
+                                  const std::vector<Contact>& contacts) {
+  const Plane3 plane(triangles[0][0], triangles[0][1], triangles[0][2]);
+  const int axis = dominant_axis(plane.orthogonal_vector());
+  std::vector<Point3> corners;
+  for (const auto& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+  const double unit = unit_of(corners);
+  const auto lay_flat = [&](const Point3& p) { return drop_axis(p, axis, unit); };
+  const auto lift = [&](const Point2& q) {  // the plane's point above q
+    const FT n[3] = {plane.a(), plane.b(), plane.c()};
+    FT c[3];
+    c[(axis + 1) % 3] = q.x() * unit;
+    c[(axis + 2) % 3] = q.y() * unit;
+    c[axis] = -(n[(axis + 1) % 3] * c[(axis + 1) % 3] + n[(axis + 2) % 3] * c[(axis + 2) % 3] + plane.d()) / n[axis];
+    return collapsed(Point3(c[0], c[1], c[2]));
+  };
+
+  Cdt cdt;
+  std::vector<std::array<Point2, 3>> flat;
+  for (const auto& t : triangles) {
+    flat.push_back({lay_flat(t[0]), lay_flat(t[1]), lay_flat(t[2])});
+    const auto& f = flat.back();
+    for (std::size_t i = 0; i < 3; ++i) cdt.insert_constraint(f[i], f[(i + 1) % 3]);
+  }
+  for (const Contact& c : contacts) {
+    if (c.points.size() == 1) {
+      cdt.insert(lay_flat(c.points[0]));
+    } else {
+      cdt.insert_constraint(lay_flat(c.points[0]), lay_flat(c.points[1]));
+    }
+  }
+
+  std::vector<CutFace> faces;
+  for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
+    const Point2 p[3] = {f->vertex(0)->point(), f->vertex(1)->point(), f->vertex(2)->point()};
+    const Point2 middle = CGAL::centroid(p[0], p[1], p[2]);
+    CutFace face;
+    for (std::size_t m = 0; m < flat.size(); ++m) {
+      if (inside(flat[m], middle))
+        face.owners.emplace_back(m, CGAL::orientation(flat[m][0], flat[m][1], flat[m][2]) == CGAL::LEFT_TURN);
+    }
+    if (face.owners.empty()) continue;
+    face.corners = {lift(p[0]), lift(p[1]), lift(p[2])};
+    if (!face.owners.front().second) {  // turn the face so that it looks like its first owner
+      std::swap(face.corners[1], face.corners[2]);
+      for (auto& owner : face.owners) owner.second = !owner.second;
+    }
+    faces.push_back(std::move(face));
+  }
+  // The triangulation's own order depends on its construction; give the faces one that depends on their corners only.
+  for (CutFace& f : faces) {
+    const auto least = std::min_element(f.corners.begin(), f.corners.end(), [](const Point3& a, const Point3& b) {
+      return CGAL::lexicographically_xyz_smaller(a, b);
+    });
+    std::rotate(f.corners.begin(), least, f.corners.end());
+  }
+  std::sort(faces.begin(), faces.end(), [](const CutFace& a, const CutFace& b) {
+    return std::lexicographical_compare(
+        a.corners.begin(), a.corners.end(), b.corners.begin(), b.corners.end(),
+        [](const Point3& x, const Point3& y) { return CGAL::lexicographically_xyz_smaller(x, y); });
+  });
+  return faces;
+}
+
+}  // namespace clues::exact

@@ -1,0 +1,330 @@
+#include "fastpath/visibility/closure/closure.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "exact/box_tree.h"
+#include "fastpath/visibility/closure/sight_rays.h"
+#include "fastpath/visibility/wedges/contact.h"
+
+namespace clues::fastpath {
+namespace {
+
+// How many rays look for a first guess, at most, and how many triangles whose proof failed are looked at before the map is made anew.
+constexpr std::size_t kRays = 4096, kFailures = 256;
+
+Box box_of(std::span<const Point> points) {
+  Box box{points[0], points[0]};
+  for (const Point& p : points) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      box.low[i] = std::min(box.low[i], p[i]);
+      box.high[i] = std::max(box.high[i], p[i]);
+    }
+  }
+  return box;
+}
+
+CGAL::Bbox_3 to_bbox(const Box& b) { return {b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]}; }
+
+bool overlap(const Box& a, const Box& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (a.high[i] < b.low[i] || b.high[i] < a.low[i]) return false;
+  }
+  return true;
+}
+
+// Child `lane` of a node in the coordinates of the scene, rounded outward: the local box contains the exact triangles in exact local coordinates;
+// dividing by a power of two is exact (or overflows to infinity, which is outward), the sum is rounded once.
+Box child_box(const LocalFrame& frame, const BoxLanes& node, std::size_t lane) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.low[i] = std::nextafter(static_cast<double>(node.side[i][lane]) / frame.scale + frame.center[i], -kInfinity);
+    box.high[i] =
+        std::nextafter(static_cast<double>(node.side[i + 3][lane]) / frame.scale + frame.center[i], kInfinity);
+  }
+  return box;
+}
+
+// The triangles of K that are lit, as boxes: all that light meets. What is dark in K stops no light, and need not be in K.
+class LitTriangles {
+ public:
+  LitTriangles(const Bvh& bvh, const std::vector<std::uint32_t>& ids) {
+    std::vector<CGAL::Bbox_3> boxes;
+    for (const std::uint32_t id : ids) {
+      corners_.push_back(bvh.corners(id));
+      boxes.push_back(to_bbox(box_of(corners_.back())));
+    }
+    tree_ = exact::BoxTree(std::move(boxes));
+  }
+
+  // Conservative: a box and the plane of a triangle beside it.
+  bool may_touch(const Box& box) const {
+    for (const std::uint32_t i : near(box)) {
+      if (plane_may_touch(corners_[i], box)) return true;
+    }
+    return false;
+  }
+  // Whether one may have a point inside t; not asked about itself.
+  bool may_meet_inside(const Corners& t) const {
+    for (const std::uint32_t i : near(box_of(t))) {
+      if (may_meet_inside_conservative(t, corners_[i])) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<std::uint32_t> near(const Box& box) const {
+    const CGAL::Bbox_3 b = to_bbox(box);
+    return tree_.candidates([&](const CGAL::Bbox_3& other) { return CGAL::do_overlap(b, other); });
+  }
+  // False only if all corners of the box are strictly on one side of the plane, by the filter alone.
+  static bool plane_may_touch(const Corners& t, const Box& b) {
+    bool negative = false, positive = false;
+    for (unsigned i = 0; i < 8; ++i) {
+      const Point p{(i & 1U) != 0 ? b.high[0] : b.low[0], (i & 2U) != 0 ? b.high[1] : b.low[1],
+                    (i & 4U) != 0 ? b.high[2] : b.low[2]};
+      const FilteredSign side = orient3d_filtered(t[0], t[1], t[2], p);
+      if (!side.certain || side.sign == Sign::zero) return true;
+      (side.sign == Sign::negative ? negative : positive) = true;
+    }
+    return negative && positive;
+  }
+
+  std::vector<Corners> corners_;
+  exact::BoxTree tree_;
+};
+
+class Closer {
+ public:
+  Closer(const Bvh& bvh, const Cell& cell, const exact::Dials& dials)
+      : bvh_(bvh),
+        cell_(cell),
+        failures_(dials.batch > 0 ? dials.batch : kFailures),
+        rays_(bvh, cell, dials.sight_rays),
+        in_part_(bvh.mesh().triangles.size(), 0) {}
+
+  // False if it was there.
+  bool add(std::uint32_t triangle) {
+    if (in_part_[triangle] != 0) return false;
+    in_part_[triangle] = 1;
+    part_.push_back(triangle);
+    return true;
+  }
+  const std::vector<std::uint32_t>& part() const { return part_; }
+  std::uint64_t rays() const { return rays_.count(); }
+  void add_all();
+  void add_triangles_by_the_cell();
+  void add_seen_by_rays();
+
+  // The scene of the part, ids ascending.
+  scene::TriangleMesh part_mesh();
+  // Tries to prove every triangle outside the part dark; adds what is in the way of that. False: all are dark.
+  bool add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible);
+
+  ClosureCounts counts;
+
+ private:
+  bool dark(const Box& box, const PartialMap& map, const LitTriangles& lit) const;
+  bool dark(const Corners& t, const PartialMap& map, const LitTriangles& lit) const;
+  void add_with_neighbours(std::vector<std::uint32_t> seen);
+  // Adds what sight lines to the triangles meet first; else the triangles themselves.
+  void add_front_of(const std::vector<std::uint32_t>& triangles);
+
+  const Bvh& bvh_;
+  const Cell& cell_;
+  std::size_t failures_;
+  SightRays rays_;
+  std::vector<std::uint8_t> in_part_;
+  std::vector<std::uint32_t> part_;
+};
+
+void Closer::add_all() {
+  for (std::uint32_t t = 0; t < in_part_.size(); ++t) add(t);
+}
+
+// D3: what meets the cell is visible. All whose boxes do: too many does no harm.
+void Closer::add_triangles_by_the_cell() {
+  const Box cell = box_of(cell_.vertices());
+  std::vector<std::uint32_t> nodes{0};
+  while (!nodes.empty() && !bvh_.nodes().empty()) {
+    const BoxLanes& node = bvh_.nodes()[nodes.back()];
+    nodes.pop_back();
+    for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane) {
+      const std::uint32_t child = node.child[lane];
+      if (child == BoxLanes::kEmpty || !overlap(cell, child_box(bvh_.frame(), node, lane))) continue;
+      if ((child & BoxLanes::kLeaf) == 0) {
+        nodes.push_back(child);
+        continue;
+      }
+      for (const std::uint32_t t : bvh_.blocks()[child & ~BoxLanes::kLeaf].id) {
+        if (overlap(cell, box_of(bvh_.corners(t)))) add(t);
+      }
+    }
+  }
+  if (part_.empty()) rays_.cell_is_empty();
+}
+
+void Closer::add_seen_by_rays() {
+  add_with_neighbours(rays_.beside(part_));
+  add_with_neighbours(rays_.around(std::min(bvh_.mesh().triangles.size(), kRays)));
+}
+
+// And what is seen next to them, and next to that. Ids that are kNothing are left out.
+void Closer::add_with_neighbours(std::vector<std::uint32_t> seen) {
+  while (!seen.empty()) {
+    std::vector<std::uint32_t> fresh;
+    for (const std::uint32_t t : seen) {
+      if (t != SightRays::kNothing && add(t)) fresh.push_back(t);
+    }
+    seen = rays_.beside(fresh);
+  }
+}
+
+scene::TriangleMesh Closer::part_mesh() {
+  std::sort(part_.begin(), part_.end());
+  scene::TriangleMesh mesh;
+  std::vector<std::uint32_t> points;
+  for (const std::uint32_t t : part_) {
+    const scene::Triangle& corners = bvh_.mesh().triangles[t];
+    points.insert(points.end(), corners.begin(), corners.end());
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  for (const std::uint32_t p : points) mesh.points.push_back(bvh_.mesh().points[p]);
+  for (const std::uint32_t t : part_) {
+    scene::Triangle corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = std::lower_bound(points.begin(), points.end(), bvh_.mesh().triangles[t][i]);
+      corners[i] = static_cast<std::uint32_t>(at - points.begin());
+    }
+    mesh.triangles.push_back(corners);
+    mesh.face_of.push_back(static_cast<std::uint32_t>(mesh.face_of.size()));
+  }
+  return mesh;
+}
+
+bool Closer::dark(const Box& box, const PartialMap& map, const LitTriangles& lit) const {
+  return !lit.may_touch(box) && map.label(box) == SetLabel::hidden;
+}
+
+// The inside of a triangle, by a place about one of its points.
+bool Closer::dark(const Corners& t, const PartialMap& map, const LitTriangles& lit) const {
+  if (lit.may_meet_inside(t)) return false;
+  for (const std::array<double, 3>& weight :
+       {std::array{0.3125, 0.375, 0.3125}, {0.25, 0.25, 0.5}, {0.5, 0.1875, 0.3125}}) {
+    const Box about = about_inside(t, weight);
+    if (lit.may_touch(about)) continue;
+    const SetLabel label = map.label_of_inside(t, about);
+    if (label != SetLabel::elsewhere) return label == SetLabel::hidden;
+  }
+  return false;
+}
+
+void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
+  const std::vector<std::uint32_t> met = rays_.towards(triangles);
+  std::vector<std::uint32_t> seen;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    const auto first = met.begin() + static_cast<std::ptrdiff_t>(i * SightRays::kTowards);
+    const std::size_t before = seen.size();
+    std::copy_if(first, first + SightRays::kTowards, std::back_inserter(seen),
+                 [&](std::uint32_t t) { return t != SightRays::kNothing && in_part_[t] == 0; });
+    if (seen.size() == before) add(triangles[i]);
+  }
+  add_with_neighbours(std::move(seen));
+}
+
+bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible) {
+  const LitTriangles lit(bvh_, visible);
+  counts.boxes_dark = counts.boxes_opened = counts.triangles_dark = 0;
+  std::vector<std::uint32_t> failed;
+  // One level of the tree after the other, each in parallel, answers in order: the same for any number of threads.
+  std::vector<std::uint32_t> level{0};
+  while (!level.empty() && failed.size() < failures_) {
+    struct Answer {
+      std::vector<std::uint32_t> open, failed;
+      std::uint64_t boxes_dark = 0, triangles_dark = 0;
+    };
+    std::vector<Answer> answers(level.size());
+    tbb::parallel_for(std::size_t{0}, level.size(), [&](std::size_t i) {
+      const BoxLanes& node = bvh_.nodes()[level[i]];
+      Answer& answer = answers[i];
+      for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane) {
+        const std::uint32_t child = node.child[lane];
+        if (child == BoxLanes::kEmpty) continue;
+        if (dark(child_box(bvh_.frame(), node, lane), map, lit)) {
+          ++answer.boxes_dark;
+        } else if ((child & BoxLanes::kLeaf) == 0) {
+          answer.open.push_back(child);
+        } else {
+          const TriangleBlock& block = bvh_.blocks()[child & ~BoxLanes::kLeaf];
+          for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t t = block.id[k];
+            if (in_part_[t] != 0 || (k > 0 && t == block.id[0])) continue;
+            if (dark(bvh_.corners(t), map, lit)) {
+              ++answer.triangles_dark;
+            } else {
+              answer.failed.push_back(t);
+            }
+          }
+        }
+      }
+    });
+    counts.boxes_opened += level.size();
+    level.clear();
+    for (const Answer& a : answers) {
+      level.insert(level.end(), a.open.begin(), a.open.end());
+      failed.insert(failed.end(), a.failed.begin(), a.failed.end());
+      counts.boxes_dark += a.boxes_dark;
+      counts.triangles_dark += a.triangles_dark;
+    }
+  }
+  if (failures_ < kFailures) failed.resize(std::min(failed.size(), failures_));
+  add_front_of(failed);
+  return !failed.empty();
+}
+
+}  // namespace
+
+Box about_inside(const Corners& t, const std::array<double, 3>& weight) {
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double x = weight[0] * t[0][i] + weight[1] * t[1][i] + weight[2] * t[2][i];
+    const double off = 0x1p-50 * std::max({std::fabs(t[0][i]), std::fabs(t[1][i]), std::fabs(t[2][i])}) + 0x1p-1071;
+    box.low[i] = x - 2 * off;
+    box.high[i] = x + 2 * off;
+  }
+  return box;
+}
+
+Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map, std::size_t whole,
+                           const exact::Dials& dials) {
+  using FirstGuess = exact::Dials::FirstGuess;
+  Closer closer(bvh, cell, dials);
+  const bool small = dials.first_guess == FirstGuess::seen && bvh.mesh().triangles.size() <= whole;
+  if (small || dials.first_guess == FirstGuess::everything) {
+    closer.add_all();
+  } else if (!bvh.nodes().empty()) {
+    closer.add_triangles_by_the_cell();
+    if (dials.first_guess == FirstGuess::seen) closer.add_seen_by_rays();
+  }
+  Closure result;
+  do {
+    ++closer.counts.passes;
+    result.part_mesh = closer.part_mesh();
+    result.map = make_map(result.part_mesh);
+    result.part = closer.part();
+    result.visible.clear();
+    for (const std::uint32_t i : result.map->visible()) result.visible.push_back(result.part[i]);
+  } while (result.part.size() < bvh.mesh().triangles.size() && !bvh.nodes().empty() &&
+           closer.add_what_may_be_lit(*result.map, result.visible));
+  result.counts = closer.counts;
+  result.counts.rays = closer.rays();
+  return result;
+}
+
+}  // namespace clues::fastpath

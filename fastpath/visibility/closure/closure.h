@@ -1,0 +1,76 @@
+// First-order visibility of a large scene from the map of a small part of it (D9), with hidden depth costing next to nothing.
+//
+// Theorem. If K contains every triangle of S that has a point in Omega(S), then Omega(K) = Omega(S).
+// Proof. A continuation C(x,v) with x in Omega(S) ends, in S, at a point of Omega(S), so at a triangle of K, and K has no nearer one: C(x,v) is the same in K and in S.
+// So Omega(S) is closed under continuation in K, which makes Omega(K) a subset of Omega(S); then x in Omega(K) is in Omega(S), and Omega(K) is closed under continuation
+// in S, which makes it a superset. (What S has of measure zero in Omega(S) changes K's map by measure zero.)
+//
+// So: guess K by sampled rays, map K, and then prove of every other triangle that it lies outside Omega(K). Such a triangle has no point in Omega(S) either if K holds all
+// that has: that is how the loop ends, for then K is as the theorem wants it. (Were a triangle outside K in Omega(S), take the first one that a chain of D9 reaches: up to
+// there the chain runs in Omega(K), so that triangle meets Omega(K), and the proof would have failed.) A box that no lit triangle of K and no wedge of K touches is of one
+// label, so one point proves a whole subtree of the BVH dark. Where a proof fails K grows by what is in front, and the loop runs again; K may hold too much.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "exact/dials.h"
+#include "fastpath/predicates/cell.h"
+#include "fastpath/queries/bvh.h"
+#include "fastpath/visibility/labels/set_label.h"
+#include "fastpath/visibility/points/box.h"
+
+namespace clues::fastpath {
+
+// The map of a small scene for a cell, as the closure asks for it. The questions may come from several threads at once.
+class PartialMap {
+ public:
+  PartialMap() = default;
+  PartialMap(const PartialMap&) = delete;
+  PartialMap& operator=(const PartialMap&) = delete;
+  virtual ~PartialMap() = default;
+
+  // Triangles of the small scene with a visible region, or meeting the cell; ascending.
+  virtual std::vector<std::uint32_t> visible() const = 0;
+  // hidden only if all of the closed box is outside Omega, where no visible triangle touches it.
+  virtual SetLabel label(const Box& box) const = 0;
+  // The same for the inside of a triangle that no visible one meets. It is asked in `about`, which holds a point of the inside, and which no visible triangle touches.
+  virtual SetLabel label_of_inside(const Corners& triangle, const Box& about) const = 0;
+};
+
+// Makes the map of a part of the scene, for the same cell.
+using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(const scene::TriangleMesh& part)>;
+
+// Cheap figures about how the answer came about.
+struct ClosureCounts {
+  std::uint64_t passes = 0;          // maps made
+  std::uint64_t rays = 0;            // first hits asked for
+  std::uint64_t boxes_dark = 0;      // subtrees proved dark as a whole, in the last pass
+  std::uint64_t boxes_opened = 0;    // in the last pass
+  std::uint64_t triangles_dark = 0;  // proved dark one by one, in the last pass
+};
+
+struct Closure {
+  std::vector<std::uint32_t> part;     // K: ids of the scene, ascending; triangle i of the map is part[i]
+  std::vector<std::uint32_t> visible;  // the PVS: ids of the scene, ascending
+  scene::TriangleMesh part_mesh;
+  std::shared_ptr<const PartialMap> map;
+  ClosureCounts counts;
+};
+
+// A box that contains the point with these weights, which sum to 1, and that point rounded. With u =
+// 2^-53 and M the largest corner coordinate each product is off by u M or, where it underflows, by 2^-1075;
+// the sums by 2 u M (no sum of doubles underflows): at most 5 u M + 3 2^-1075 in all. The box is wider than
+// 2^-50 M + 2^-1071 in every direction, less its own rounding, which is below 2 u M.
+Box about_inside(const Corners& t, const std::array<double, 3>& weight);
+
+inline constexpr std::size_t kMappedWhole = 64;
+
+// Deterministic for any number of threads of the current arena. Scenes of up to `whole` triangles are mapped as they are, unless the first guess is on a dial.
+// O(passes * (map of K + boxes next to lit space)).
+Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map,
+                           std::size_t whole = kMappedWhole, const exact::Dials& dials = {});
+
+}  // namespace clues::fastpath

@@ -1,0 +1,46 @@
+// Rays from the cell that look for triangles which may be visible, for a first guess: nothing is proved by them, and every answer is only a list of
+// first hits. A ray that just passes the edge of a triangle known to be seen finds what is next to it in the picture; so what is seen spreads from
+// neighbour to neighbour, and small or distant triangles are met for a few rays each.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "exact/dials.h"
+#include "fastpath/predicates/cell.h"
+#include "fastpath/queries/bvh.h"
+
+namespace clues::fastpath {
+
+class SightRays {
+ public:
+  // Keeps references. The same answers in every run and for any number of threads. `budget`: no more rays than this in all (Dials); those left out hit nothing.
+  SightRays(const Bvh& bvh, const Cell& cell, std::int64_t budget = exact::Dials::kOwn)
+      : bvh_(bvh), cell_(cell), budget_(budget) {}
+  // No triangle is near the cell: so none needs to be asked which part of it is in int V (D3).
+  void cell_is_empty() { cell_is_empty_ = true; }
+
+  // First hits of `count` rays spread evenly over all directions.
+  std::vector<std::uint32_t> around(std::size_t count);
+  // First hits of rays that pass each of the triangles closely, edge by edge.
+  std::vector<std::uint32_t> beside(std::span<const std::uint32_t> triangles);
+  // First hits on the way to each of the triangles, up to it: kTowards for each, kNothing where nothing is in front.
+  static constexpr std::size_t kTowards = 4;
+  static constexpr std::uint32_t kNothing = ~0U;
+  std::vector<std::uint32_t> towards(std::span<const std::uint32_t> triangles);
+
+  std::uint64_t count() const { return count_; }
+
+ private:
+  template <class RayOf>
+  std::vector<std::uint32_t> first_hits(std::size_t count, const RayOf& ray_of);
+
+  const Bvh& bvh_;
+  const Cell& cell_;
+  std::int64_t budget_;
+  bool cell_is_empty_ = false;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace clues::fastpath

@@ -1,0 +1,260 @@
+// Where a walk (D14) would go on for ever: grooves, corners, and their slices where the cell is a segment. The argument is
+// that of the reference (reference/visibility/labels/walk.h; docs/definition.md 6).
+#include <algorithm>
+#include <set>
+
+#include "fastpath/visibility/labels/corner.h"
+#include "fastpath/visibility/labels/walker.h"
+#include "fastpath/visibility/points/near_enough.h"
+
+namespace clues::fastpath {
+
+bool Walker::is_wall(std::uint32_t piece, const Surface& of, const Surface& other) const {
+  const auto& c = scene_->pieces[piece].corners;
+  if (piece != of.piece) {
+    const Plane& h = scene_->planes[of.piece];
+    if (!std::all_of(c.begin(), c.end(), [&](std::uint32_t i) { return h.side(scene_->points[i]) == 0; })) return false;
+  }
+  return std::any_of(c.begin(), c.end(), [&](std::uint32_t i) { return height_sign(other, scene_->points[i]) > 0; });
+}
+
+Walker::Wall Walker::wall_of(const Surface& a, const Surface& b) const {
+  Wall wall{{a.piece}, {}};
+  std::set<std::uint32_t> met{a.piece};
+  for (std::size_t i = 0; i < wall.pieces.size(); ++i) {
+    for (const std::uint32_t id : scene_->pieces[wall.pieces[i]].edges) {
+      const auto& pieces = scene_->edges[id].pieces;
+      if (std::any_of(pieces.begin(), pieces.end(), [&](std::uint32_t t) { return is_wall(t, b, a); })) {
+        wall.edges.push_back(id);
+        continue;
+      }
+      for (const std::uint32_t t : pieces) {
+        if (is_wall(t, a, b) && met.insert(t).second) wall.pieces.push_back(t);
+      }
+    }
+  }
+  return wall;
+}
+
+Walker::Chain Walker::chain_of(std::size_t first, const std::vector<std::uint32_t>& edges) const {
+  Chain ends{scene_->edges[edges[first]].a, scene_->edges[edges[first]].b};
+  std::vector<bool> used(edges.size(), false);
+  used[first] = true;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+      const LocalEdge& e = scene_->edges[edges[i]];
+      for (std::uint32_t& end : ends) {
+        if (used[i] || (e.a != end && e.b != end)) continue;
+        end = e.a == end ? e.b : e.a;
+        used[i] = grown = true;
+      }
+    }
+  }
+  return ends;
+}
+
+Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b, const std::optional<Chain>& ends) const {
+  const auto& vertices = scene_->cell.vertices;
+  return decide([&]<class NT>() {
+    const auto height = [&](const Surface& s, const ExactPoint& x) {
+      const Plane& h = scene_->planes[s.piece];
+      return NT(NT(s.side) * dot(normal_of<NT>(h), coordinates<NT>(x) - coordinates<NT>(h.base())));
+    };
+    std::vector<NT> ha, hb;
+    for (const ExactPoint& s : vertices) {
+      ha.push_back(height(a, s));
+      hb.push_back(height(b, s));
+    }
+    bool touches = false, upon_edge = true;
+    // Of the line of both walls, the point of V that divides the way from i to j in these parts.
+    const auto touch = [&](std::size_t i, const NT& from_j, std::size_t j, const NT& from_i) {
+      touches = true;
+      if (!ends) return;
+      const auto x = coordinates<NT>(scene_->points[(*ends)[0]]), y = coordinates<NT>(scene_->points[(*ends)[1]]);
+      const auto past = [&](const Vec3<NT>& end) {
+        const auto along = [&](std::size_t k) { return dot(y - x, coordinates<NT>(vertices[k]) - end); };
+        return sign_of(NT(NT(from_j * along(i)) + NT(from_i * along(j))));
+      };
+      upon_edge = upon_edge && past(x) >= 0 && past(y) <= 0;
+    };
+    for (std::size_t i = 0; i < ha.size(); ++i) {
+      const int ai = sign_of(ha[i]), bi = sign_of(hb[i]);
+      if (ai > 0 && bi > 0) return Both::meet;
+      if (ai == 0 && bi == 0) {
+        touch(i, NT(1), i, NT(0));
+      } else if (ai >= 0 && bi >= 0) {
+        touches = true;
+        upon_edge = false;
+      }
+      if (ai <= 0) continue;
+      for (std::size_t j = 0; j < ha.size(); ++j) {
+        if (sign_of(ha[j]) >= 0) continue;
+        // The second height where the first is zero.
+        const int s = sign_of(NT(NT(hb[j] * ha[i]) - NT(hb[i] * ha[j])));
+        if (s > 0) return Both::meet;
+        if (s == 0) touch(i, NT(-ha[j]), j, ha[i]);
+      }
+    }
+    return touches && !(ends && upon_edge) ? Both::touch : Both::apart;
+  });
+}
+
+const ExactPoint* Walker::along_groove(const ExactPoint& p, const Surface& on, const Surface& before,
+                                       Pool& pool) const {
+  const ExactPoint* far = in_front(on, nullptr, 0, pool);
+  if (!far) return nullptr;
+  // Where the closed V touches the space in front of both: a vertex, or a point where an edge or a diagonal of V leaves the space in front of the first.
+  const auto& s = scene_->cell.vertices;
+  const ExactPoint* end = nullptr;
+  for (const ExactPoint& x : s) {
+    if (!end && height_sign(on, x) >= 0 && height_sign(before, x) >= 0) end = &x;
+  }
+  for (std::size_t i = 0; i < s.size() && !end; ++i) {
+    for (std::size_t j = 0; j < s.size() && !end; ++j) {
+      if (height_sign(on, s[i]) <= 0 || height_sign(on, s[j]) > 0) continue;
+      const ExactPoint* x = pool.keep(ExactPoint::on_plane(s[i], s[j], scene_->planes[on.piece]));
+      if (height_sign(before, *x) >= 0) end = x;
+    }
+  }
+  if (!end) return nullptr;
+  for (int k = 3; k <= 60; k += 3) {
+    const ExactPoint v = ExactPoint::between(*end, *far, std::ldexp(1.0, -k));
+    const LocalScene::Last last = scene_->last_crossing(v, p);
+    if (!last.degenerate && last.piece != before.piece) return pool.keep(v);
+  }
+  return nullptr;
+}
+
+// A groove between two walls that meet in an edge, into which no point of V looks: the walk would go from one wall to the
+// other for ever, towards the edge. Beside the edge all is hidden, as V touches the edge's line nowhere but upon the edge
+// (docs/definition.md, D14); so it ends with a leg from the edge.
+bool Walker::groove_leg(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const {
+  const std::size_t n = walk.legs.size();
+  if (n < 4 || !is_wall(walk.legs[n - 3].piece, on, before) || !is_wall(walk.legs[n - 4].piece, before, on))
+    return false;
+  return scene_->cell.vertices.size() == 2 ? leg_in_slice(walk, on, before, how, pool)
+                                           : leg_from_edge(walk, on, before, how, pool);
+}
+
+bool Walker::leg_from_edge(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const {
+  const Leg& last = walk.legs.back();
+  const std::vector<std::uint32_t> common = wall_of(on, before).edges;
+  for (std::size_t i = 0; i < common.size(); ++i) {
+    const LocalEdge& e = scene_->edges[common[i]];
+    const ExactPoint &a = scene_->points[e.a], &b = scene_->points[e.b];
+    const Point pa = a.estimate(), pb = b.estimate(), q = last.next->estimate();
+    double along = 0, length = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      along += (q[k] - pa[k]) * (pb[k] - pa[k]);
+      length += (pb[k] - pa[k]) * (pb[k] - pa[k]);
+    }
+    const double t = along / length;
+    if (!(t > 0 && t < 1)) continue;
+    // Where V touches the line beyond this chain of edges, sight lines come in through the gap.
+    if (how == Both::touch && in_front_of_both(on, before, chain_of(i, common)) != Both::apart) continue;
+    const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
+    if (scene_->cell.divides(*y, *last.next)) continue;
+    const bool blocked = scene_->tree.any(SegmentTest(*y, *last.next), [&](std::uint32_t occluder) {
+      const std::uint32_t piece = scene_->occluders[occluder];
+      if (std::find(e.pieces.begin(), e.pieces.end(), piece) != e.pieces.end()) return false;
+      return scene_->crosses(*y, *last.next, piece) != Crossing::no;
+    });
+    if (blocked) return false;
+    const auto at_edge =
+        std::find_if(e.pieces.begin(), e.pieces.end(), [&](std::uint32_t t2) { return is_wall(t2, on, before); });
+    if (at_edge == e.pieces.end()) continue;
+    walk.legs.push_back({y, last.next, nullptr, *at_edge, last.side, true, false});
+    return true;
+  }
+  return false;
+}
+
+// In the plane through the cell, a segment, and the last point of the walk: with the normal n, divided by the line of V, and
+// the point is above that line. Rare enough for rationals throughout.
+bool Walker::leg_in_slice(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const {
+  const Leg& last = walk.legs.back();
+  const ExactPoint& q = *last.next;
+  const auto& s = scene_->cell.vertices;
+  const auto normal = [&](const Surface& of) {
+    const Exact3& m = scene_->planes[of.piece].normal_exact();
+    return of.side > 0 ? m : -m;
+  };
+  const Exact3 u = s[1].exact() - s[0].exact(), n = cross(u, q.exact() - s[0].exact()), up = cross(n, u);
+  const Exact3 at_wall = normal(on), at_other = normal(before);
+  const Rational volume = dot(n, cross(at_wall, at_other));
+  if (sign_of(volume) == 0) return false;  // no tip in this slice
+  if (height_sign(on, q) <= 0 || height_sign(before, q) <= 0) return false;
+  // n . (y - s0) = 0, and y is in both planes.
+  const auto part = [&](const Surface& of) {
+    return Rational(-of.side * scene_->planes[of.piece].value_exact(s[0]) / volume);
+  };
+  const Exact3 to_y = part(on) * cross(at_other, n) + part(before) * cross(n, at_wall);
+  // The rays of the walls: in the slice and its plane, before the other wall.
+  Exact3 along_wall = cross(n, at_wall), along_other = cross(n, at_other);
+  if (sign_of(dot(along_wall, at_other)) < 0) along_wall = -along_wall;
+  if (sign_of(dot(along_other, at_wall)) < 0) along_other = -along_other;
+  const int level = sign_of(dot(up, to_y));
+  if (level < 0) return false;
+  const bool above = level == 0 && sign_of(dot(up, along_wall)) > 0 && sign_of(dot(up, along_other)) > 0;
+  if (how != Both::apart && !above) return false;
+  const ExactPoint* y = pool.keep(ExactPoint(s[0].exact() + to_y));
+  const std::optional<std::uint32_t> piece = piece_from(*y, along_wall, on, before);
+  if (!piece || !piece_from(*y, along_other, before, on)) return false;
+  const bool blocked = scene_->tree.any(SegmentTest(*y, q), [&](std::uint32_t occluder) {
+    const std::uint32_t t = scene_->occluders[occluder];
+    if (scene_->planes[t].side(*y) == 0 && scene_->planes[t].side(q) != 0)
+      return false;  // the segment leaves its plane
+    return scene_->crosses(*y, q, t) != Crossing::no;
+  });
+  if (blocked) return false;
+  walk.legs.push_back({y, &q, nullptr, *piece, last.side, false, true});
+  return true;
+}
+
+std::optional<std::uint32_t> Walker::piece_from(const ExactPoint& y, const Exact3& d, const Surface& wall,
+                                                const Surface& other) const {
+  const auto holds = [&](std::uint32_t t) {
+    const auto& c = scene_->pieces[t].corners;
+    const auto corner = [&](std::size_t i) -> const Exact3& { return scene_->points[c[i]].exact(); };
+    const Exact3 m = cross(corner(1) - corner(0), corner(2) - corner(0));
+    const auto inside = [&](std::size_t from, std::size_t to) {
+      const Exact3 inwards = cross(m, corner(to) - corner(from));
+      const int at_y = sign_of(dot(inwards, y.exact() - corner(from)));
+      return at_y > 0 || (at_y == 0 && sign_of(dot(inwards, d)) >= 0);
+    };
+    return inside(0, 1) && inside(1, 2) && inside(2, 0);
+  };
+  const std::vector<std::uint32_t> pieces = wall_of(wall, other).pieces;
+  const auto found = std::find_if(pieces.begin(), pieces.end(), holds);
+  return found == pieces.end() ? std::nullopt : std::optional(*found);
+}
+
+// Several walls that meet in a corner, into which no point of V looks.
+bool Walker::corner_leg(Walk& walk) const {
+  constexpr std::size_t kTurns = 6;
+  const std::size_t n = walk.legs.size();
+  if (n < kTurns || n % 3 != 0 || scene_->cell.vertices.size() == 2) return false;  // leg_in_slice() sees to those
+  const Leg& last = walk.legs.back();
+  for (const std::uint32_t corner : scene_->pieces[last.piece].corners) {
+    const bool of_all = std::all_of(walk.legs.end() - kTurns, walk.legs.end(), [&](const Leg& leg) {
+      const auto& c = scene_->pieces[leg.piece].corners;
+      return std::find(c.begin(), c.end(), corner) != c.end();
+    });
+    if (!of_all) continue;
+    const ExactPoint& y = scene_->points[corner];
+    if (scene_->cell.divides(y, *last.next)) continue;
+    const auto& incident = scene_->point_pieces[corner];
+    const bool blocked = scene_->tree.any(SegmentTest(y, *last.next), [&](std::uint32_t i) {
+      const std::uint32_t piece = scene_->occluders[i];
+      if (std::find(incident.begin(), incident.end(), piece) != incident.end()) return false;
+      return scene_->crosses(y, *last.next, piece) != Crossing::no;
+    });
+    if (blocked || !is_dark_corner(*scene_, corner, *last.next)) continue;
+    walk.legs.push_back({&y, last.next, nullptr, last.piece, last.side, false, true});
+    return true;
+  }
+  return false;
+}
+
+}  // namespace clues::fastpath

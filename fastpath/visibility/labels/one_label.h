@@ -1,0 +1,70 @@
+// Whether a whole convex set is hidden. This is decided here and nowhere else: of boxes and triangles for the closure, of sides (D15), of regions; refinement asks by way of
+// the maps of its parts. A set is called hidden only if one of its points is (D14), no valid wedge piece touches it, and it is surely outside the anti-cone A(x) (D8) of
+// every apex x whose wedges a limit of D17 left out. All else is visible, or counted as such.
+//
+// Theorem. Let W be the valid pieces that were built and X the apexes whose wedges were left out. Let M be convex (or the inside of a triangle, and what is right beside it), let no
+// surface that light meets and no piece of W cut M, and let M be disjoint from the closed A(x) of every x in X. If the walk from one point of M calls it hidden, no point of M is in Omega.
+// Proof. A(x) is x and a convex cone; so y in A(x) gives y - x + (cone of y - V) in the cone of x - V: A(y) lies in A(x), and the same holds for the closed ones.
+// (1) What a wedge with an apex or on an edge at y could show lies in the closed A(y): a leg of a walk that crosses the wedge at q runs on in A(q), so does every later leg, whose
+// m is on the one before; and q is in the closed A(y).
+// (2) Whatever is in W of the unlimited search and not in W comes from X: its source y, a vertex or a part of an edge, or one of its probes, was lit by a wedge of X, or of another such source.
+// By (1), going back, y is in the closed A(x) for some x in X, and so is all that its wedges could show. That is where the walks by W can be wrong, and only there.
+// So the point of M that was asked is hidden. Were another point of M in Omega, a missing wedge would cross M between the two; it lies in a closed A(x), and M keeps out of it.
+//
+// One point of M outside A(x) says nothing about the rest of M: that took triangle 2 from tests/differential/limit-hides-a-tip.obj. The test is against the facets of A(x): M is outside if all its corners are
+// strictly in front of one, in intervals. (Where A(x) lies in a plane, as for x in the plane of a flat cell, that plane is all that is asked.)
+#pragma once
+
+#include <atomic>
+#include <span>
+#include <vector>
+
+#include "fastpath/visibility/labels/set_label.h"
+#include "fastpath/visibility/labels/walker.h"
+#include "fastpath/visibility/points/box.h"
+#include "fastpath/visibility/wedges/apex.h"
+
+namespace clues::fastpath {
+
+class OneLabel {
+ public:
+  // Keeps references; `pieces` are complete. Needs RoundedUp in scope, here and below.
+  OneLabel(const Walker& walker, const PieceSet& pieces, const std::vector<const Apex*>& left_out);
+
+  // Of a closed box that no surface touches which light meets.
+  SetLabel of_box(const Box& box) const;
+  // Of the inside of a triangle that no such surface meets, asked at the middle of `about`: a box that holds a point of the inside and that no such surface touches.
+  SetLabel of_inside(const Corners& triangle, const Box& about) const;
+  // Of the hull of what the boxes enclose, which neither surface nor piece cuts, as the caller knows, at a point of it, or beside it with nothing between.
+  SetLabel of_uncut(std::span<const IntervalBox> hull, const ExactPoint& p) const;
+
+  // False only if no valid piece meets the closed box (the closed triangle).
+  bool piece_may_touch(const IntervalBox& box) const;
+  bool piece_may_touch(const Corners& triangle) const;
+
+  // How often something was called visible because it was not known. Any number of threads may ask and be asked.
+  std::uint64_t unresolved() const { return unresolved_; }
+
+ private:
+  // The side of a plane to which the normal points at the base, as enclosures.
+  struct HalfSpace {
+    IntervalBox normal, base;
+    Interval at(const IntervalBox& x) const { return dot(normal, x - base); }
+  };
+  // A piece as a part of its plane.
+  struct PieceBounds {
+    HalfSpace plane;
+    std::vector<HalfSpace> inward;
+  };
+  static PieceBounds bounds_of(const ValidPiece& piece);
+  bool outside_of_left_out(std::span<const IntervalBox> hull) const;
+
+  const Walker& walker_;
+  const PieceSet& pieces_;
+  std::vector<PieceBounds> piece_bounds_;
+  std::vector<std::vector<HalfSpace>>
+      anticones_;  // of the apexes left out: what is in A(x) is in all of its half spaces
+  mutable std::atomic<std::uint64_t> unresolved_{0};
+};
+
+}  // namespace clues::fastpath

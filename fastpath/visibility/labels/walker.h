@@ -1,0 +1,98 @@
+// D14: the label of a point by walking towards it from the cell. All points of a walk are points of free space: where the walk goes on from a
+// surface, it does so from a point beside it from which neither surface nor wedge piece divides the one before, and which so has its label.
+//
+// A walk does not depend on the wedge pieces but for that; it is made once and looked at again when new pieces appear (D17a).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "exact/dials.h"
+#include "fastpath/visibility/wedges/piece_set.h"
+
+namespace clues::fastpath {
+
+struct Leg {
+  const ExactPoint* m = nullptr;  // the last crossing before p, on a piece
+  const ExactPoint* p = nullptr;
+  const ExactPoint* next = nullptr;  // beside m: the p of the next leg; none for the last
+  std::uint32_t piece = 0;
+  int side = 1;              // of the piece, that p is on: 1 front, -1 back
+  bool from_edge = false;    // m is on an edge of the piece, the bottom of a groove in which all is hidden
+  bool from_corner = false;  // m is a corner of the piece, and all next to it is hidden (corner.h)
+};
+
+struct Walk {
+  // crossed: by a piece that was there when the walk was made; the walk is not complete then.
+  enum class End : std::uint8_t { cell, surface, unresolved, crossed };
+  End end = End::surface;
+  std::vector<Leg> legs;  // from p towards the cell
+};
+
+class Walker {
+ public:
+  // `longest`: legs after which a walk is given up (Dials).
+  Walker(const LocalScene& scene, const PieceSet& pieces, std::int64_t longest = exact::Dials::kOwn);
+
+  enum class Label : std::uint8_t { hidden, visible, unresolved };
+
+  // Points of the walk are kept in `pool`. Another seed, other sight lines. Deterministic.
+  Walk walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const;
+  // Whether the pieces from number `first` on cross a leg from H+ to H-; touch: some coincidence.
+  Crossing leg_crossed(const Leg& leg, std::size_t first) const;
+  // The label at the start of a walk by the pieces from number `first` on; touch: make another walk.
+  Crossing visible(const Walk& walk, std::size_t first) const;
+  // Walks until a walk is in general position.
+  Label label(const ExactPoint* p, Pool& pool, std::uint64_t seed) const;
+
+  // A point of int V for candidate number i.
+  const ExactPoint* viewpoint(std::uint64_t i) const { return viewpoints_[i % viewpoints_.size()]; }
+
+ private:
+  struct Surface {
+    std::uint32_t piece;
+    int side;
+  };
+  int height_sign(const Surface& s, const ExactPoint& x) const;
+  // A point of int V strictly in front of the surface (and of `also`, if given and possible); none if V has none in front of the first, or it is not found
+  // within 2^-992 of a vertex.
+  const ExactPoint* in_front(const Surface& on, const Surface* also, std::uint64_t seed, Pool& pool) const;
+  enum class Both : std::uint8_t { apart, touch, meet };  // V, or the closed V only, with the space in front of both
+  using Chain = std::array<std::uint32_t, 2>;             // the ends of edges that are connected
+
+  // ---- what does not end (grooves.cpp)
+
+  // Apart also if the closed V touches that space only upon this chain of common edges.
+  Both in_front_of_both(const Surface& a, const Surface& b, const std::optional<Chain>& chain) const;
+  // Whether the piece lies in the plane of a surface and in front of the other, at least in part.
+  bool is_wall(std::uint32_t piece, const Surface& of, const Surface& other) const;
+  // A wall of a groove is all of a flat surface, which others may cut into many pieces.
+  struct Wall {
+    std::vector<std::uint32_t> pieces;
+    std::vector<std::uint32_t> edges;  // at which the other wall stands on it: on one line
+  };
+  Wall wall_of(const Surface& a, const Surface& b) const;
+  // Those of such edges that are connected with number `first`.
+  Chain chain_of(std::size_t first, const std::vector<std::uint32_t>& edges) const;
+  // A point of int V in front of `on`, from which the sight line to p comes in past the other wall, where the closed V
+  // touches the groove.
+  const ExactPoint* along_groove(const ExactPoint& p, const Surface& on, const Surface& before, Pool& pool) const;
+  // Each adds the last leg of a walk that has none, if it can.
+  bool corner_leg(Walk& walk) const;
+  bool groove_leg(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
+  bool leg_from_edge(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
+  bool leg_in_slice(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
+  // A piece of the wall that holds y, a point of its plane, and what comes next in direction d.
+  std::optional<std::uint32_t> piece_from(const ExactPoint& y, const Exact3& d, const Surface& wall,
+                                          const Surface& other) const;
+
+  const LocalScene* scene_;
+  const PieceSet* pieces_;
+  std::int64_t longest_;
+  Pool own_;
+  std::vector<const ExactPoint*> viewpoints_;
+};
+
+}  // namespace clues::fastpath

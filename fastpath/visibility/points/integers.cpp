@@ -1,0 +1,174 @@
+#include "fastpath/visibility/points/integers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+namespace clues::fastpath {
+
+namespace {
+
+using IntegerVector = Vec3<Integer>;
+
+// v / (w 2^e), w > 0.
+struct Homogeneous {
+  IntegerVector v;
+  Integer w;
+  int e = 0;
+  bool whole = false;  // w is 1
+};
+
+Integer imported(const mpz_class& z) {
+  Integer out;
+  const mpz_srcptr raw = z.get_mpz_t();
+  if (mpz_size(raw) > 0)
+    import_bits(out, mpz_limbs_read(raw), mpz_limbs_read(raw) + mpz_size(raw), GMP_NUMB_BITS, false);
+  return sgn(z) < 0 ? Integer(-out) : out;
+}
+
+mpz_class exported(const Integer& x) {
+  std::vector<mp_limb_t> limbs;
+  export_bits(abs(x), std::back_inserter(limbs), GMP_NUMB_BITS, false);
+  mpz_class out;
+  mpz_import(out.get_mpz_t(), limbs.size(), -1, sizeof(mp_limb_t), 0, 0, limbs.data());
+  return x.sign() < 0 ? mpz_class(-out) : out;
+}
+
+// m 2^e, m a whole number of at most 53 bits.
+std::pair<std::int64_t, int> parts(double x) {
+  int e = 0;
+  const double m = std::frexp(x, &e);
+  return {static_cast<std::int64_t>(std::ldexp(m, 53)), e - 53};
+}
+
+Homogeneous homogeneous(const ExactPoint& p) {
+  Homogeneous out;
+  if (p.is_double()) {
+    const Vec3<Interval>& at = p.approximate();
+    const auto x = parts(at.x.inf()), y = parts(at.y.inf()), z = parts(at.z.inf());
+    int least = 0;
+    bool any = false;
+    for (const auto* c : {&x, &y, &z}) {
+      if (c->first == 0) continue;
+      least = any ? std::min(least, c->second) : c->second;
+      any = true;
+    }
+    const auto at_least = [&](const std::pair<std::int64_t, int>& c) {
+      return c.first == 0 ? Integer(0) : Integer(Integer(c.first) << static_cast<unsigned>(c.second - least));
+    };
+    out.v = {at_least(x), at_least(y), at_least(z)};
+    out.e = -least;
+    out.w = 1;
+    out.whole = true;
+    return out;
+  }
+  const Exact3& q = p.exact();
+  mpz_class w;
+  mpz_lcm(w.get_mpz_t(), q.x.get_den_mpz_t(), q.y.get_den_mpz_t());
+  mpz_lcm(w.get_mpz_t(), w.get_mpz_t(), q.z.get_den_mpz_t());
+  const auto times_w = [&](const Rational& c) { return imported(mpz_class(c.get_num() * (w / c.get_den()))); };
+  out.v = {times_w(q.x), times_w(q.y), times_w(q.z)};
+  out.w = imported(w);
+  out.whole = w == 1;
+  return out;
+}
+
+unsigned bits(const IntegerVector& v) {
+  unsigned most = 0;
+  for (const Integer* c : {&v.x, &v.y, &v.z}) {
+    if (c->sign() != 0) most = std::max(most, static_cast<unsigned>(msb(abs(*c))) + 1);
+  }
+  return most;
+}
+
+// Without the common power of two.
+void shorten(IntegerVector& v) {
+  unsigned zeros = ~0U;
+  for (const Integer* c : {&v.x, &v.y, &v.z}) {
+    if (c->sign() != 0) zeros = std::min(zeros, static_cast<unsigned>(lsb(abs(*c))));
+  }
+  if (zeros == 0 || zeros == ~0U) return;
+  for (Integer* c : {&v.x, &v.y, &v.z}) *c >>= zeros;
+}
+
+IntegerVector shifted(const IntegerVector& v, unsigned by) {
+  return {Integer(v.x << by), Integer(v.y << by), Integer(v.z << by)};
+}
+
+double size_of(const Vec3<Interval>& v) {
+  double most = 0;
+  for (const Interval* c : {&v.x, &v.y, &v.z}) most = std::max({most, std::fabs(c->inf()), std::fabs(c->sup())});
+  return most;
+}
+
+}  // namespace
+
+template <>
+Vec3<Integer> direction<Integer>(const ExactPoint& from, const ExactPoint& to) {
+  const Homogeneous a = homogeneous(from), b = homogeneous(to);
+  // (b.v a.w 2^a.e - a.v b.w 2^b.e) / (a.w b.w 2^(a.e + b.e)): the smaller power of two cancels.
+  const int least = std::min(a.e, b.e);
+  const auto scaled = [&](const Homogeneous& p, const Homogeneous& other) {
+    IntegerVector v = shifted(p.v, static_cast<unsigned>(other.e - least));
+    return other.whole ? v : other.w * v;
+  };
+  IntegerVector out = scaled(b, a) - scaled(a, b);
+  shorten(out);
+  return out;
+}
+
+template <>
+Vec3<Integer> normal_direction<Integer>(const Plane& h) {
+  const auto p = h.corners();
+  IntegerVector n = cross(direction<Integer>(*p[0], *p[1]), direction<Integer>(*p[0], *p[2]));
+  shorten(n);
+  return n;
+}
+
+template <>
+Vec3<Interval> balanced_sum<Interval>(const Vec3<Interval>& a, const Vec3<Interval>& b) {
+  const auto weight = [](const Vec3<Interval>& v) {
+    const double size = size_of(v);
+    return Interval(size > 0 && std::isfinite(size) ? std::ldexp(1.0, -std::ilogb(size)) : 1.0);
+  };
+  return weight(a) * a + weight(b) * b;
+}
+
+template <>
+Vec3<Integer> balanced_sum<Integer>(const Vec3<Integer>& a, const Vec3<Integer>& b) {
+  const unsigned at_a = bits(a), at_b = bits(b), most = std::max(at_a, at_b);
+  return shifted(a, most - at_a) + shifted(b, most - at_b);
+}
+
+template <>
+Vec3<Interval> moved_by<Interval>(const Vec3<Interval>& limit, const Vec3<Interval>& aside, const Vec3<Interval>& off,
+                                  int exponent) {
+  if (exponent > 500) throw Unsure{};
+  const Interval step(std::ldexp(1.0, -exponent));
+  return limit + step * aside + Interval(step * step) * off;
+}
+
+template <>
+Vec3<Integer> moved_by<Integer>(const Vec3<Integer>& limit, const Vec3<Integer>& aside, const Vec3<Integer>& off,
+                                int exponent) {
+  const unsigned most = std::max({bits(limit), bits(aside), bits(off)});
+  const auto e = static_cast<unsigned>(exponent);
+  const auto as_long = [&](const IntegerVector& v, unsigned by) { return shifted(v, most - bits(v) + by); };
+  return as_long(limit, 2 * e) + as_long(aside, e) + as_long(off, 0);
+}
+
+ExactPoint point_towards(const ExactPoint& x, const Vec3<Integer>& d, double distance) {
+  // x may be a corner of V, in doubles even the point that is asked for; and twice the largest double is none.
+  using Limits = std::numeric_limits<double>;
+  const long shift = std::ilogb(std::clamp(distance, Limits::min(), Limits::max())) - static_cast<long>(bits(d));
+  const auto scaled = [&](const Integer& c) {
+    Rational q(exported(c));
+    (shift >= 0 ? mpq_mul_2exp : mpq_div_2exp)(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(std::abs(shift)));
+    return q;
+  };
+  return ExactPoint(x.exact() + Exact3{scaled(d.x), scaled(d.y), scaled(d.z)});
+}
+
+}  // namespace clues::fastpath

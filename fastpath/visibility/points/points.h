@@ -1,0 +1,128 @@
+// Points and planes that keep their construction: an interval for each coordinate now, the rational when a predicate asks for it, then
+// kept. No coordinate is ever rounded.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+#include "fastpath/predicates/filter.h"
+#include "fastpath/visibility/points/numbers.h"
+
+namespace clues::fastpath {
+
+class Plane;
+
+using Exact3 = Vec3<Rational>;
+
+class ExactPoint {
+ public:
+  ExactPoint() : ExactPoint(Point{0, 0, 0}) {}
+  explicit ExactPoint(const Point& p);  // finite
+  explicit ExactPoint(const Exact3& p);
+  // Where the segment ab crosses a plane; a and b are on different sides of it.
+  static ExactPoint on_plane(const ExactPoint& a, const ExactPoint& b, const Plane& plane);
+  // a + t (b - a).
+  static ExactPoint between(const ExactPoint& a, const ExactPoint& b, double t);
+  // from + step (to - from) + lift step direction, exactly; `direction` is a plane's normal scaled to about the length of to - from.
+  static ExactPoint lifted(const ExactPoint& from, const ExactPoint& to, double step, const Plane& plane, double lift);
+  // The same distance beyond x as s is before it.
+  static ExactPoint reflected(const ExactPoint& x, const ExactPoint& s);
+
+  ExactPoint(const ExactPoint& other);
+  ExactPoint& operator=(const ExactPoint& other);
+  ~ExactPoint() { delete exact_.load(std::memory_order_relaxed); }
+
+  const Vec3<Interval>& approximate() const { return near_; }
+  bool is_double() const { return near_.x.is_point() && near_.y.is_point() && near_.z.is_point(); }
+  const Exact3& exact() const;
+  Point estimate() const;
+
+ private:
+  enum class Kind : std::uint8_t { given, on_plane, between, reflected };
+  Kind kind_ = Kind::given;
+  Vec3<Interval> near_{};
+  const ExactPoint *a_ = nullptr, *b_ = nullptr;
+  const Plane* plane_ = nullptr;
+  double t_ = 0;
+  mutable std::atomic<const Exact3*> exact_{nullptr};
+};
+
+// Through three points that are not collinear; positive side: from which a, b, c turn counter-clockwise.
+class Plane {
+ public:
+  Plane(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c);
+  Plane(const Plane&) = delete;
+  Plane& operator=(const Plane&) = delete;
+  ~Plane() { delete exact_.load(std::memory_order_relaxed); }
+
+  const Vec3<Interval>& normal_approximate() const { return normal_; }
+  const Exact3& normal_exact() const;
+  const ExactPoint& base() const { return *a_; }
+  std::array<const ExactPoint*, 3> corners() const { return {a_, b_, c_}; }
+
+  // The side of x: sign of normal . (x - base).
+  int side(const ExactPoint& x) const;
+  Interval value_approximate(const ExactPoint& x) const { return dot(normal_, x.approximate() - a_->approximate()); }
+  Rational value_exact(const ExactPoint& x) const { return dot(normal_exact(), x.exact() - a_->exact()); }
+
+  // Two coordinates in which points of the plane turn as they do seen from its positive side.
+  const std::array<std::uint8_t, 2>& axes() const { return axes_; }
+
+ private:
+  const ExactPoint *a_, *b_, *c_;
+  Vec3<Interval> normal_{};
+  std::array<std::uint8_t, 2> axes_{};
+  mutable std::atomic<const Exact3*> exact_{nullptr};
+};
+
+template <class NT>
+Vec3<NT> coordinates(const ExactPoint& p);
+template <>
+inline Vec3<Interval> coordinates<Interval>(const ExactPoint& p) {
+  return p.approximate();
+}
+template <>
+inline Vec3<Rational> coordinates<Rational>(const ExactPoint& p) {
+  return p.exact();
+}
+template <class NT>
+Vec3<NT> normal_of(const Plane& h);
+template <>
+inline Vec3<Interval> normal_of<Interval>(const Plane& h) {
+  return h.normal_approximate();
+}
+template <>
+inline Vec3<Rational> normal_of<Rational>(const Plane& h) {
+  return h.normal_exact();
+}
+
+// The length of a vector, without underflow; zero only for the zero vector.
+double length_estimate(const Point& v);
+
+// A point near x and close to the way to another. Near, nearer and nearer, and closer and closer, with level 0, 1, ...: first with double coordinates,
+// then with as many bits as it takes.
+ExactPoint point_near(const ExactPoint& x, const ExactPoint& to, int level);
+
+// How often rationals had to decide, on this thread.
+std::uint64_t& exact_decisions();
+
+// Evaluates f<NT>() in intervals and, when that is unsure, exactly: in rationals, or in whole numbers where only directions are asked for (integers.h).
+template <class Exact = Rational, class F>
+auto decide(const F& f) {
+  try {
+    return f.template operator()<Interval>();
+  } catch (const Unsure&) {
+    ++exact_decisions();
+    return f.template operator()<Exact>();
+  }
+}
+
+// Positive when a, b, c turn left seen from d, as CGAL::orientation(a, b, c, d).
+int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d);
+// Coordinate by coordinate.
+bool equal(const ExactPoint& a, const ExactPoint& b);
+int compare_coordinate(const ExactPoint& a, const ExactPoint& b, int axis);
+bool collinear(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c);
+
+}  // namespace clues::fastpath

@@ -1,0 +1,25 @@
+// What the search for a local map is told (D4, D17), and what it counts.
+#pragma once
+
+#include <cstdint>
+
+#include "exact/dials.h"
+
+namespace clues::fastpath {
+
+enum class SideMode : std::uint8_t { sheet, solid };  // D4
+
+struct LocalMapOptions {
+  SideMode mode = SideMode::sheet;  // solid: only fronts count. That the mesh is closed is for the caller to know.
+  exact::Dials dials;               // the limits of D17, and what else only tests turn
+};
+
+struct LocalMapCounts {
+  std::uint64_t pieces = 0, refined_triangles = 0;    // of the complex (D16)
+  std::uint64_t sources = 0, apexes = 0, wedges = 0;  // contour edge parts, contour vertices looked at, envelopes made
+  std::uint64_t csv = 0, rounds = 0, walks = 0;       // D12, D17a, D14
+  std::uint64_t exact_decisions = 0;                  // made in rationals
+  std::uint64_t conservative_fallbacks = 0;           // answered visible without a proof
+};
+
+}  // namespace clues::fastpath

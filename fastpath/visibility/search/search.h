@@ -1,0 +1,42 @@
+// D17, D17a: all valid wedge pieces of a scene and cell. Only visible sources make wedges, and valid pieces make CSVs, which make wedges. Within a
+// round the contour edges are cut at a fixed set of points, and labels only turn from hidden to visible. At its end the CSVs met
+// become cuts and the next round starts over; when no new cut appears every part of an edge has one label (D13a). Envelopes, walks and local
+// pictures of contour vertices are kept from round to round.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "fastpath/visibility/labels/walker.h"
+#include "fastpath/visibility/search/options.h"
+#include "fastpath/visibility/wedges/apex.h"
+#include "fastpath/visibility/wedges/piece_set.h"
+#include "fastpath/visibility/wedges/workers.h"
+
+namespace clues::fastpath {
+
+class Search {
+ public:
+  // `bounds`: of all that will be asked about. Keeps references.
+  Search(const LocalScene& scene, const IntervalBox& bounds, const LocalMapOptions& options, LocalMapCounts& counts,
+         Workers& workers);
+  ~Search();
+  // On all threads of the arena; the result is the same for any number. Afterwards pieces() is complete, but for what left_out() says.
+  void run();
+
+  const PieceSet& pieces() const;
+  const Walker& walker() const;
+  // Apexes at which a limit of D17 left out wedges; what that means for labels is in one_label.h.
+  const std::vector<const Apex*>& left_out() const;
+
+ private:
+  class Work;
+  const LocalScene& scene_;
+  const IntervalBox& bounds_;
+  const LocalMapOptions& options_;
+  LocalMapCounts& counts_;
+  Workers& workers_;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace clues::fastpath

@@ -1,0 +1,58 @@
+#include "fastpath/visibility/wedges/beside.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fastpath/visibility/points/near_enough.h"
+#include "scene/messages/error.h"
+
+namespace clues::fastpath {
+
+namespace {
+
+double length(const Point& v) { return length_estimate(v); }
+double inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+}  // namespace
+
+std::optional<ExactPoint> beside_edge(const LocalScene& scene, const PieceSet& set, const ContourEdge& c,
+                                      const EdgePart& part, int& level) {
+  const LocalEdge& edge = scene.edges[c.edge];
+  const ExactPoint &touching = scene.cell.vertices[static_cast<std::size_t>(c.touching.front())],
+                   &a = scene.points[edge.a], &b = scene.points[edge.b];
+  const Point y = part.y->estimate(), along = minus(b.estimate(), a.estimate());
+  Point to = minus(touching.estimate(), y);  // across the edge
+  const double shift = -inner(to, along) / inner(along, along);
+  for (std::size_t k = 0; k < 3; ++k) to[k] += shift * along[k];
+  const Vec3<Interval>& n = c.plane->normal_approximate();
+  const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
+  const double size = std::min(length(to), length(minus(part.hi->estimate(), part.lo->estimate())));
+  constexpr int kDoubles = 4;
+  if (!(length(to) > 0 && length(up) > 0)) level = std::max(level, kDoubles);
+  const auto place = [&](int at) {
+    if (at >= kDoubles) {  // features smaller than the spacing of doubles
+      const double step = std::ldexp(1.0, -5 - 24 * (at - kDoubles + 1));
+      const Exact3 across = touching.exact() + Rational(std::isfinite(shift) ? shift : 0) * (b.exact() - a.exact());
+      return ExactPoint::lifted(*part.y, ExactPoint(across), step, *c.plane, 0x1p-5);
+    }
+    const double step = std::ldexp(size, -5 - 7 * at);
+    Point p;
+    for (std::size_t k = 0; k < 3; ++k)
+      p[k] = y[k] + step * (to[k] / length(to)) + step * 0x1p-5 * (up[k] / length(up));
+    return ExactPoint(p);
+  };
+  return near_enough(level, 2 * kDoubles, place, [&](const ExactPoint& beside) {
+    // Between H- and the event surface of the other supporting plane there is one label.
+    if (c.plane->side(beside) <= 0 || (c.other && c.other->side(beside) >= 0)) return false;
+    if (scene.is_on_surface(beside)) return false;
+    const bool blocked = scene.tree.any(SegmentTest(beside, *part.y), [&](std::uint32_t i) {
+      const std::uint32_t t = scene.occluders[i];
+      if (std::find(edge.pieces.begin(), edge.pieces.end(), t) != edge.pieces.end()) return false;
+      return scene.crosses(*part.y, beside, t) != Crossing::no;
+    });
+    return !blocked && !set.may_meet(beside, *part.y, 0, holds_edge(scene, c.edge));
+  });
+}
+
+}  // namespace clues::fastpath

@@ -1,0 +1,123 @@
+#include "fastpath/visibility/wedges/contacts.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "scene/messages/error.h"
+
+namespace clues::fastpath {
+
+namespace {
+
+// For these probes, in whatever order they came.
+auto known_sectors(const Contact& c) {
+  return std::find_if(c.known_sectors.begin(), c.known_sectors.end(), [&](const auto& k) {
+    return k.first.size() == c.probes.size() && std::is_permutation(k.first.begin(), k.first.end(), c.probes.begin());
+  });
+}
+
+}  // namespace
+
+Contacts::Contacts(const LocalScene& scene, Workers& workers)
+    : scene_(scene), workers_(workers), corners_(scene.points.size()), on_edge_(scene.edges.size()) {}
+
+std::unique_ptr<Contact> Contacts::make(bool on_edge, std::uint32_t id, const ExactPoint* x) const {
+  auto c = std::make_unique<Contact>();
+  c->x = x;
+  c->on_edge = on_edge;
+  c->id = id;
+  return c;
+}
+
+void Contacts::make_apex(Contact& c, Pool& pool) const {
+  if (c.apex) return;
+  c.apex = std::make_unique<Apex>(scene_, pool, c.on_edge, c.id, c.x);
+  c.built.assign(c.apex->sectors().size(), false);
+  c.wedges.resize(c.apex->sectors().size());
+}
+
+const Apex& Contacts::apex_of(std::uint32_t vertex, Pool& pool) {
+  Contact* c = corner(vertex);
+  make_apex(*c, pool);
+  return *c->apex;
+}
+
+Contact* Contacts::corner(std::uint32_t vertex) {
+  if (!corners_[vertex]) corners_[vertex] = make(false, vertex, &scene_.points[vertex]);
+  return corners_[vertex].get();
+}
+
+void Contacts::make_csvs(const std::vector<std::pair<std::uint32_t, const ExactPoint*>>& points) {
+  struct Asked {
+    const ExactPoint* x = nullptr;
+    Contact** contact = nullptr;
+  };
+  std::map<std::uint32_t, std::vector<Asked>> by_edge;
+  for (const auto& [edge, x] : points) {
+    const auto [at, is_new] = csv_at_.try_emplace(x, nullptr);
+    if (is_new) by_edge[edge].push_back({x, &at->second});
+  }
+  std::vector<std::uint32_t> edges;
+  for (const auto& [edge, list] : by_edge) edges.push_back(edge);
+  workers_.for_each(edges.size(), [&](std::size_t i, Workers::Worker&) {
+    auto& contacts = on_edge_[edges[i]];
+    for (const Asked& asked : by_edge.at(edges[i])) {
+      const auto known =
+          std::find_if(contacts.begin(), contacts.end(), [&](const auto& c) { return equal(*c->x, *asked.x); });
+      if (known != contacts.end()) {
+        *asked.contact = known->get();
+        continue;
+      }
+      *asked.contact = contacts.emplace_back(make(true, edges[i], asked.x)).get();
+      (*asked.contact)->generation = -1;
+    }
+  });
+}
+
+void Contacts::start_round() {
+  for_all([](Contact& c) {
+    c.probes.clear();
+    c.fresh = false;
+    std::fill(c.built.begin(), c.built.end(), false);
+    if (c.on_edge) c.generation = -1;
+  });
+}
+
+void Contacts::add(Contact* c, const Probe& probe) {
+  if (std::find(c->probes.begin(), c->probes.end(), probe) != c->probes.end()) return;
+  c->probes.push_back(probe);
+  if (!c->fresh) touched_.push_back(c);
+  c->fresh = true;
+}
+
+std::vector<Contact*> Contacts::lit() {
+  std::vector<Contact*> contacts;
+  contacts.swap(touched_);
+  workers_.for_each(contacts.size(),
+                    [&](std::size_t i, Workers::Worker& worker) { make_apex(*contacts[i], worker.pool); });
+  for (Contact* c : contacts) c->fresh = false;
+  std::erase_if(contacts, [](const Contact* c) { return c->apex->sectors().empty(); });
+  return contacts;
+}
+
+void Contacts::find_sectors(const std::vector<Contact*>& contacts) {
+  workers_.for_each(contacts.size(), [&](std::size_t i, Workers::Worker&) {
+    Contact& c = *contacts[i];
+    if (known_sectors(c) != c.known_sectors.end()) return;
+    // A sector too many only makes more visible: where the vertex is too intricate to decide, all of them.
+    std::vector<std::uint32_t> sectors(c.apex->sectors().size());
+    std::iota(sectors.begin(), sectors.end(), 0U);
+    try {
+      if (!c.has_all_sectors) sectors = c.apex->existing(c.probes);
+    } catch (const scene::Error& error) {
+      if (error.code() != scene::ErrorCode::internal) throw;
+      ++fallbacks_;
+    }
+    c.known_sectors.emplace_back(c.probes, std::move(sectors));
+  });
+}
+
+const std::vector<std::uint32_t>& Contacts::existing_sectors(const Contact& c) { return known_sectors(c)->second; }
+
+}  // namespace clues::fastpath

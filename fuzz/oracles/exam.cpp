@@ -1,0 +1,180 @@
+// What all oracles need: the subject's answer, the places it denies, and the only way by which a claim becomes a finding.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "exact/sight/scene_query.h"
+#include "exact/sight/witness.h"
+#include "fuzz/oracles/oracle.h"
+#include "scene/messages/error.h"
+#include "validate/certificates/region_points.h"
+#include "validate/certificates/words.h"
+#include "validate/windows/rational.h"
+
+namespace clues::fuzz {
+
+using exact::Point3;
+using reference::Region;
+using validate::Witness;
+
+namespace {
+
+reference::VisibilityMap guide_for(const Case& scene) {
+  reference::Options options;
+  options.threads = 1;
+  if (scene.solid) options.mode = reference::Mode::solid;
+  return reference::first_order_visibility(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
+}
+
+std::uint64_t hash_of(const std::string& text) {  // FNV-1a
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return hash;
+}
+
+exact::Plane3 side_of(const reference::VisibilityMap& map, const Region& r) {
+  return r.front ? map.complex.planes[r.piece] : map.complex.planes[r.piece].opposite();
+}
+
+bool faces_cell(const exact::Plane3& side, const exact::ConvexCell& cell) {
+  return std::any_of(cell.vertices().begin(), cell.vertices().end(),
+                     [&](const Point3& s) { return side.oriented_side(s) == CGAL::ON_POSITIVE_SIDE; });
+}
+
+bool strictly_inside(const validate::ExactTriangle& t, const Point3& p) {
+  const auto a = CGAL::coplanar_orientation(t[0], t[1], t[2], p), b = CGAL::coplanar_orientation(t[1], t[2], t[0], p),
+             c = CGAL::coplanar_orientation(t[2], t[0], t[1], p);
+  return a == CGAL::POSITIVE && b == CGAL::POSITIVE && c == CGAL::POSITIVE;
+}
+
+}  // namespace
+
+Exam::Exam(const Case& scene, const Subject& subject, Outcome& outcome)
+    : scene_(scene), subject_(subject), outcome_(outcome), answer_(subject.answer(scene)) {
+  if (!answer_.map) guide_ = guide_for(scene);
+  for (const auto& p : map().complex.pieces) {
+    const auto& points = map().complex.points;
+    soup_.push_back({points[p.corners[0]], points[p.corners[1]], points[p.corners[2]]});
+  }
+  count_map();
+}
+
+void Exam::count_map() {
+  const auto& s = map().statistics;
+  count("wedges SV-ME", s.sv_me);
+  count("wedges SE-ME", s.se_me);
+  count("wedges SE-MV", s.se_mv);
+  count("compound silhouette vertices", s.csv);
+  count("inside corners", s.inside_corners);
+  count("parallel edges", s.parallel_edges);
+  count("triangles cut by others", s.refined_triangles);
+  count("first-order fallbacks", s.conservative_fallbacks);
+  std::vector<std::uint8_t> state(scene_.mesh.triangles.size());
+  for (const Region& r : map().regions) {
+    if (!faces_cell(side_of(map(), r), cell())) continue;
+    for (const auto& o : map().complex.pieces[r.piece].origins) state[o.triangle] |= r.visible ? 1 : 2;
+  }
+  for (const auto bits : state) {
+    if (bits != 0) count(bits == 1 ? "triangles visible" : bits == 2 ? "triangles hidden" : "triangles partly visible");
+  }
+}
+
+Random Exam::random(const std::string& oracle) const {
+  return Random(Random(Random(scene_.seed ^ hash_of(oracle)).next() ^ scene_.index).next() ^ hash_of(scene_.generator));
+}
+
+bool Exam::lists(std::uint32_t triangle) const {
+  return std::binary_search(answer_.pvs.begin(), answer_.pvs.end(), triangle);
+}
+
+bool Exam::is_surface(std::uint32_t triangle) const {
+  const auto& none = map().complex.degenerate;
+  return !std::binary_search(none.begin(), none.end(), triangle);
+}
+
+std::vector<Exam::Denied> Exam::denied(std::size_t per_region) const {
+  std::vector<Denied> out;
+  for (const bool visible : {true, false}) {  // by the guide; in the subject's own map only hidden regions are denied
+    if (answer_.map && visible) continue;
+    for (const Region& r : map().regions) {
+      if (r.visible != visible) continue;
+      const exact::Plane3 side = side_of(map(), r);
+      if (!faces_cell(side, cell())) continue;
+      const auto& origins = map().complex.pieces[r.piece].origins;
+      const auto origin = std::find_if(origins.begin(), origins.end(),
+                                       [&](const auto& o) { return answer_.map || !lists(o.triangle); });
+      if (origin == origins.end()) continue;
+      for (const Point3& p : validate::interior_points(r.rings, per_region))
+        out.push_back({origin->triangle, r.front == origin->same_side, side, p});
+    }
+  }
+  return out;
+}
+
+bool in_hidden_region(const reference::VisibilityMap& map, std::uint32_t triangle, bool front, const Point3& p) {
+  for (const Region& r : map.regions) {
+    if (r.visible) continue;
+    for (const auto& o : map.complex.pieces[r.piece].origins) {
+      if (o.triangle != triangle || (r.front == o.same_side) != front) continue;
+      for (validate::ExactTriangle t : validate::triangulate_region(r.rings)) {
+        if (strictly_inside(t, p)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool Exam::denies(const Witness& w) const {
+  if (scene_.solid && !w.front) return false;
+  return !lists(w.triangle) || (answer_.map && in_hidden_region(*answer_.map, w.triangle, w.front, w.p));
+}
+
+bool Exam::claim(const std::string& oracle, const Witness& witness, const std::string& explanation) {
+  if (!denies(witness)) return false;
+  const auto checked = exact::check_witness(scene_.mesh, cell(), witness.triangle, witness.front, witness.v, witness.p);
+  if (!checked.valid) {
+    const auto& [a, b, c] = scene_.mesh.triangles[witness.triangle];
+    const auto corner = [&](std::uint32_t i) { return exact::to_exact(scene_.mesh.points[i]); };
+    if (exact::meets_cell({corner(a), corner(b), corner(c)}, cell())) return false;  // visible without a witness (D3)
+    contradiction(oracle, checked.reason);
+    return false;
+  }
+  Finding f;
+  f.oracle = oracle;
+  f.verdict = lists(witness.triangle) ? "hidden-region/visible" : "hidden/visible";
+  f.where = scene_;
+  f.triangle = witness.triangle;
+  f.witness = to_text(witness);
+  f.explanation = explanation;
+  file(std::move(f));
+  return true;
+}
+
+void Exam::contradiction(const std::string& oracle, const std::string& what) {
+  outcome_.contradictions.push_back(
+      fmt::format("{} on {} {} of seed {}: {}", oracle, scene_.generator, scene_.index, scene_.seed, what));
+}
+
+WitnessText to_text(const Witness& w) {
+  const auto text = [](const Point3& p) {
+    return std::array<std::string, 3>{exact::to_string_exact(p.x()), exact::to_string_exact(p.y()),
+                                      exact::to_string_exact(p.z())};
+  };
+  return {w.triangle, w.front, text(w.v), text(w.p)};
+}
+
+Witness to_witness(const WitnessText& w) {
+  const auto point = [](const std::array<std::string, 3>& text) {
+    validate::RVector q;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!validate::is_rational(text[i]))
+        throw scene::Error(scene::ErrorCode::malformed, "a witness has a coordinate that is no fraction: " + text[i]);
+      q[i] = validate::Rational(text[i]);
+      q[i].canonicalize();
+    }
+    return validate::to_point(q);
+  };
+  return {w.triangle, w.front, point(w.v), point(w.p)};
+}
+
+}  // namespace clues::fuzz

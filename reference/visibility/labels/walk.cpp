@@ -1,0 +1,321 @@
+#include "reference/visibility/labels/walk.h"
+
+#include <algorithm>
+
+#include "exact/complex/simple_point.h"
+#include "scene/messages/error.h"
+
+namespace clues::reference {
+
+using exact::FT;
+using exact::Point3;
+
+namespace {
+
+constexpr std::int64_t kLongestWalk = 64;  // legs; what is longer has lost its way in a corner of several walls
+constexpr int kAttempts = 200;  // sight lines in special position come from coincidences; this many in a row mean a bug
+
+std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
+  x += 0x9e3779b97f4a7c15ULL;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+CGAL::Oriented_side strict_side(bool front) { return front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE; }
+
+}  // namespace
+
+Walker::Walker(const exact::SceneQuery& scene, bool rule_3, std::int64_t longest)
+    : scene_(&scene), rule_3_(rule_3), longest_(longest == exact::Dials::kOwn ? kLongestWalk : longest) {}
+
+Point3 Walker::choose(std::uint64_t seed, const std::optional<Point3>& anchor, const Good& good) const {
+  const exact::ConvexCell& cell = scene_->cell();
+  std::vector<int> weights;
+  for (std::size_t i = 0; i < cell.vertices().size(); ++i) {
+    seed = mix(seed);
+    weights.push_back(1 + static_cast<int>(seed % 61));
+  }
+  const Point3 u = cell.interior_point(weights);
+  if (!anchor || good(u)) return u;
+  for (FT pull(1);;) {
+    pull = pull / FT(8);
+    const Point3 v = *anchor + pull * (u - *anchor);
+    if (good(v)) return exact::collapsed(v);
+  }
+}
+
+std::optional<Point3> Walker::foot(const Point3& p) const {
+  const exact::ConvexCell& cell = scene_->cell();
+  std::optional<Point3> x;
+  if (cell.dimension() == 2) {
+    const exact::Plane3& h = cell.facets()[0].plane;
+    const exact::Vector3 n = h.orthogonal_vector();
+    x = p - exact::value_at(h, p) / (n * n) * n;
+  } else if (cell.dimension() == 1) {
+    const Point3 &a = cell.vertices()[0], &b = cell.vertices()[1];
+    x = a + ((p - a) * (b - a)) / ((b - a) * (b - a)) * (b - a);
+  }
+  if (!x || !cell.interior_contains(*x)) return std::nullopt;
+  return exact::collapsed(*x);
+}
+
+FT Walker::height(const SurfaceSide& on, const Point3& x) const {
+  const FT d = exact::value_at(scene_->complex().planes[on.piece], x);
+  return on.front ? d : FT(-d);
+}
+
+void Walker::leaves(const SurfaceSide& side, const Leaving& visit) const {
+  const std::vector<Point3>& s = scene_->cell().vertices();
+  for (const Point3& inside : s) {
+    const FT a = height(side, inside);
+    if (!CGAL::is_positive(a)) continue;
+    for (const Point3& other : s) {
+      const FT c = height(side, other);
+      if (!CGAL::is_positive(c) && visit(inside, inside + (a / (a - c)) * (other - inside))) return;
+    }
+  }
+}
+
+std::optional<Point3> Walker::anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const {
+  const std::vector<Point3>& s = scene_->cell().vertices();
+  std::vector<FT> a, b;
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    a.push_back(height(side, s[i]));
+    b.push_back(also ? height(*also, s[i]) : FT(1));
+    if (CGAL::is_positive(a[i]) && CGAL::is_positive(b[i]) && (!best || a[i] > a[*best])) best = i;
+  }
+  if (best) return s[*best];
+  if (!also) return std::nullopt;
+  // No vertex is on both sides, but an edge of V, or a diagonal, may cross the space between the planes.
+  std::optional<Point3> found;
+  leaves(side, [&](const Point3& inside, const Point3& x) {
+    if (!CGAL::is_positive(height(*also, x))) return false;
+    FT pull = FT(1) / FT(2);
+    const auto towards = [&] { return x + pull * (inside - x); };
+    while (!CGAL::is_positive(height(*also, towards()))) pull = pull / FT(2);
+    found = exact::collapsed(towards());
+    return true;
+  });
+  return found;
+}
+
+// The crossing m of the segment from v to p, or a shorter rational point beside it that is the last crossing of another admissible sight
+// line v'p. Without this the numbers would grow several times as long with every leg.
+Point3 Walker::last_crossing(const Point3& v, const Point3& p, const exact::Hit& hit, const Good& good) const {
+  const exact::Complex& complex = scene_->complex();
+  const auto& c = complex.pieces[hit.piece].corners;
+  const Point3 m = v + hit.t * (p - v);
+  const std::array<Point3, 3> corners{complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]};
+  if (scene_->cell().dimension() == 3) {
+    for (int level = 1; level < exact::kSimpleLevels; ++level) {
+      const auto near = exact::simple_in_triangle(m, corners, level);
+      if (!near) continue;
+      const FT t = exact::simple_near(hit.t, level);
+      if (t >= FT(1)) continue;
+      const Point3 from = p + (*near - p) / (FT(1) - t);
+      if (!scene_->cell().interior_contains(from) || !good(from)) continue;
+      const exact::SegmentAnswer between = scene_->crossings(*near, p);
+      if (!between.degenerate && between.hits.empty()) return *near;
+    }
+  }
+  return exact::collapsed(m);
+}
+
+Walk Walker::walk(const Start& start, std::uint64_t seed) const {
+  const exact::Complex& complex = scene_->complex();
+  const exact::ConvexCell& cell = scene_->cell();
+  Walk walk;
+  // Only a wedge piece upon the covering surface can light this edge (D14, rule 2), also where it lies on V: the surface may be one on V's border, and is meant from outside.
+  if (start.contour && start.contour->cover) return walk;
+  if (cell.contains(start.p)) {
+    walk.ends_at_cell = true;
+    return walk;
+  }
+  Point3 p = start.p;
+  std::optional<SurfaceSide> surface = start.surface;
+  const ContourEdge* contour = start.contour;
+  for (int depth = 0;; ++depth) {
+    if (const std::optional<Leg> leg = corner_leg(walk)) {
+      walk.legs.push_back(*leg);
+      return walk;
+    }
+    if (depth == longest_) {
+      walk.unresolved = true;
+      return walk;
+    }
+    std::optional<Point3> anchor;
+    Good good = [](const Point3&) { return true; };
+    std::optional<Point3> along;        // a v whose sight line leaves a groove at its end
+    std::optional<SurfaceSide> before;  // the wall that the walk stood on before this one, if they share an edge
+    if (surface) {
+      anchor = anchor_beyond(*surface, nullptr);
+      if (!anchor) return walk;
+      const auto beyond = [&complex](const SurfaceSide& side, const Point3& v) {
+        return complex.planes[side.piece].oriented_side(v) == strict_side(side.front);
+      };
+      if (walk.legs.size() >= 2) {
+        const Leg& previous = walk.legs[walk.legs.size() - 2];
+        before = SurfaceSide{previous.piece, previous.front};
+        const std::optional<Point3> both = anchor_beyond(*surface, &*before);
+        if (both) {
+          anchor = both;
+        } else {
+          const std::optional<Point3> end = end_of_groove(*surface, *before);
+          if (const std::optional<Leg> leg = groove_leg(walk, !end)) {
+            walk.legs.push_back(*leg);
+            return walk;
+          }
+          if (end) along = along_groove(p, *surface, *before, *end);
+          before.reset();
+        }
+      }
+      good = [beyond, on = *surface, before](const Point3& v) {
+        return beyond(on, v) && (!before || beyond(*before, v));
+      };
+    } else if (contour) {
+      // v so near the supporting plane that no incident piece lies between it and the supporting polygon.
+      anchor = cell.vertices()[static_cast<std::size_t>(contour->touching.front())];
+      const exact::Edge& e = complex.edges[contour->edge];
+      const Point3 &a = complex.points[e.a], &b = complex.points[e.b], &s = *anchor;
+      good = [&complex, &e, &a, &b, s](const Point3& v) {
+        return std::all_of(e.pieces.begin(), e.pieces.end(), [&](auto t) {
+          const auto& c = complex.pieces[t].corners;
+          const auto third = *std::find_if(c.begin(), c.end(), [&](auto i) { return i != e.a && i != e.b; });
+          const CGAL::Orientation at_s = CGAL::orientation(a, b, complex.points[third], s);
+          return at_s == CGAL::COPLANAR || CGAL::orientation(a, b, complex.points[third], v) == at_s;
+        });
+      };
+    }
+    if (surface) {  // next to a flat cell or a segment few points of V may see p: those right beneath it
+      const std::optional<Point3> beneath = foot(p);
+      if (beneath && good(*beneath)) {
+        const exact::SegmentAnswer straight = scene_->crossings(*beneath, p);
+        if (!straight.degenerate && straight.hits.empty()) {
+          walk.ends_at_cell = true;
+          return walk;
+        }
+      }
+    }
+    exact::SegmentAnswer answer;
+    Point3 v;
+    int attempt = 0;
+    do {
+      if (attempt == (cell.dimension() == 0 ? 1 : kAttempts)) {
+        // A flat cell, or a point, in a plane with what is before it: every sight line runs in that plane, along the edges that lie in it.
+        walk.unresolved = walk.special = true;
+        return walk;
+      }
+      if (depth == 0 && start.from) {
+        v = *start.from;
+        answer = scene_->crossings(v, p);
+        if (!answer.degenerate) break;
+        walk.unresolved = true;
+        return walk;
+      }
+      if (along && attempt == 0) {
+        v = *along;
+        answer = scene_->crossings(v, p);
+        ++attempt;
+        continue;
+      }
+      v = choose(mix(seed * 1000003 + static_cast<std::uint64_t>(depth) * 1009 + static_cast<std::uint64_t>(attempt)),
+                 anchor, good);
+      answer = scene_->crossings(v, p, contour != nullptr);
+      ++attempt;
+    } while (answer.degenerate);
+    if (answer.hits.empty()) {
+      walk.ends_at_cell = true;
+      return walk;
+    }
+    const exact::Hit& last = answer.hits.back();
+    const Point3 m = last_crossing(v, p, last, good);
+    const bool front = complex.planes[last.piece].oriented_side(p) == CGAL::ON_POSITIVE_SIDE;
+    walk.legs.push_back({m, p, last.piece, front, false, false});
+    if (!rule_3_) return walk;
+    p = m;
+    surface = SurfaceSide{last.piece, front};
+    contour = nullptr;
+  }
+}
+
+Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const {
+  if (walk.ends_at_cell || walk.unresolved) return Meets::yes;
+  Meets result = Meets::no;
+  const auto note = [&](Meets m) {
+    if (m == Meets::yes || (m == Meets::degenerate && result == Meets::no)) result = m;
+  };
+  const auto upon = [&](std::uint32_t piece, bool front, const Point3& x) {
+    for (const std::uint32_t i : wedges.upon(piece, front)) {
+      if (i >= first && result != Meets::yes) note(covers(wedges.pieces()[i], x));
+    }
+  };
+  if (start.surface) upon(start.surface->piece, start.surface->front, start.p);
+  if (start.contour) {
+    // A valid piece in the same supporting plane that runs over the near side of the edge.
+    for (const std::uint32_t i : wedges.along(start.contour->edge)) {
+      const ValidPiece& piece = wedges.pieces()[i];
+      if (i < first || result == Meets::yes) continue;
+      const Point3& s = scene_->cell().vertices()[static_cast<std::size_t>(start.contour->touching.front())];
+      if (piece.wedge.plane.oriented_side(s) != CGAL::ON_ORIENTED_BOUNDARY ||
+          !CGAL::is_positive(piece.wedge.plane.orthogonal_vector() * start.contour->plane.orthogonal_vector())) {
+        continue;
+      }
+      // A wedge that starts at this edge runs beyond it, not over it.
+      const Meets m = covers(piece, start.p);
+      note(m == Meets::degenerate ? Meets::no : m);
+    }
+  }
+  const exact::Complex& complex = scene_->complex();
+  for (const Leg& leg : walk.legs) {
+    if (result == Meets::yes) break;
+    const bool at_start = &leg == &walk.legs.front();
+    const auto crosses_nothing = [&](const ValidPiece& piece) {
+      const exact::Plane3& h = piece.wedge.plane;
+      const auto on_plane = [&](std::uint32_t point) {
+        return h.oriented_side(complex.points[point]) == CGAL::ON_ORIENTED_BOUNDARY;
+      };
+      const auto holds_piece = [&](std::uint32_t t) {
+        const auto& c = complex.pieces[t].corners;
+        return on_plane(c[0]) && on_plane(c[1]) && on_plane(c[2]);
+      };
+      if (h.oriented_side(leg.m) == CGAL::ON_ORIENTED_BOUNDARY) {
+        if (holds_piece(leg.piece)) return true;
+        if (leg.from_corner) return true;  // the leg leaves its plane
+        if (leg.from_edge) {               // a wedge through the edge itself runs outside the groove
+          const auto& edges = complex.piece_edges[leg.piece];
+          return std::any_of(edges.begin(), edges.end(),
+                             [&](auto e) { return on_plane(complex.edges[e].a) && on_plane(complex.edges[e].b); });
+        }
+      }
+      if (h.oriented_side(leg.p) != CGAL::ON_ORIENTED_BOUNDARY) return false;
+      if (!at_start) return true;   // p is the m of the leg before, and was looked at there
+      if (start.from) return true;  // p stands for what is just before it
+      if (start.contour)
+        return on_plane(complex.edges[start.contour->edge].a) && on_plane(complex.edges[start.contour->edge].b);
+      return start.surface && holds_piece(start.surface->piece);
+    };
+    Meets crossed = wedges.crossed(leg.m, leg.p, first, crosses_nothing);
+    if (crossed == Meets::degenerate && start.contour) {
+      // A flat cell in the plane of its wedge has no other sight lines; D13a means those just off the plane, in H-.
+      const exact::Plane3& h = start.contour->plane;
+      if (h.has_on(leg.m) && h.has_on(leg.p))
+        crossed = wedges.crossed(leg.m, leg.p, first, crosses_nothing, h.orthogonal_vector());
+    }
+    note(crossed);
+    if (result != Meets::yes && !leg.from_edge && !leg.from_corner) upon(leg.piece, leg.front, leg.m);
+  }
+  return result;
+}
+
+Walker::Label Walker::label(const Start& start, const WedgeSet& wedges, std::uint64_t seed) const {
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const Walk made = walk(start, seed + static_cast<std::uint64_t>(attempt) * 7919);
+    const Meets m = visible(start, made, wedges, 0);
+    if (m != Meets::degenerate) return {m == Meets::yes, made.unresolved};
+  }
+  throw scene::Error(scene::ErrorCode::internal, "walk: no walk in general position with the wedges");
+}
+
+}  // namespace clues::reference

@@ -1,0 +1,150 @@
+// D14: the label of a point by walking from the cell towards it (FIG. 25 with the missing rule 3, hazards A-3 and B-9).
+//
+// A walk does not need the wedges: from p it looks for a sight line to a random point v of int V. If nothing is crossed, p is visible
+// outright. Otherwise the last crossing m and p bound a leg, and the walk goes on from m, on the side that faces p, with a v strictly on that side.
+// It ends at the cell (visible) or at a surface that the cell does not face (hidden). The label is: visible if the walk ends
+// at the cell, or if any leg crosses a valid wedge piece from H+ to H-, or if one lies upon the surface where a leg starts.
+// A walk into a groove that no point of V looks into along its edge would go on for ever, from one wall to the other, towards the
+// edge: T3 orders points, but an order of points may descend without end (definition, D14 says the recursion ends). Beside the edge all is hidden, though, and the
+// walk ends there, with a leg from the edge. For over the edge stands a tent that nothing enters: the walls are its sides, and at either end of the edge it has a plane
+// through that end with V and the tent on one side (T2). The planes exist if V and the closed groove share no point, or none but points of the edge: let f be linear, positive in
+// the groove, zero on the edge and at most zero on V; let s be linear, the distance from the end along the edge, and at least zero where V has f = 0. As V is a
+// polytope, f <= k s holds on V where s < 0, for some k > 0; then f - r s is at most zero on V for all r in [0,k], and the less r is, the flatter is the tent.
+// Edges that carry both walls on along the line count as one edge. Where V touches the line elsewhere, sight lines nearly along the edge come in at the
+// groove's end, past the walls, however near the edge p is: then the walk looks that way.
+//
+// With a segment as cell, all of a walk lies in one plane with it, a slice, and what is seen there is a matter of the slice
+// alone: no sight line leaves it, no continuation, and no wedge that only separates (T10) divides it. So such a walk ends by
+// T2 in the slice. Its walls are two rays from the tip y of the groove, and if a line of the slice through y has V on one side
+// and both rays strictly on the other, then next to y all between them is hidden: a parallel line just beyond y cuts a
+// triangle off. Such a line exists if V and the closed angle between the rays are disjoint. If y is on the line of V and both
+// rays leave it on one side, that line is one, wherever V lies on it: a segment that goes through a groove's edge is as
+// blind in the groove as one that ends there. The leg from y stays on one side of the line of V.
+//
+// So walks are made once, and only their legs are looked at again when new wedge pieces appear (D17a).
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "exact/dials.h"
+#include "exact/sight/scene_query.h"
+#include "reference/visibility/wedges/contour.h"
+#include "reference/visibility/wedges/wedge_set.h"
+
+namespace clues::reference {
+
+struct Leg {
+  exact::Point3 m, p;
+  std::uint32_t piece = 0;   // the surface at m
+  bool front = true;         // its side that faces p
+  bool from_edge = false;    // m is on an edge of the piece, and stands for the space beside it (see Walker::walk)
+  bool from_corner = false;  // m is a corner of the piece, and stands for the dark space next to it (corner.h)
+};
+
+struct Walk {
+  bool ends_at_cell = false;
+  bool unresolved = false;  // never ends: the label is visible, as a counted fallback
+  bool special = false;   // for want of a sight line in general position to where it starts; another start may have one
+  std::vector<Leg> legs;  // from p towards the cell
+};
+
+// The side of a piece on which a point is asked for.
+struct SurfaceSide {
+  std::uint32_t piece = 0;
+  bool front = true;
+};
+
+// What a walk starts from: a point of free space, of a surface side, or just off a contour edge.
+struct Start {
+  exact::Point3 p;
+  std::optional<SurfaceSide> surface;
+  const ContourEdge* contour =
+      nullptr;  // D13a: p is inside this edge, meant just off it in H-, beside the supporting polygon
+  std::optional<exact::Point3> from =
+      std::nullopt;  // p is a mesh vertex, seen along the sight line from here (in int V)
+};
+
+class Walker {
+ public:
+  // `longest`: legs after which a walk is given up (Dials).
+  Walker(const exact::SceneQuery& scene, bool rule_3, std::int64_t longest = exact::Dials::kOwn);
+
+  // Different seeds use different sight lines; the label must not depend on the seed (D14). Deterministic.
+  Walk walk(const Start& start, std::uint64_t seed) const;
+
+  // The label of the walk's start by the wedge pieces from index `first` on; degenerate: walk again with another seed.
+  Meets visible(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const;
+
+  struct Label {
+    bool visible = false;
+    bool fallback = false;  // visible only because the walk was unresolved
+  };
+  // Walks with one seed after another until a walk is in general position with all the wedges.
+  Label label(const Start& start, const WedgeSet& wedges, std::uint64_t seed) const;
+
+ private:
+  using Good = std::function<bool(const exact::Point3&)>;
+  // A point v of int V near `anchor` (or anywhere) that satisfies the predicate; it must hold near the anchor.
+  exact::Point3 choose(std::uint64_t seed, const std::optional<exact::Point3>& anchor, const Good& good) const;
+  // The point of a flat cell or a segment that is nearest to p, if that is in int V.
+  std::optional<exact::Point3> foot(const exact::Point3& p) const;
+  // A multiple of the distance of x from the piece's plane, positive on the given side.
+  exact::FT height(const SurfaceSide& on, const exact::Point3& x) const;
+  // Calls visit(s, x) for each edge or diagonal of V that leaves the open side at x, a point of its plane, from the vertex
+  // s; until it says true.
+  using Leaving = std::function<bool(const exact::Point3&, const exact::Point3&)>;
+  void leaves(const SurfaceSide& side, const Leaving& visit) const;
+  // A point of V strictly on the given side of the piece's plane, and, if `also` is given, on that side of that plane too; none when V has no such point.
+  std::optional<exact::Point3> anchor_beyond(const SurfaceSide& side, const SurfaceSide* also) const;
+
+  // ---- what does not end (grooves.cpp)
+
+  // A point of the closed V in both closed half spaces, for two walls that no point of V is strictly in front of at once;
+  // none if V keeps away.
+  std::optional<exact::Point3> end_of_groove(const SurfaceSide& one, const SurfaceSide& two) const;
+  // v in int V near `end`, strictly in front of `on`, such that the sight line to p does not cross `before`; none was
+  // found: nullopt.
+  std::optional<exact::Point3> along_groove(const exact::Point3& p, const SurfaceSide& on, const SurfaceSide& before,
+                                            const exact::Point3& end) const;
+  // Whether the piece lies in the plane of the side `in` and in front of `before`, at least in part.
+  bool is_wall(std::uint32_t piece, const SurfaceSide& in, const SurfaceSide& before) const;
+  // Whether pieces of both walls of a groove meet in the edge.
+  bool carries_both(const exact::Edge& e, const SurfaceSide& one, const SurfaceSide& two) const;
+  // A wall of a groove is all of a flat surface, which others may cut into many pieces.
+  struct Wall {
+    std::vector<std::uint32_t> pieces;
+    std::vector<std::uint32_t> edges;  // at which the other wall stands on it
+  };
+  Wall wall_of(const SurfaceSide& one, const SurfaceSide& other) const;
+  // Whether V and the closed groove between two walls that meet in this edge share nothing but points of the edge, and of
+  // the edges that carry both walls on along its line without a gap.
+  bool touches_only(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two) const;
+  // Whether the plane of a flat cell divides the two. No sight line crosses it, and labels on its two sides have nothing to
+  // do with each other (T10): a leg that is not part of a sight line may not cross it either.
+  bool divided_by_cell(const exact::Point3& x, const exact::Point3& y) const;
+  // The last leg of a walk that runs into a dark corner for ever.
+  std::optional<Leg> corner_leg(const Walk& walk) const;
+  // The last leg of a walk that runs into the groove between two pieces for ever. `apart`: V and the closed groove share no
+  // point; else it is asked for the edge.
+  std::optional<Leg> groove_leg(const Walk& walk, bool apart) const;
+  // Its leg from the edge to q, a point in front of both walls; or, if the cell is a segment, the one from the tip of the
+  // groove in the plane through the cell and q.
+  std::optional<Leg> leg_from_edge(const SurfaceSide& wall, const SurfaceSide& other, const exact::Point3& q,
+                                   bool apart) const;
+  std::optional<Leg> leg_in_slice(const SurfaceSide& wall, const SurfaceSide& other, const exact::Point3& q,
+                                  bool apart) const;
+  // A piece of the wall that holds y, a point of its plane, and what comes next in direction d.
+  std::optional<std::uint32_t> piece_from(const exact::Point3& y, const exact::Vector3& d, const SurfaceSide& wall,
+                                          const SurfaceSide& other) const;
+
+  exact::Point3 last_crossing(const exact::Point3& v, const exact::Point3& p, const exact::Hit& hit,
+                              const Good& good) const;
+  const exact::SceneQuery* scene_;
+  bool rule_3_;
+  std::int64_t longest_;
+};
+
+}  // namespace clues::reference

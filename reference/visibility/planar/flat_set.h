@@ -1,0 +1,44 @@
+// A set of points of one triangle, laid flat, as an exact planar arrangement with a label on each face. Sets are closed and regular: what has no area does
+// not count, neither in a result nor in emptiness.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "exact/kernel.h"
+#include "reference/visibility/planar/flat_faces.h"
+
+namespace clues::reference {
+
+using Face2 = std::vector<Ring2>;  // outer boundary, then holes
+
+class FlatSet {
+ public:
+  // Nothing, in a triangle of this (doubled) area.
+  explicit FlatSet(const exact::FT& twice_triangle) : triangle_(twice_triangle), area_(0) {}
+  // The union of faces of one arrangement: their insides are disjoint, and where two share a border they share its corners.
+  FlatSet(const exact::FT& twice_triangle, const std::vector<Face2>& faces);
+
+  bool empty() const { return !faces_; }
+  bool whole() const { return area_ == triangle_; }
+  exact::FT fraction() const { return area_ / triangle_; }  // of the triangle's area
+
+  // The maximal connected faces. O(size).
+  std::vector<Face2> faces() const;
+
+  // Sets of the same triangle. O((n + k) log n) for k crossings of their borders.
+  friend FlatSet unite(const FlatSet& a, const FlatSet& b);
+  friend FlatSet intersect(const FlatSet& a, const FlatSet& b);
+  friend FlatSet subtract(const FlatSet& a, const FlatSet& b);
+
+ private:
+  struct Faces;  // the arrangement
+  template <class Keep>
+  static FlatSet combine(const FlatSet& a, const FlatSet& b, const Keep& keep);
+  void take(std::shared_ptr<Faces> faces);
+
+  std::shared_ptr<const Faces> faces_;  // none: empty
+  exact::FT triangle_, area_;           // doubled
+};
+
+}  // namespace clues::reference

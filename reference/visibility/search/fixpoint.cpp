@@ -1,0 +1,375 @@
+#include "reference/visibility/search/fixpoint.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "reference/visibility/labels/walk.h"
+#include "reference/visibility/search/sources.h"
+#include "reference/visibility/wedges/apex.h"
+#include "reference/visibility/wedges/contour.h"
+#include "reference/visibility/wedges/valid_pieces.h"
+#include "scene/messages/error.h"
+
+namespace clues::reference {
+
+using exact::Point3;
+using exact::Vector3;
+
+namespace {
+
+using Job = PieceMaker::Job;
+
+constexpr int kOtherWalks = 100;  // for the label of an edge piece; then it counts as visible
+
+class Search {
+ public:
+  Search(const exact::SceneQuery& scene, const Options& options, Statistics& statistics)
+      : scene_(scene),
+        complex_(scene.complex()),
+        options_(options),
+        statistics_(statistics),
+        walker_(scene, options.planted_bug != PlantedBug::no_rule_3, options.dials.longest_walk),
+        contours_(contour_edges(complex_, scene.cell())),
+        maker_(scene, contours_, options.planted_bug),
+        cuts_(complex_.edges.size()),
+        wedges_(scene) {
+    for (const ContourEdge& c : contours_) is_contour_.insert(c.edge);
+    if (options.planted_bug == PlantedBug::wrong_wedge_side) {
+      for (ContourEdge& c : contours_) c.plane = c.plane.opposite();
+    }
+  }
+
+  Fixpoint run() {
+    vertex_sources_ = vertex_sources(
+        scene_, walker_, [this](std::uint32_t p) -> const Apex& { return *corner(p); }, statistics_.walks);
+    for (bool changed = true; changed;) {
+      ++statistics_.rounds;
+      changed = round();
+    }
+    count();
+    Fixpoint out{std::move(wedges_), {}, {}, {}};
+    for (const Apex* apex : left_out_) out.left_out.add(apex->x(), scene_.cell());
+    find_lit(out);
+    return out;
+  }
+
+ private:
+  // --- one round ------------------------------------------------------------------------------------------------------------
+
+  bool round() {
+    wedges_ = WedgeSet(scene_);
+    left_out_.clear();
+    csvs_met_.clear();
+    for (auto& [key, apex] : csvs_) apex->start_round();
+    for (auto& [key, apex] : corners_) apex->start_round();
+    new_cuts_.assign(complex_.edges.size(), {});
+    sources_ = edge_sources(scene_, walker_, contours_, cuts_, std::move(sources_), statistics_.walks);
+
+    std::vector<std::size_t> lit;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      if (sources_[i].walk.ends_at_cell || sources_[i].walk.unresolved) lit.push_back(i);
+    }
+    for (VertexSource& s : vertex_sources_) {
+      s.lit = false;
+      if (s.walk.ends_at_cell || s.walk.unresolved) light_vertex(s);
+    }
+    std::vector<Job> waiting = light(lit);
+    while (!waiting.empty()) {
+      report();
+      const std::size_t first = wedges_.pieces().size();
+      wedges_.add(maker_.build(next_batch(waiting)));
+      for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
+      for (VertexSource& s : vertex_sources_) {
+        if (!s.lit && reached(s, first)) light_vertex(s);
+      }
+      const std::vector<Job> jobs = light(newly_lit(first));
+      waiting.insert(waiting.end(), jobs.begin(), jobs.end());
+    }
+
+    // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
+    wedges_ = WedgeSet(scene_);
+    wedges_.add(maker_.build(merged_jobs()));
+    for (const ValidPiece& piece : wedges_.pieces()) {
+      for (const std::uint32_t e : piece.on_wedge->coplanar_edges) cut_coplanar(piece, e);
+    }
+
+    bool changed = false;
+    for (std::size_t e = 0; e < cuts_.size(); ++e) {
+      std::set<Point3, decltype(&before)> all(cuts_[e].begin(), cuts_[e].end(), &before);
+      all.insert(new_cuts_[e].begin(), new_cuts_[e].end());
+      if (all.size() == cuts_[e].size()) continue;
+      cuts_[e].assign(all.begin(), all.end());
+      if (is_contour_.contains(static_cast<std::uint32_t>(e))) changed = true;
+    }
+    return changed;
+  }
+
+  // Whether the pieces from index `first` on make the source visible.
+  bool reached(VertexSource& s, std::size_t first) {
+    Meets label = walker_.visible(start_of(s), s.walk, wedges_, first);
+    for (int attempt = 1; label == Meets::degenerate && !s.separates && attempt < kViews; ++attempt) {
+      if (!look_again(scene_, *corner(s.point), s, attempt)) continue;
+      s.walk = walker_.walk(start_of(s), kSourceSeed);
+      label = walker_.visible(start_of(s), s.walk, wedges_, 0);
+    }
+    s.walk.unresolved |= label == Meets::degenerate;
+    return label != Meets::no;
+  }
+
+  // Takes what is built before the next look at what it lights: all, but for a dial.
+  std::vector<Job> next_batch(std::vector<Job>& waiting) const {
+    const std::size_t most = options_.dials.batch == 0 ? waiting.size() : options_.dials.batch;
+    std::vector<Job> rest;
+    if (most < waiting.size()) {
+      rest.assign(waiting.begin() + static_cast<std::ptrdiff_t>(most), waiting.end());
+      waiting.resize(most);
+    }
+    return std::exchange(waiting, std::move(rest));
+  }
+
+  void light_vertex(VertexSource& s) {
+    s.lit = true;
+    Apex* apex = corner(s.point);
+    s.probe.doubtful = s.walk.unresolved;
+    apex->add_probe(s.probe);
+    touched_.insert(apex);
+  }
+
+  // Hidden sources that the pieces from index `first` on make visible.
+  std::vector<std::size_t> newly_lit(std::size_t first) {
+    std::vector<Meets> label(sources_.size(), Meets::no);
+    tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
+      Source& s = sources_[i];
+      if (s.lit) return;
+      label[i] = walker_.visible(start_of(s, contours_), s.walk, wedges_, first);
+      for (int attempt = 0; label[i] == Meets::degenerate; ++attempt) {  // walk elsewhere, and ask all pieces
+        if (attempt == kOtherWalks) {
+          s.walk.unresolved = true;
+          label[i] = Meets::yes;
+          break;
+        }
+        if (attempt % 4 == 3) ask_elsewhere(s, attempt);
+        s.walk = walker_.walk(start_of(s, contours_), ++s.seed);
+        label[i] = walker_.visible(start_of(s, contours_), s.walk, wedges_, 0);
+      }
+    });
+    std::vector<std::size_t> lit;
+    for (std::size_t i = 0; i < label.size(); ++i) {
+      if (label[i] == Meets::yes) lit.push_back(i);
+    }
+    return lit;
+  }
+
+  // The wedges that newly visible sources make: their own (D10, D11), and those at the corners and CSVs they light (D12).
+  std::vector<Job> light(const std::vector<std::size_t>& lit) {
+    std::vector<Job> jobs;
+    for (const std::size_t i : lit) {
+      Source& s = sources_[i];
+      s.lit = true;
+      const ContourEdge& c = contours_[s.contour];
+      maker_.add_jobs(s.contour, s.lo, s.hi, jobs);
+      const exact::Edge& e = complex_.edges[c.edge];
+      for (const auto& [end, other] : {std::pair(e.a, e.b), std::pair(e.b, e.a)}) {
+        const Point3& x = complex_.points[end];
+        if (s.lo != x && s.hi != x) continue;
+        Apex* apex = corner(end);
+        const Vector3 along = complex_.points[other] - x;
+        Probe probe = apex->probe(along, CGAL::NULL_VECTOR, c.plane.orthogonal_vector());
+        probe.doubtful = s.walk.unresolved;
+        apex->add_probe(probe);
+        touched_.insert(apex);
+      }
+    }
+    std::vector<Apex*> order(touched_.begin(), touched_.end());
+    touched_.clear();
+    std::sort(order.begin(), order.end(), [](const Apex* a, const Apex* b) {
+      if (a->on_edge() != b->on_edge()) return b->on_edge();
+      if (a->id() != b->id()) return a->id() < b->id();
+      return before(a->x(), b->x());
+    });
+    for (Apex* apex : order) {
+      if (apex->on_edge()) csvs_met_.insert(apex);
+    }
+    const exact::Dials& dials = options_.dials;
+    const bool too_many = csvs_met_.size() > dials.csv_limit + dials.csv_limit_per_edge * complex_.edges.size();
+    for (Apex* apex : order) {
+      if (apex->sectors().empty()) continue;
+      if (apex->generation > dials.generation_limit || (too_many && apex->on_edge())) {
+        left_out_.insert(apex);
+        continue;
+      }
+      for (const std::size_t k : apex->new_sectors()) PieceMaker::add_job(*apex, k, jobs);
+    }
+    return jobs;
+  }
+
+  // All wedges of the round, with one job for each maximal visible part of a contour edge.
+  std::vector<Job> merged_jobs() {
+    std::vector<Job> jobs;
+    for (std::size_t i = 0; i < sources_.size();) {
+      std::size_t j = i;
+      while (j < sources_.size() && sources_[j].contour == sources_[i].contour && sources_[j].lit) ++j;
+      if (j > i) maker_.add_jobs(sources_[i].contour, sources_[i].lo, sources_[j - 1].hi, jobs);
+      i = std::max(j, i + 1);
+    }
+    const auto add = [&jobs](Apex& apex) {
+      for (std::size_t k = 0; k < apex.sectors().size(); ++k) {
+        if (apex.sectors()[k].built) PieceMaker::add_job(apex, k, jobs);
+      }
+    };
+    for (auto& [key, apex] : corners_) add(*apex);
+    for (auto& [key, apex] : csvs_) add(*apex);
+    return jobs;
+  }
+
+  // --- CSVs -------------------------------------------------------------------------------------------------------------------
+
+  // The edges and vertices that valid piece i meets: cuts for the next round, and apexes of secondary wedges.
+  void meet_edges(std::size_t i) {
+    const ValidPiece& piece = wedges_.pieces()[i];
+    const OnWedge& on = *piece.on_wedge;
+    for (const Crossing& c : on.crossings) {
+      if (CGAL::orientation(on.center, piece.strip.on_ray0.q, c.at.q) == CGAL::RIGHT_TURN) continue;
+      if (CGAL::orientation(on.center, piece.strip.on_ray1.q, c.at.q) == CGAL::LEFT_TURN) continue;
+      if (!reaches(on, piece.strip, c.at.q)) continue;
+      if (!c.at_vertex) new_cuts_[c.id].push_back(c.at.p);
+      add_csv(piece, c);
+    }
+  }
+
+  void add_csv(const ValidPiece& piece, const Crossing& c) {
+    if (options_.planted_bug == PlantedBug::retested_csv) {
+      const Start start{c.at.p, std::nullopt, nullptr};
+      if (walker_.visible(start, walker_.walk(start, kSourceSeed), wedges_, 0) != Meets::yes) return;
+    }
+    Apex* apex = c.at_vertex ? corner(c.id) : csv(c.id, c.at.p);
+    const int generation = piece.wedge.generation + 1;
+    if (apex->on_edge() && (apex->generation < 0 || generation < apex->generation)) apex->generation = generation;
+    const Point3& x = c.at.p;
+    const Wedge& w = piece.wedge;
+    const Vector3 n = w.plane.orthogonal_vector(), back = w.center - x;
+    // The piece lies on both sides of the ray through x, or on one. aside: counter-clockwise about n, or clockwise.
+    const Vector3 ccw = CGAL::cross_product(n, x - w.center);
+    const OnWedge& on = *piece.on_wedge;
+    const auto add = [&](const Vector3& aside) {
+      Probe probe = apex->probe(back, aside, n);
+      if (apex->on_edge()) {
+        const Vector3 along = complex_.points[complex_.edges[c.id].b] - complex_.points[complex_.edges[c.id].a];
+        probe.lit_edge = CGAL::is_positive(n * along) ? along : -along;
+      }
+      apex->add_probe(probe);
+    };
+    if (CGAL::orientation(on.center, c.at.q, piece.strip.on_ray1.q) == CGAL::LEFT_TURN) add(ccw);
+    if (CGAL::orientation(on.center, piece.strip.on_ray0.q, c.at.q) == CGAL::LEFT_TURN) add(-ccw);
+    touched_.insert(apex);
+  }
+
+  // The outline of a piece that runs over an edge in its plane changes the label along that edge.
+  void cut_coplanar(const ValidPiece& piece, std::uint32_t e) {
+    const Point3 &a = complex_.points[complex_.edges[e].a], &b = complex_.points[complex_.edges[e].b];
+    const OnWedge& on = *piece.on_wedge;
+    const exact::Point2 qa = on.frame(a), qb = on.frame(b);
+    for (const Spot* ray : {&piece.strip.on_ray0, &piece.strip.on_ray1}) {
+      const exact::Vector2 d = ray->q - on.center;
+      const exact::FT at_a = CGAL::determinant(d, qa - on.center), at_b = CGAL::determinant(d, qb - on.center);
+      if (CGAL::sign(at_a) * CGAL::sign(at_b) >= 0) continue;
+      const Point3 x = exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a));
+      if (CGAL::is_positive((on.frame(x) - on.center) * d)) new_cuts_[e].push_back(x);
+    }
+  }
+
+  Apex* csv(std::uint32_t edge, const Point3& x) {
+    auto& slot = csvs_[{edge, x}];
+    if (!slot) slot = std::make_unique<Apex>(Apex::at_edge(complex_, scene_.cell(), edge, x));
+    return slot.get();
+  }
+
+  Apex* corner(std::uint32_t point) {
+    auto& slot = corners_[point];
+    if (!slot) slot = std::make_unique<Apex>(Apex::at_vertex(complex_, scene_.cell(), point));
+    return slot.get();
+  }
+
+  // --- reporting --------------------------------------------------------------------------------------------------------------
+
+  void report() const {
+    if (options_.progress) options_.progress("wedges", statistics_.rounds, wedges_.pieces().size());
+  }
+
+  void count() {
+    statistics_.wedges_built += maker_.wedges_on_edges();
+    const auto built = [this](Apex& apex) {
+      for (const ApexSector& s : apex.sectors()) statistics_.wedges_built += s.on_wedge != nullptr;
+    };
+    for (const auto& [key, apex] : csvs_) built(*apex);
+    for (const auto& [key, apex] : corners_) built(*apex);
+    for (const ValidPiece& p : wedges_.pieces()) {
+      statistics_.sv_me += p.wedge.kind == WedgeKind::sv_me;
+      statistics_.se_me += p.wedge.kind == WedgeKind::se_me;
+      statistics_.se_mv += p.wedge.kind == WedgeKind::se_mv;
+      statistics_.generations = std::max(statistics_.generations, p.wedge.generation);
+      statistics_.inside_corners += p.wedge.kind == WedgeKind::se_mv && p.wedge.generation == 0;
+    }
+    for (const auto& [key, apex] : csvs_)
+      statistics_.csv +=
+          std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
+    for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
+    statistics_.conservative_fallbacks += left_out_.size();
+    // A wedge that only separates makes nothing visible, also where it should not exist.
+    for (const Source& s : sources_)
+      statistics_.conservative_fallbacks += s.walk.unresolved && !contours_[s.contour].holds_cell;
+    for (const VertexSource& s : vertex_sources_)
+      statistics_.conservative_fallbacks += s.walk.unresolved && !s.separates;
+  }
+
+  void find_lit(Fixpoint& out) const {
+    for (const Source& s : sources_) {
+      if (s.lit) out.lit_edges.push_back(contours_[s.contour].edge);
+    }
+    for (const auto& [key, apex] : csvs_) {
+      if (apex->probed()) out.lit_edges.push_back(key.first);
+    }
+    for (const auto& [point, apex] : corners_) {
+      if (apex->probed()) out.lit_points.push_back(point);
+    }
+    std::sort(out.lit_edges.begin(), out.lit_edges.end());
+    out.lit_edges.erase(std::unique(out.lit_edges.begin(), out.lit_edges.end()), out.lit_edges.end());
+  }
+
+  struct CsvLess {
+    bool operator()(const std::pair<std::uint32_t, Point3>& a, const std::pair<std::uint32_t, Point3>& b) const {
+      return a.first != b.first ? a.first < b.first : before(a.second, b.second);
+    }
+  };
+
+  const exact::SceneQuery& scene_;
+  const exact::Complex& complex_;
+  const Options& options_;
+  Statistics& statistics_;
+  Walker walker_;
+  std::vector<ContourEdge> contours_;
+  PieceMaker maker_;
+  std::set<std::uint32_t> is_contour_;
+  std::vector<std::vector<Point3>> cuts_, new_cuts_;  // per edge; cuts_ in lexicographic order
+  std::vector<Source> sources_;
+  std::vector<VertexSource> vertex_sources_;
+  WedgeSet wedges_;
+  std::map<std::pair<std::uint32_t, Point3>, std::unique_ptr<Apex>, CsvLess> csvs_;
+  std::map<std::uint32_t, std::unique_ptr<Apex>> corners_;
+  std::set<Apex*> touched_;
+  std::set<const Apex*> csvs_met_;  // in this round
+  std::set<const Apex*> left_out_;  // by a limit, in this round
+};
+
+}  // namespace
+
+Fixpoint find_wedges(const exact::SceneQuery& scene, const Options& options, Statistics& statistics) {
+  return Search(scene, options, statistics).run();
+}
+
+}  // namespace clues::reference

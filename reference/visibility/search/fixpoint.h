@@ -1,0 +1,28 @@
+// D17, D17a: all valid wedge pieces of a scene and cell.
+//
+// Only valid sources make wedges, and valid wedges make CSVs, which make wedges. Within a round the contour edges are cut at a fixed set
+// of points and the work runs until nothing new appears; every label only ever turns from hidden to visible. At its end the
+// CSVs met become cuts, and the next round starts over with them: a piece of an edge then has one label (D13a). When a round
+// makes no new cut, every label was taken with all event surfaces in place. Wedge geometry and walks are kept between rounds.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "exact/sight/scene_query.h"
+#include "reference/visibility/search/options.h"
+#include "reference/visibility/wedges/anticone.h"
+#include "reference/visibility/wedges/wedge_set.h"
+
+namespace clues::reference {
+
+struct Fixpoint {
+  WedgeSet wedges;
+  LeftOut left_out;  // by the limits of D17
+  // Edges and points of the complex at which a visible source lies or a valid wedge piece arrives.
+  std::vector<std::uint32_t> lit_edges, lit_points;
+};
+
+Fixpoint find_wedges(const exact::SceneQuery& scene, const Options& options, Statistics& statistics);
+
+}  // namespace clues::reference

@@ -1,0 +1,58 @@
+// Processes that work on numbered tasks. A crash or a task without end is theirs and not the caller's, and lazy exact numbers are never shared
+// between threads. For programs that are not ours see validate/processes/child_process.h.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clues::validate {
+
+// What came back for one task.
+struct WorkerReply {
+  std::uint64_t task = 0;
+  bool finished = false;
+  std::string text;  // what the task returned; when not finished: what it threw, or how its process ended
+  int signal = 0;    // that ended its process
+};
+
+class Workers {
+ public:
+  // `work` runs in a child process; what it returns is sent back. It may not write to files or to the standard output. Signals for the whole
+  // group (Ctrl-C) are left to the caller. A process that is lost is replaced. time_for_one: none, or a task is given up after so much processor time of its
+  // process, which does not depend on what else the machine does; or after ten times as much time on the clock, should it wait for something.
+  // Throws scene::Error file_unreadable when no process can be made or read.
+  Workers(int count, std::function<std::string(std::uint64_t task)> work,
+          std::optional<std::chrono::seconds> time_for_one);
+  ~Workers();  // ends them
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  bool idle() const;   // some worker has no task
+  bool empty() const;  // none has one
+  void start(std::uint64_t task);
+  // Waits at most this long for a reply; none when none came or a signal arrived.
+  std::optional<WorkerReply> wait(std::chrono::milliseconds most);
+
+ private:
+  struct Worker;
+  void launch(Worker& worker);
+  WorkerReply lost(Worker& worker, bool late);
+
+  std::function<std::string(std::uint64_t)> work_;
+  std::optional<std::chrono::seconds> time_;
+  std::vector<std::unique_ptr<Worker>> workers_;
+};
+
+// Runs work(0), ..., work(count-1) in `jobs` processes (at least 1) and returns the replies in the order of the tasks. `progress`, if there is
+// one, is called here, after each reply.
+std::vector<WorkerReply> run_in_children(std::size_t count, int jobs,
+                                         const std::function<std::string(std::uint64_t)>& work,
+                                         const std::function<void(std::size_t done)>& progress);
+
+}  // namespace clues::validate
