@@ -179,12 +179,32 @@ const Exact3& Plane::normal_exact() const {
   return keep(exact_, cross(b_->exact() - a_->exact(), c_->exact() - a_->exact()));
 }
 
+namespace {
+
+// Apart from their callers, which are flattened: the compiler would put all of GMP's expressions in line as well, and take
+// minutes and gigabytes where nothing is gained.
+[[gnu::noinline]] int side_exactly(const Plane& h, const ExactPoint& x) {
+  ++exact_decisions();
+  return sign_of(Integer(dot(normal_direction<Integer>(h), direction<Integer>(h.base(), x))));
+}
+
+template <class NT>
+NT determinant(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {
+  return NT(dot(cross(direction<NT>(a, b), direction<NT>(a, c)), direction<NT>(a, d)));
+}
+
+[[gnu::noinline]] int orientation_exactly(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c,
+                                          const ExactPoint& d) {
+  ++exact_decisions();
+  return sign_of(determinant<Integer>(a, b, c, d));
+}
+
+}  // namespace
+
 [[gnu::flatten]] int Plane::side(const ExactPoint& x) const {
   if (&x == a_ || &x == b_ || &x == c_) return 0;
   const int s = filtered_sign(value_approximate(x));
-  if (s != kUnsure) return s;
-  ++exact_decisions();
-  return sign_of(Integer(dot(normal_direction<Integer>(*this), direction<Integer>(*a_, x))));
+  return s != kUnsure ? s : side_exactly(*this, x);
 }
 
 double length_estimate(const Point& v) {
@@ -217,13 +237,8 @@ ExactPoint point_near(const ExactPoint& x, const ExactPoint& to, int level) {
 }
 
 [[gnu::flatten]] int orientation(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, const ExactPoint& d) {
-  const auto det = [&]<class NT>() {
-    return NT(dot(cross(direction<NT>(a, b), direction<NT>(a, c)), direction<NT>(a, d)));
-  };
-  const int s = filtered_sign(det.template operator()<Interval>());
-  if (s != kUnsure) return s;
-  ++exact_decisions();
-  return sign_of(det.template operator()<Integer>());
+  const int s = filtered_sign(determinant<Interval>(a, b, c, d));
+  return s != kUnsure ? s : orientation_exactly(a, b, c, d);
 }
 
 int compare_coordinate(const ExactPoint& a, const ExactPoint& b, int axis) {
