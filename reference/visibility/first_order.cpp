@@ -105,24 +105,6 @@ VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exa
   return Omega(complex, cell, options, wanted).take_map();
 }
 
-void find_visible(const exact::SceneQuery& scene, VisibilityMap& map) {
-  std::vector<bool> visible(map.complex.input_triangles, false);
-  for (const Region& r : map.regions) {
-    if (!r.visible) continue;
-    for (const exact::Origin& o : map.complex.pieces[r.piece].origins) {
-      if (counts(map.mode, o, r.front)) visible[o.triangle] = true;
-    }
-  }
-  for (std::uint32_t t = 0; t < map.complex.pieces.size(); ++t) {
-    if (!scene.meets_cell(t)) continue;
-    for (const exact::Origin& o : map.complex.pieces[t].origins) visible[o.triangle] = true;
-  }
-  map.visible.clear();
-  for (std::uint32_t t = 0; t < visible.size(); ++t) {
-    if (visible[t]) map.visible.push_back(t);
-  }
-}
-
 scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, bool with_map, bool with_render_states) {
   scene::Result result;
   result.scene_triangles = map.complex.input_triangles;

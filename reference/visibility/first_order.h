@@ -7,7 +7,6 @@
 
 #include "exact/cell/convex_cell.h"
 #include "exact/complex/complex.h"
-#include "exact/sight/scene_query.h"
 #include "reference/visibility/map/visibility_map.h"
 #include "reference/visibility/search/options.h"
 #include "scene/cell_spec.h"
@@ -28,9 +27,6 @@ VisibilityMap moved_back(VisibilityMap map);
 // also where it is outside the part (D21). Regions only of the sides wanted (per side_index; empty: all); the mode is not checked against the mesh.
 VisibilityMap first_order_visibility_in(const exact::Complex& complex, const exact::ConvexCell& cell,
                                         const Options& options, const std::vector<bool>& wanted = {});
-
-// D15: the PVS by the map's regions. D3: a triangle that meets the cell is visible.
-void find_visible(const exact::SceneQuery& scene, VisibilityMap& map);
 
 // The result file's contents, in the coordinates of the scene; scene_file and scene_sha256 are left to the
 // caller. with_map adds regions, segments and wedges.

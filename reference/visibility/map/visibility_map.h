@@ -9,6 +9,7 @@
 #include "exact/cell/standard_range.h"
 #include "exact/complex/complex.h"
 #include "exact/kernel.h"
+#include "exact/sight/scene_query.h"
 #include "reference/visibility/search/options.h"
 #include "reference/visibility/wedges/wedge.h"
 
@@ -49,5 +50,8 @@ struct VisibilityMap {
 
 // The sides of the pieces of a complex, numbered.
 inline std::size_t side_index(std::uint32_t piece, bool front) { return 2 * std::size_t{piece} + (front ? 0 : 1); }
+
+// D15: the PVS by the map's regions. D3: a triangle that meets the cell is visible.
+void find_visible(const exact::SceneQuery& scene, VisibilityMap& map);
 
 }  // namespace clues::reference
