@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/error.h"
 #include "validate/conform/grade.h"
 #include "validate/conform/program_subject.h"
 
@@ -131,6 +132,45 @@ TEST(Protocol, WhatIsNoStartReplyIsAnError) {
 TEST(SplitCommand, FollowsTheShell) {
   EXPECT_THAT(split_command("python3 'my adapter.py' --x=\"a b\" c\\ d"),
               ElementsAre("python3", "my adapter.py", "--x=a b", "c d"));
+}
+
+TEST(SplitCommand, PlaceholdersNeedNoQuotes) {
+  EXPECT_THAT(split_command("./bake {scene} {cell} -o {pvs}"),
+              ElementsAre("./bake", "{scene}", "{cell}", "-o", "{pvs}"));
+  EXPECT_THAT(split_command("bake --in={scene} '{cell}' \"{pvs}\" \\{mode\\}"),
+              ElementsAre("bake", "--in={scene}", "{cell}", "{pvs}", "{mode}"));
+  EXPECT_THAT(split_command("sh -c ': > {pvs}'"), ElementsAre("sh", "-c", ": > {pvs}"));
+  setenv("CLUES_TEST_WORD", "a word", 1);
+  EXPECT_THAT(split_command("x \"${CLUES_TEST_WORD}\" ${CLUES_TEST_WORD}{pvs}"),
+              ElementsAre("x", "a word", "a", "word{pvs}"));
+}
+
+TEST(SplitCommand, SaysWhatIsNoCommandAndWhy) {
+  for (const auto& [command, says] :
+       std::vector<std::pair<std::string, std::string>>{{"bake {scene} | sort", "put pipes"},
+                                                        {"bake {scene} > {pvs}", "put pipes"},
+                                                        {"bake; rm x", "put pipes"},
+                                                        {"bake & ", "put pipes"},
+                                                        {"bake (x)", "put pipes"},
+                                                        {"bake\nrm x", "put pipes"},
+                                                        {"bake $(ls)", "command substitutions"},
+                                                        {"bake `ls`", "command substitutions"},
+                                                        {"bake $CLUES_NO_SUCH_VARIABLE", "not set"},
+                                                        {"bake ${CLUES_NO_SUCH_VARIABLE}", "not set"},
+                                                        {"bake 'x", "not closed"},
+                                                        {"bake \"{scene}", "not closed"},
+                                                        {"bake ${HOME", "not closed"},
+                                                        {"bake \\", ""},
+                                                        {"", "no word"},
+                                                        {"  ", "no word"}}) {
+    try {
+      const auto words = split_command(command);
+      EXPECT_EQ(says, "") << command;
+    } catch (const scene::Error& error) {
+      EXPECT_EQ(error.code(), scene::ErrorCode::bad_argument);
+      EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("': not a command: "), testing::HasSubstr(says)));
+    }
+  }
 }
 
 TEST(Float32, IsExactOnlyWithoutRounding) {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <optional>
 
 #include "scene/messages/error.h"
@@ -213,6 +214,48 @@ class Block {
   std::unique_ptr<Conversation> conversation_;  // that may be asked on
 };
 
+// A brace outside of quotes is a letter like others, as it is to a shell in the middle of a word: of {scene}, not of ${HOME}.
+std::string with_plain_braces(const std::string& command) {
+  std::string out;
+  char quote = 0;
+  for (std::size_t i = 0; i < command.size(); ++i) {
+    const char c = command[i];
+    if (c == '\\' && quote != '\'' && i + 1 < command.size()) {
+      out += c;
+      out += command[++i];
+    } else if (quote == 0 && command.compare(i, 2, "${") == 0) {
+      const std::size_t end = std::min(command.find('}', i), command.size() - 1);
+      out += command.substr(i, end + 1 - i);
+      i = end;
+    } else {
+      if (quote == 0 && (c == '{' || c == '}')) out += '\\';
+      out += c;
+      if (c == quote) {
+        quote = 0;
+      } else if (quote == 0 && (c == '\'' || c == '"')) {
+        quote = c;
+      }
+    }
+  }
+  return out;
+}
+
+const char* flaw_of_words(int status) {
+  switch (status) {
+    case WRDE_BADCHAR:
+      return "no shell runs it, so put pipes, redirections and whatever else needs | & ; < > ( ) or a new line into a "
+             "script, or quote them";
+    case WRDE_CMDSUB:
+      return "no shell runs it, so put command substitutions into a script, or quote them";
+    case WRDE_BADVAL:
+      return "it names a variable that is not set";
+    case WRDE_SYNTAX:
+      return "a quote or brace is not closed";
+    default:
+      return "there is no word in it";
+  }
+}
+
 }  // namespace
 
 ProgramSubject::ProgramSubject(std::vector<std::string> words, const ProgramLimits& limits)
@@ -247,15 +290,15 @@ std::vector<Answer> ProgramSubject::answer(std::span<const VectorCase* const> ca
 
 std::vector<std::string> split_command(const std::string& command) {
   wordexp_t expanded{};
-  const int status = wordexp(command.c_str(), &expanded, WRDE_NOCMD | WRDE_UNDEF);
+  const int status = wordexp(with_plain_braces(command).c_str(), &expanded, WRDE_NOCMD | WRDE_UNDEF);
   std::vector<std::string> words;
   if (status == 0) words.assign(expanded.we_wordv, expanded.we_wordv + expanded.we_wordc);
   if (status == 0 || status == WRDE_NOSPACE) wordfree(&expanded);
+  if (status == WRDE_NOSPACE) throw std::bad_alloc();
   if (words.empty()) {
     throw scene::Error(scene::ErrorCode::bad_argument,
-                       "'" + command +
-                           "': not a command; give a program and its arguments, quoted as for the shell. "
-                           "Pipes, redirections and the like go into a script");
+                       "'" + command + "': not a command: " + flaw_of_words(status) +
+                           "; give a program and its arguments, quoted as for the shell");
   }
   return words;
 }

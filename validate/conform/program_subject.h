@@ -31,7 +31,7 @@ class ProgramSubject : public Subject {
   Implementation about_;
 };
 
-// Words of a command line, by the rules of the shell, with its variables and quotes. Throws scene::Error bad_argument.
+// Words of a command line, by the rules of the shell, with its variables and quotes; {scene} is a word like others. Throws scene::Error bad_argument.
 std::vector<std::string> split_command(const std::string& command);
 
 // Whether all coordinates of the case are single-precision numbers.
