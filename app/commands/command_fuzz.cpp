@@ -17,6 +17,7 @@
 #include "fuzz/oracles/oracle.h"
 #include "fuzz/shrinking/finding_folder.h"
 #include "fuzz/shrinking/promote.h"
+#include "scene/duration.h"
 #include "scene/messages/error.h"
 #include "scene/messages/printable.h"
 
@@ -44,15 +45,18 @@ struct FuzzRequest {
   fuzz::CampaignOptions options;
   std::string subject = "reference";
   std::vector<std::string> scenes;
-  std::uint64_t cases = 0, seconds = 0;
+  std::uint64_t cases = 0;
+  std::string time;
   bool no_dials = false;
 };
+
+constexpr const char* usual_time = "60";
 
 int run_fuzz(FuzzRequest& request) {
   auto& options = request.options;
   if (request.cases > 0) options.cases = request.cases;
-  if (request.seconds > 0) options.time = std::chrono::seconds(request.seconds);
-  if (!options.cases && !options.time) options.time = std::chrono::seconds(60);
+  if (request.time.empty() && !options.cases) request.time = usual_time;
+  if (!request.time.empty()) options.time = scene::parse_duration("--time", request.time);
   options.dials = !request.no_dials;
   const auto subject = fuzz::make_subject(request.subject);
   options.given = fuzz::read_given_scenes(request.scenes);
@@ -76,9 +80,9 @@ int run_fuzz(FuzzRequest& request) {
 }
 
 struct FolderRequest {
-  std::string folder, subject, suite, id;
+  std::string folder, subject, suite, id, time = usual_time;
   bool run_subject = false;
-  std::uint64_t steps = fuzz::ShrinkLimits{}.steps, seconds = 60;
+  std::uint64_t steps = fuzz::ShrinkLimits{}.steps;
 };
 
 // The user's, or the finding's. A command line that a file names is shown, and run only where the user asked for that.
@@ -122,12 +126,13 @@ int run_replay(const FolderRequest& request) {
 }
 
 int run_shrink(const FolderRequest& request) {
+  const auto time = scene::parse_duration("--time", request.time);
   auto saved = fuzz::load_finding(request.folder);
   const auto subject = subject_of(request, saved);
   const std::string flaw = flaw_now(saved.finding, *subject);
   if (!flaw.empty()) throw Error(ErrorCode::bad_argument, request.folder + ": there is nothing to shrink: " + flaw);
   const auto before = saved.finding.where.mesh.triangles.size();
-  const auto shrunk = fuzz::shrink(saved.finding, *subject, {request.steps, std::chrono::seconds(request.seconds)});
+  const auto shrunk = fuzz::shrink(saved.finding, *subject, {request.steps, time});
   saved.finding = shrunk.finding;
   saved.steps += shrunk.steps;
   saved.subject = subject->name();
@@ -168,17 +173,17 @@ std::string fuzz_footer() {
   for (const auto& o : fuzz::all_oracles()) text += fmt::format("  {:<22} {}\n", o->name(), o->what());
   return text +
          "\nEXAMPLES\n"
-         "  clues fuzz --time 600 --jobs 2 --out fuzz-out\n"
-         "  clues fuzz --subject './bake {scene} {cell} -o {pvs}' --seed 7 --cases 1000 --errors 5\n"
-         "  clues fuzz --generator axis_boxes --oracle sight-lines --cases 200\n"
-         "  clues fuzz --generator umbrellas:1 --cases 50            # gaps of one ulp only\n"
-         "  clues fuzz --scenes vectors --scenes meshes --time 600\n"
+         "  clues fuzz --time 10m --jobs 2 --out fuzz-out\n"
+         "  clues fuzz --subject './bake {scene} {cell} -o {pvs}' --seed 7 --cases 1000 --errors 5 --out fuzz-bake\n"
+         "  clues fuzz --generator axis_boxes --oracle sight-lines --cases 50 --out fuzz-boxes\n"
+         "  clues fuzz --generator umbrellas:1 --cases 50 --out fuzz-gaps            # gaps of one ulp only\n"
+         "  clues fuzz --scenes vectors --scenes meshes --time 10m --out fuzz-scenes\n"
          "\nFILES\n"
          "  DIR/findings.sqlite, and a folder for each finding (docs/fuzzing.md)\n"
          "\nEXIT CODES\n"
          "  0 no finding   1 findings   2 bad usage or input   3 interrupted, or vacuous: something that the campaign "
          "must meet\n"
-         "  never occurred   4 an oracle contradicted itself";
+         "  never occurred (asked of long campaigns, or with --require-coverage)   4 an oracle contradicted itself";
 }
 
 void add_subject(CLI::App& command, std::string& subject, const char* help) {
@@ -202,11 +207,10 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   fuzz->add_option("--first", options.first, "Number of the first scene of each generator (default 0)")->type_name("N");
   fuzz->add_option("--cases", request->cases, "Cases in all, those of earlier runs in DIR included")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
-  fuzz->add_option("--time", request->seconds,
-                   "Seconds for new cases (default 60 without --cases); shrinking comes on top")
-      ->type_name("T")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000}));
+  fuzz->add_option("--time", request->time,
+                   "For new cases: 90 or 90s, 10m, 2h (default 60 without --cases); shrinking comes on top")
+      ->type_name("T");
   fuzz->add_option("--jobs", options.jobs, "Processes that work at once (default 1)")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
@@ -221,6 +225,8 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   fuzz->add_option("--oracle", options.oracles, "Only this oracle; may be repeated")->type_name("NAME");
   fuzz->add_option("--errors", options.errors, "Stop at this many different findings; 0: never (default)")
       ->type_name("N");
+  fuzz->add_flag("--require-coverage", options.require_coverage,
+                 "Exit with 3 where something that the campaign must meet never occurred, however short it was");
   fuzz->add_option("--out", options.out, "Folder of the campaign (default fuzz-out)")->type_name("DIR");
   fuzz->footer(fuzz_footer());
   fuzz->callback([request, &status] { status = run_fuzz(*request); });
@@ -245,9 +251,10 @@ void add_fuzz_commands(CLI::App& program, int& status) {
       "  With --promote, what is visible and hidden in the new case is proved as `clues lint` does; where that fails\n"
       "  the suite stays as it was.\n"
       "\nEXAMPLES\n"
-      "  clues replay fuzz-out/sight-lines-hidden-visible-axis_boxes\n"
+      "  clues replay fuzz-bake/sight-lines-hidden-visible-axis_boxes --run-subject\n"
       "  clues replay received-finding --subject './bake {scene} {cell} -o {pvs}'\n"
-      "  clues replay fuzz-out/sight-lines-hidden-visible-axis_boxes --promote vectors --id gap-beside-a-box\n"
+      "  clues replay fuzz-bake/sight-lines-hidden-visible-axis_boxes --run-subject --promote vectors --id "
+      "gap-beside-a-box\n"
       "\nEXIT CODES\n"
       "  0 the subject no longer fails   1 reproduced   2 bad usage or input, or the finding was changed\n"
       "  3 the subject gives no answer");
@@ -261,14 +268,14 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   add_subject(*shrink, folder->subject, "Ask this subject instead of the one that the finding names");
   add_run_subject(*shrink, folder->run_subject);
   shrink->add_option("--max-steps", folder->steps, "Scenes put to the subject at most (default 600)")->type_name("N");
-  shrink->add_option("--time", folder->seconds, "Seconds at most (default 60)")->type_name("T");
+  shrink->add_option("--time", folder->time, "At most: 90 or 90s, 10m, 2h (default 60)")->type_name("T");
   shrink->footer(
       "DESCRIPTION\n"
       "  Fewer triangles, fewer points of the cell, shorter coordinates; the same oracle and verdict throughout, with "
       "a new\n"
       "  witness at every step. Deterministic unless the time ends it.\n"
       "\nEXAMPLES\n"
-      "  clues shrink fuzz-out/sight-lines-hidden-visible-axis_boxes --max-steps 2000 --time 600\n"
+      "  clues shrink fuzz-bake/sight-lines-hidden-visible-axis_boxes --run-subject --max-steps 2000 --time 10m\n"
       "\nEXIT CODES\n"
       "  0 fine   2 bad usage or input, or the finding no longer shows itself");
   shrink->callback([folder, &status] { status = run_shrink(*folder); });

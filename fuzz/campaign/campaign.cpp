@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -24,6 +25,8 @@ using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds look_up{200};
+// In so many cases what a campaign must meet comes up, dials included.
+constexpr std::uint64_t rounds_to_judge = 4, least_to_judge = 100;
 
 std::string plan_of(const CampaignOptions& options, const std::vector<NamedGenerator>& generators,
                     const std::vector<const Oracle*>& oracles, const Subject& subject) {
@@ -60,6 +63,9 @@ class Campaign {
     summary.findings = store_.findings();
     summary.contradictions = store_.contradictions();
     summary.never_occurred = never_occurred(summary.counters);
+    summary.generators = generators_.size();
+    summary.enough = std::max(rounds_to_judge * generators_.size(), least_to_judge);
+    summary.judged = options_.require_coverage || summary.cases >= summary.enough;
     return summary;
   }
 
@@ -135,7 +141,7 @@ class Campaign {
     if (open.empty()) return;
     validate::Workers workers(
         options_.jobs, [&](std::uint64_t i) { return shrunk_text(open[i].finding); },
-        2 * options_.shrink.time + options_.time_for_one);
+        std::chrono::ceil<std::chrono::seconds>(2 * options_.shrink.time) + options_.time_for_one);
     std::map<std::uint64_t, validate::WorkerReply> replies;
     for (std::uint64_t next = 0; replies.size() < open.size() && !stopped();) {
       while (workers.idle() && next < open.size()) workers.start(next++);
@@ -224,12 +230,31 @@ class Campaign {
 int CampaignSummary::exit_code() const {
   if (!contradictions.empty()) return 4;
   if (!findings.empty()) return 1;
-  return interrupted || !never_occurred.empty() ? 3 : 0;
+  return interrupted || (judged && !never_occurred.empty()) ? 3 : 0;
 }
 
 CampaignSummary run_campaign(const CampaignOptions& options, const Subject& subject) {
   return Campaign(options, subject).run();
 }
+
+namespace {
+
+// What a run says that is too short to be judged.
+std::string short_line(const CampaignSummary& s) {
+  const std::size_t count = s.findings.size();
+  const std::string found =
+      count == 0 ? "nothing found yet" : fmt::format("{} finding{}", count, count == 1 ? "" : "s");
+  std::string more = fmt::format("go on to --cases {}", s.enough);
+  if (s.cases_now > 0) {
+    const double left = static_cast<double>(s.enough - s.cases) * s.seconds_now / static_cast<double>(s.cases_now);
+    more = fmt::format("run {:.0f} min or more", std::max(1.0, std::ceil(left / 60)));
+  }
+  return fmt::format("{} case{} of {} generator{} {}; {}; {} to be told what was covered{}\n", s.cases,
+                     s.cases == 1 ? "" : "s", s.generators, s.generators == 1 ? "'s" : "s'", s.enough, found, more,
+                     s.interrupted ? "; interrupted: the same command goes on" : "");
+}
+
+}  // namespace
 
 std::string to_text(const CampaignSummary& s, const fs::path& out) {
   std::string text;
@@ -247,6 +272,7 @@ std::string to_text(const CampaignSummary& s, const fs::path& out) {
                      : "  not shrunk yet: run the same command again\n";
   }
   for (const auto& c : s.contradictions) text += "CONTRADICTION " + scene::printable(c) + "\n";
+  if (!s.judged) return text + short_line(s);
   for (const auto& [name, value] : s.counters) text += fmt::format("{:>14}  {}\n", value, scene::printable(name));
   for (const auto& name : s.never_occurred) text += "NEVER OCCURRED: " + scene::printable(name) + "\n";
   text += fmt::format("{} cases, {} of them in this run; {} different findings{}\n", s.cases, s.cases_now,

@@ -21,9 +21,9 @@ struct CampaignOptions {
   std::uint64_t seed = 1, first = 0;
   std::vector<std::string> generators, oracles;  // empty: all
   GivenScenes given;
-  bool dials = false;                        // turn dials in half of the cases (dials.h)
-  std::optional<std::uint64_t> cases;        // in all, those of earlier runs included
-  std::optional<std::chrono::seconds> time;  // of this run, before shrinking
+  bool dials = false;                             // turn dials in half of the cases (dials.h)
+  std::optional<std::uint64_t> cases;             // in all, those of earlier runs included
+  std::optional<std::chrono::milliseconds> time;  // of this run, before shrinking
   int jobs = 1;
   std::uint64_t errors = 0;  // stop at so many different findings; 0: never
   std::filesystem::path out = "fuzz-out";
@@ -31,18 +31,22 @@ struct CampaignOptions {
   std::uint64_t block = 16;  // cases committed together
   std::chrono::seconds time_for_one{300};
   std::function<void(const std::string& stage, std::uint64_t done, std::uint64_t total)> progress;
+  bool require_coverage = false;            // a campaign that is too short to be judged is vacuous too
   const std::atomic<bool>* stop = nullptr;  // set by a signal: finish what is begun, commit, leave
 };
 
 struct CampaignSummary {
   std::string subject;
   std::uint64_t cases = 0, cases_now = 0;  // in all; in this run
+  std::size_t generators = 0;
+  std::uint64_t enough = 0;  // so many cases, and the campaign is judged by what never occurred
+  bool judged = false;       // it has them, or was asked to be judged all the same
   double seconds_now = 0;
   bool interrupted = false;
   Counters counters;
   std::vector<StoredFinding> findings;
   std::vector<std::string> contradictions;
-  std::vector<std::string> never_occurred;  // not empty: the campaign is vacuous
+  std::vector<std::string> never_occurred;  // not empty: the campaign is vacuous, if it is judged
 
   // 0 none, 1 findings, 3 vacuous or interrupted, 4 contradictions.
   int exit_code() const;

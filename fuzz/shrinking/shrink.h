@@ -13,7 +13,7 @@ namespace clues::fuzz {
 
 struct ShrinkLimits {
   std::uint64_t steps = 600;  // scenes put to the subject
-  std::chrono::seconds time{60};
+  std::chrono::milliseconds time{60000};
 };
 
 struct Shrunk {

@@ -1,6 +1,8 @@
 // clues fuzz, replay and shrink as a user runs them: exit codes, no progress in a pipe, and findings that stand on their own.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "program.h"
 
 namespace clues::tests {
@@ -65,9 +67,29 @@ TEST(FuzzCommand, PromotesAFindingToACaseOfASuite) {
 
 TEST(FuzzCommand, SaysWhatNeverOccurred) {
   const TestFolder folder;
-  const Ran ran = run_clues({"fuzz", "--cases", "1", "--out", folder.file("out")}, folder.path());
+  const std::vector<std::string> command{"fuzz", "--cases", "1", "--out", folder.file("out")};
+  const Ran brief = run_clues(command, folder.path());
+  EXPECT_EQ(brief.exit_code, 0) << brief.out << brief.err;
+  EXPECT_TRUE(brief.out.starts_with("1 case of ")) << brief.out;
+  EXPECT_NE(brief.out.find("; nothing found yet; run "), std::string::npos) << brief.out;
+  EXPECT_EQ(std::count(brief.out.begin(), brief.out.end(), '\n'), 1) << brief.out;
+  auto strict = command;
+  strict.emplace_back("--require-coverage");
+  const Ran ran = run_clues(strict, folder.path());
   EXPECT_EQ(ran.exit_code, 3) << ran.out << ran.err;
   EXPECT_NE(ran.out.find("NEVER OCCURRED: cases of axis_boxes"), std::string::npos) << ran.out;
+}
+
+// As the help says it, without a shell of its own around the command.
+TEST(FuzzCommand, TakesPlaceholdersAsTheyAre) {
+  const TestFolder folder;
+  folder.write("bake", "#!/bin/sh\nseq 0 $(( $(sed -n 2p \"$1\" | cut -d' ' -f2) - 1 )) > \"$4\"\n");
+  std::filesystem::permissions(folder.file("bake"), std::filesystem::perms::owner_all);
+  const Ran ran = run_clues({"fuzz", "--subject", "./bake {scene} {cell} -o {pvs}", "--generator", "loose_triangles",
+                             "--cases", "2", "--time", "10m"},
+                            folder.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+  EXPECT_TRUE(ran.out.starts_with("2 cases of 1 generator's 100; nothing found yet; ")) << ran.out;
 }
 
 TEST(FuzzCommand, BadUsage) {
@@ -78,6 +100,9 @@ TEST(FuzzCommand, BadUsage) {
            {"fuzz", "--oracle", "none", "--cases", "1", "--out", out},
            {"fuzz", "--subject", "reference:none", "--cases", "1", "--out", out},
            {"fuzz", "--cases", "0", "--out", out},
+           {"fuzz", "--time", "20x", "--out", out},
+           {"fuzz", "--time", "0", "--out", out},
+           {"fuzz", "--subject", "bake {scene} | sort", "--cases", "1", "--out", out},
            {"fuzz", "--jobs", "0", "--out", out},
            {"fuzz", "--cases", "1", "--out", "/proc/nowhere"},
            {"fuzz", "--generator", "umbrellas:8", "--cases", "1", "--out", out},
@@ -88,6 +113,7 @@ TEST(FuzzCommand, BadUsage) {
     const Ran ran = run_clues(words, folder.path());
     EXPECT_EQ(ran.exit_code, 2) << words[1] << " " << words.back();
     EXPECT_FALSE(ran.err.empty());
+    EXPECT_LT(ran.err.size(), 300U) << ran.err;
   }
   EXPECT_EQ(run_clues({"fuzz", "--help"}, folder.path()).exit_code, 0);
 }

@@ -1,5 +1,6 @@
 // Tests of the fuzzer itself: each planted defect is found within a fixed number of cases and shrunk; a campaign that is interrupted, continued or run by more jobs finds
 // the same; what was saved is verified again, and refused when it was changed.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -135,9 +136,38 @@ TEST(Campaign, WhatNeverOccurredIsSaid) {
   const scene::TemporaryFolder folder;
   auto options = options_for(folder.path() / "out", 1);  // five generators of six never come
   const auto subject = make_subject("reference");
+  options.require_coverage = true;
   const CampaignSummary summary = run_campaign(options, *subject);
   EXPECT_EQ(summary.exit_code(), 3);
   EXPECT_FALSE(summary.never_occurred.empty());
+}
+
+TEST(Campaign, IsJudgedByWhatNeverOccurredOnceItIsLongEnough) {
+  CampaignSummary summary;
+  summary.generators = 25;
+  summary.enough = 100;
+  summary.cases = summary.cases_now = 24;
+  summary.seconds_now = 55;
+  summary.never_occurred = {"wedges SE-ME"};
+  EXPECT_EQ(summary.exit_code(), 0);
+  EXPECT_EQ(to_text(summary, "out"),
+            "24 cases of 25 generators' 100; nothing found yet; run 3 min or more to be told what was covered\n");
+  summary.cases_now = 0;
+  summary.findings.resize(1);
+  EXPECT_EQ(summary.exit_code(), 1);
+  EXPECT_THAT(to_text(summary, "out"),
+              testing::EndsWith(
+                  "24 cases of 25 generators' 100; 1 finding; go on to --cases 100 to be told what was covered\n"));
+  summary.findings.clear();
+  summary.interrupted = true;
+  EXPECT_EQ(summary.exit_code(), 3);
+  EXPECT_THAT(to_text(summary, "out"), testing::EndsWith("; interrupted: the same command goes on\n"));
+  summary.interrupted = false;
+  summary.judged = true;
+  EXPECT_EQ(summary.exit_code(), 3);
+  EXPECT_THAT(to_text(summary, "out"), testing::HasSubstr("NEVER OCCURRED: wedges SE-ME\n"));
+  summary.never_occurred.clear();
+  EXPECT_EQ(summary.exit_code(), 0);
 }
 
 class Crashes : public Subject {
