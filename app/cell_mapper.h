@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/common.h"
+#include "app/json_output.h"
 #include "app/simplify_choice.h"
 #include "app/umbra_output.h"
 #include "reference/visibility/first_order.h"
@@ -17,7 +18,8 @@ namespace clues::app {
 
 struct MapRequest {
   std::string scene, cell, cells, out, overlap_graph;
-  bool with_map = false, with_states = false, json = false, resume = false;
+  bool with_map = false, with_states = false, resume = false;
+  JsonOutput json;
   MethodOptions method;
   std::string asked_method;  // as the user wrote it
   RefineChoice refine;
@@ -28,7 +30,8 @@ struct MapRequest {
 
 struct MappedCell {
   std::string name;
-  std::string bytes;          // what goes into the file
+  std::string json;           // the result
+  std::string list;           // the plain list, where the file is one
   std::string summary;        // one line of the table, and one more of what simplification did
   std::string overlap_graph;  // GraphViz, where it was asked for
   std::string umbra_bytes, umbra_summary;
@@ -48,9 +51,9 @@ class CellMapper {
 
 bool wants_plain_list(const std::filesystem::path& out);  // *.pvs, *.txt
 
-// The bytes of the result file: JSON, or a plain list where the output is named like one.
-std::string bytes_of(scene::Result result, const MapRequest& request, const std::string& sha256,
-                     const std::optional<scene::Simplification>& simplification = {});
+// Sets `json` and `list`.
+void put_result(MappedCell& cell, scene::Result result, const MapRequest& request, const std::string& sha256,
+                const std::optional<scene::Simplification>& simplification = {});
 
 // Both keep references to mesh and request. The fast one refuses what only the exact one can do (Error unsupported).
 std::unique_ptr<CellMapper> exact_mapper(const scene::TriangleMesh& mesh, const std::string& sha256,

@@ -129,9 +129,9 @@ void RefineChoice::check_retract(validate::Refinement wanted) const {
     throw Error(ErrorCode::bad_argument, "--retract is about backprojection; add --refine backprojection or both");
 }
 
-void print(const std::string& text) {
+void print(const std::string& text, std::FILE* to) {
   const auto shown = scene::printable_lines(text);
-  std::fwrite(shown.data(), 1, shown.size(), stdout);
+  std::fwrite(shown.data(), 1, shown.size(), to);
 }
 
 void require_writable_parent(const std::filesystem::path& path) {

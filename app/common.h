@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -42,8 +43,8 @@ struct RefineChoice {
 // The two paragraphs about SPEC and exit codes that every footer needs.
 extern const char* const cell_help;
 
-// Text for a person, on standard output: with nothing in it that a terminal would obey, wherever it came from (scene/messages/printable.h).
-void print(const std::string& text);
+// Text for a person: with nothing in it that a terminal would obey, wherever it came from (scene/messages/printable.h).
+void print(const std::string& text, std::FILE* to = stdout);
 
 // Throws Error file_unwritable now, and not after an hour, when a file could not be made at `path`.
 void require_writable_parent(const std::filesystem::path& path);

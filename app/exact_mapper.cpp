@@ -58,13 +58,13 @@ class ExactMapper : public CellMapper {
   MappedCell mapped(const reference::VisibilityMap& map, const scene::CellSpec& spec,
                     const std::optional<scene::Simplification>& simplification = {},
                     const std::string& about_simplification = "") const {
-    return {spec.name,
-            bytes_of(reference::to_result(map, spec, request_.with_map, request_.with_states), request_, sha256_,
-                     simplification),
-            table_line(spec.name, map) + about_simplification,
-            request_.overlap_graph.empty() ? "" : overlap_graph_of(map),
-            "",
-            ""};
+    MappedCell out;
+    out.name = spec.name;
+    put_result(out, reference::to_result(map, spec, request_.with_map, request_.with_states), request_, sha256_,
+               simplification);
+    out.summary = table_line(spec.name, map) + about_simplification;
+    if (!request_.overlap_graph.empty()) out.overlap_graph = overlap_graph_of(map);
+    return out;
   }
   MappedCell simplified(const reference::VisibilityMap& map, const scene::CellSpec& spec, int threads) const {
     if (!request_.simplify.asked()) return mapped(map, spec);

@@ -37,7 +37,7 @@ class FastMapper : public CellMapper {
     mapped.summary =
         fmt::format("{:>9}  {:>7}  {:>9}  {:>6}  {:>9}  {}\n", triangles, found.visible.size(),
                     triangles - found.visible.size(), found.part.size(), found.conservative_fallbacks, cell.name);
-    mapped.bytes = bytes_of(to_result(found, cell), request_, sha256_);
+    put_result(mapped, to_result(found, cell), request_, sha256_);
     return mapped;
   }
   const char* table_head() const override {
@@ -76,7 +76,7 @@ class FastMapper : public CellMapper {
       put(fmt::format("refinement_step_{:02}_parts", i), found.depths[i].parts);
       put(fmt::format("refinement_step_{:02}_visible", i), found.depths[i].visible);
     }
-    mapped.bytes = bytes_of(std::move(result), request_, sha256_);
+    put_result(mapped, std::move(result), request_, sha256_);
     return mapped;
   }
 

@@ -2,6 +2,7 @@
 #include <gmp.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -9,8 +10,11 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "app/commands.h"
+#include "app/json_output.h"
 #include "scene/messages/error.h"
 #include "scene/messages/printable.h"
 #include "scene/messages/warning.h"
@@ -38,6 +42,18 @@ EXIT CODES
 int fail(const std::string& message, int code) {
   std::fprintf(stderr, "clues: error: %s\n", scene::printable(message).c_str());
   return code;
+}
+
+// What there is, for who typed `clues` alone.
+int list_commands(const CLI::App& program) {
+  std::string text = "usage: clues COMMAND ...\n\n";
+  for (const auto* command : program.get_subcommands({})) {
+    const std::string name = command->get_name();
+    text += "  " + name + std::string(std::max<std::size_t>(12, name.size() + 2) - name.size(), ' ') +
+            command->get_description() + "\n";
+  }
+  std::fprintf(stderr, "%s\n`clues COMMAND --help` explains each command, with examples.\n", text.c_str());
+  return fail("no command; give one of these", clues::app::bad_usage);
 }
 
 // GMP would abort, and an exception must not pass through its frames. Files are written as a whole or not at all, so leaving at once is safe.
@@ -99,13 +115,17 @@ int main(int argc, char** argv) {
   app::add_fuzz_commands(program, status);
   app::add_report_command(program, status);
   app::add_demo_command(program, status);
+  if (argc <= 1) return list_commands(program);
+  std::vector<std::string> words(argv + 1, argv + argc);
   try {
-    program.parse(argc, argv);
+    words = app::with_json_joined(program, std::move(words));
+    program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail("cannot write to standard output", app::bad_usage);
     return status;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return program.exit(e);  // --help, --version
-    return fail(std::string(e.what()) + " (see `clues --help`)", app::bad_usage);
+    const bool extra = dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr;
+    return fail(e.what() + (extra ? app::hint_on_json(words) : "") + " (see `clues --help`)", app::bad_usage);
   } catch (const scene::Error& e) {
     return fail(e.what(), e.code() == scene::ErrorCode::internal ? app::oracle_contradiction : app::bad_usage);
   } catch (const app::Unfinished& e) {

@@ -1,10 +1,10 @@
 // clues check: judges one PVS for one scene and cell (D19, basic form).
-#include <cstdio>
 #include <memory>
 #include <string>
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/json_output.h"
 #include "app/progress.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh_io.h"
@@ -19,12 +19,14 @@ namespace {
 
 struct CheckRequest {
   std::string scene, cell, pvs;
-  bool json = false;
+  JsonOutput json;
   MethodOptions method;
 };
 
 int run_check(const CheckRequest& request) {
   auto options = request.method.to_reference();
+  if (!request.json.file().empty()) require_writable_parent(request.json.file());
+  require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.pvs});
   const auto mesh = scene::read_mesh(request.scene);
   const auto spec = scene::parse_cell(request.cell);
   const auto cell = exact::ConvexCell::from_doubles(spec.points);
@@ -51,11 +53,8 @@ int run_check(const CheckRequest& request) {
     around.areas = validate::area_weights(judgement, mesh);
     around.first_order_fractions = validate::first_order_fractions(mesh, map);
   }
-  if (request.json) {
-    std::fputs(validate::to_json_text(judgement, around).c_str(), stdout);
-  } else {
-    print(validate::to_text(judgement, around));
-  }
+  if (request.json.asked()) request.json.write(validate::to_json_text(judgement, around));
+  if (!request.json.on_stdout()) print(validate::to_text(judgement, around));
   if (!judgement.contradictions.empty()) return oracle_contradiction;
   switch (judgement.verdict) {
     case validate::Verdict::sound:
@@ -81,7 +80,7 @@ void add_check_command(CLI::App& program, int& status) {
       ->type_name("FILE")
       ->required();
   request->method.add_to(*command);
-  command->add_flag("--json", request->json, "Print the judgement as JSON (docs/formats.md)");
+  request->json.add_to(*command, "The judgement");
   command->footer(
       std::string(
           "DESCRIPTION\n"
@@ -101,7 +100,8 @@ void add_check_command(CLI::App& program, int& status) {
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt\n"
-      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs town.clues.json --json\n\n"
+      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs town.clues.json --json\n"
+      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt --json judgement.json\n\n"
       "EXIT CODES\n"
       "  0 sound   1 unsound   2 bad usage or input   3 undecided   4 an oracle contradicted itself");
   command->callback([request, &status] { status = run_check(*request); });

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -11,7 +10,9 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/json_output.h"
 #include "app/progress.h"
+#include "scene/duration.h"
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
 #include "scene/messages/printable.h"
@@ -33,9 +34,10 @@ struct ConformRequest {
   std::vector<std::string> globs, flags, topics;
   std::string level = "full", shard;
   int jobs = 0;
-  double time_limit = 10;
+  std::string time_limit = "10";
   std::int64_t memory_limit = 0, errors = 0;
-  std::string expect_failures, json, junit;
+  std::string expect_failures, junit;
+  JsonOutput json;
   bool every_case = false;
 };
 
@@ -84,9 +86,7 @@ bool is_library(const std::string& implementation) { return implementation.ends_
 std::unique_ptr<validate::Subject> make_subject(const ConformRequest& request) {
   if (!request.results.empty()) return std::make_unique<validate::ResultFiles>(request.results);
   validate::ProgramLimits limits;
-  if (!(request.time_limit > 0) || request.time_limit > 86400)
-    fail_usage("--time-limit: give seconds, above 0 and up to 86400");
-  limits.time = std::chrono::milliseconds(static_cast<std::int64_t>(std::ceil(request.time_limit * 1000)));
+  limits.time = scene::parse_duration("--time-limit", request.time_limit, std::chrono::hours(24));
   if (request.memory_limit < 0 || request.memory_limit > 1000000000) {
     fail_usage(fmt::format("--memory-limit {}: give megabytes, 0 (no limit) to 10^9", request.memory_limit));
   }
@@ -115,9 +115,15 @@ std::string repeat_command(const ConformRequest& request, const fs::path& suite)
   std::string command = "clues conform --suite " + quoted(suite.string());
   if (!request.results.empty()) return command + " --results " + quoted(request.results);
   command += " --impl " + quoted(request.implementation);
-  if (request.time_limit != 10) command += fmt::format(" --time-limit {}", request.time_limit);
+  if (request.time_limit != "10") command += " --time-limit " + request.time_limit;
   if (request.memory_limit != 0) command += fmt::format(" --memory-limit {}", request.memory_limit);
   return command;
+}
+
+// A name under which an answer would be looked for.
+void require_no_answer(const std::string& output, const std::string& results) {
+  if (!results.empty() && (output.ends_with(".clues.json") || output.ends_with(".pvs") || output.ends_with(".txt")))
+    require_outside(output, results);
 }
 
 int run_conform(const ConformRequest& request) {
@@ -127,12 +133,14 @@ int run_conform(const ConformRequest& request) {
   if (request.jobs < 0 || request.jobs > 4096)
     fail_usage(fmt::format("--jobs {}: use 0 (all cores) to 4096", request.jobs));
   if (request.errors < 0) fail_usage(fmt::format("--errors {}: use 0 (never stop) or more", request.errors));
-  for (const auto& file : {request.json, request.junit}) {
+  for (const auto& file : {request.json.file(), request.junit}) {
     if (!file.empty()) require_writable_parent(file);
   }
-  require_apart({&request.json, &request.junit}, {&request.expect_failures, &request.implementation});
+  require_apart({&request.json.file(), &request.junit}, {&request.expect_failures, &request.implementation});
   const auto selection = selection_of(request);
   const auto folder = find_suite(request.suite);
+  require_outside(request.json.file(), folder);
+  require_no_answer(request.json.file(), request.results);
   const auto suite = validate::read_suite(folder);
   const auto cases = validate::select_cases(suite, selection);
   validate::RunOptions options;
@@ -164,9 +172,9 @@ int run_conform(const ConformRequest& request) {
   context.suite = folder.string();
   context.subject = request.results.empty() ? request.implementation : request.results;
   context.repeat = repeat_command(request, folder);
-  if (!request.json.empty()) scene::write_file_atomically(request.json, validate::to_json_text(run, context));
+  if (request.json.asked()) request.json.write(validate::to_json_text(run, context));
   if (!request.junit.empty()) scene::write_file_atomically(request.junit, validate::to_junit_text(run, context));
-  print(validate::to_text(run, context, request.every_case));
+  print(validate::to_text(run, context, request.every_case), request.json.on_stdout() ? stderr : stdout);
   if (run.executed() == 0) std::fputs("clues: nothing was executed: not one case was answered\n", stderr);
   return validate::exit_code(run);
 }
@@ -189,7 +197,7 @@ constexpr const char* footer = R"(DESCRIPTION
 
   Table: Qo is the overestimate (triangles listed without being visible / visible triangles), Qu the underestimate (visible triangles
   missing / visible triangles), over all answers of the topic. `looser` counts answers with a triangle that is not even
-  first-order visible. The output is the same for any --jobs.
+  first-order visible. The output is the same for any --jobs. Where --json prints on standard output, the table goes to standard error.
 
 THREE WAYS IN
   --impl CMD        A program that speaks JSON lines on its standard input and output (docs/protocol.md). CMD is split into words as
@@ -239,14 +247,15 @@ void add_conform_command(CLI::App& program, int& status) {
       ->type_name("I/N");
   command->add_option("--jobs", request->jobs, "How many processes at a time; 0: one per core (default)")
       ->type_name("N");
-  command->add_option("--time-limit", request->time_limit, "Seconds for one case (default 10)")->type_name("S");
+  command->add_option("--time-limit", request->time_limit, "For one case: 90 or 90s, 10m, 2h (default 10)")
+      ->type_name("T");
   command
       ->add_option("--memory-limit", request->memory_limit,
                    "Address space of the implementation; 0: no limit (default)")
       ->type_name("MB");
   command->add_option("--errors", request->errors, "Stop after so many problems; 0: never (default)")->type_name("N");
   command->add_option("--expect-failures", request->expect_failures, "Cases that are known to fail")->type_name("FILE");
-  command->add_option("--json", request->json, "Write the whole report as JSON (docs/formats.md)")->type_name("FILE");
+  request->json.add_to(*command, "The whole report");
   command->add_option("--junit", request->junit, "Write JUnit XML")->type_name("FILE");
   command->add_flag("-v,--verbose", request->every_case, "A line for every case");
   for (const char* name : {"--case", "--flag", "--topic"}) command->get_option(name)->allow_extra_args(false);

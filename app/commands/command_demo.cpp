@@ -140,8 +140,8 @@ void add_demo_command(CLI::App& program, int& status) {
       "    NAME.ply  the fragments in the same colours, for any 3D viewer\n"
       "    NAME.off  the scene, and NAME.pvs, the answer: to go on with `clues map` and `clues check`\n\n"
       "EXAMPLES\n"
-      "  ./run demo                     builds, extracts the meshes, runs this\n"
-      "  clues demo --quick --out /tmp/demo --mesh-dir meshes\n\n"
+      "  ./run demo                                              # builds, extracts the meshes, runs this\n"
+      "  clues demo --quick --out demo-out --mesh-dir meshes\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   4 a map contradicted a check");
   command->callback([request, &status] { status = run_demo(*request); });

@@ -1,11 +1,11 @@
 // clues lint: proves the conformance suite anew, and formats it.
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <thread>
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/json_output.h"
 #include "app/progress.h"
 #include "scene/messages/error.h"
 #include "validate/vectors/lint.h"
@@ -15,7 +15,7 @@ namespace {
 
 struct LintRequest {
   std::string folder = "vectors";
-  bool json = false;
+  JsonOutput json;
   validate::LintOptions options;
 };
 
@@ -24,6 +24,8 @@ int run_lint(const LintRequest& request) {
   if (options.accept && !options.write) {
     throw scene::Error(scene::ErrorCode::bad_argument, "--accept goes with --write (see `clues lint --help`)");
   }
+  if (!request.json.file().empty()) require_writable_parent(request.json.file());
+  require_outside(request.json.file(), request.folder);
   if (options.jobs == 0) options.jobs = static_cast<int>(std::thread::hardware_concurrency());
   validate::LintReport report;
   {
@@ -31,11 +33,8 @@ int run_lint(const LintRequest& request) {
     options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("cases", done, total); };
     report = validate::lint_suite(request.folder, options);
   }
-  if (request.json) {
-    std::fputs(validate::to_json_text(report).c_str(), stdout);
-  } else {
-    print(validate::to_text(report));
-  }
+  if (request.json.asked()) request.json.write(validate::to_json_text(report));
+  if (!request.json.on_stdout()) print(validate::to_text(report));
   bool malformed = false, unfinished = false, contradiction = false;
   for (const auto& finding : report.findings) {
     malformed |= finding.kind == validate::LintKind::malformed;
@@ -71,7 +70,7 @@ void add_lint_command(CLI::App& program, int& status) {
   command->add_option("--jobs", options.jobs, "How many processes may work; 0: one per core. The answer is the same")
       ->type_name("N")
       ->check(CLI::Range(0, 1024));
-  command->add_flag("--json", request->json, "Print the report as JSON (docs/formats.md)");
+  request->json.add_to(*command, "The report");
   command->footer(
       "DESCRIPTION\n"
       "  Every triangle that must be visible has a witness, checked in rational arithmetic, or meets the cell.\n"

@@ -98,7 +98,7 @@ std::vector<MappedCell> map_into_folder(const CellMapper& mapper, const std::str
   }
   try {
     map_many(mapper, cells, wanted, request.method.threads, [&](std::size_t i, MappedCell&& cell) {
-      folder.put(cells[i], cell.bytes);
+      folder.put(cells[i], cell.json);
       ++kept;
       mapped[i].summary = std::move(cell.summary);
     });
@@ -162,6 +162,10 @@ int run_map(MapRequest request) {
   if (request.resume && (!many || request.out.empty())) {
     throw Error(ErrorCode::bad_argument, "--resume goes on with a folder of results: it needs --cells and -o");
   }
+  if (many && !request.out.empty() && request.json.asked()) {
+    throw Error(ErrorCode::bad_argument,
+                "--json with --cells and -o: each cell has its file in the folder already; leave out one of them");
+  }
   if (request.with_states && !request.with_map)
     throw Error(ErrorCode::bad_argument, "--render-states are put into the regions of --map; give that too");
   require_good(request.umbra, many);
@@ -174,7 +178,8 @@ int run_map(MapRequest request) {
     if (many) throw Error(ErrorCode::bad_argument, "--overlap-graph is for one cell; use --cell");
     require_writable_parent(request.overlap_graph);
   }
-  require_apart({&request.out, &request.umbra.file, &request.overlap_graph},
+  if (!request.json.file().empty()) require_writable_parent(request.json.file());
+  require_apart({&request.out, &request.json.file(), &request.umbra.file, &request.overlap_graph},
                 {&request.scene, &request.cell, &request.cells});
   const std::string sha256 = scene::sha256_of_file(request.scene);
   const auto mesh = scene::read_mesh(request.scene);
@@ -187,17 +192,17 @@ int run_map(MapRequest request) {
 
   if (!request.umbra.file.empty()) scene::write_file_atomically(request.umbra.file, mapped[0].umbra_bytes);
   if (!request.overlap_graph.empty()) scene::write_file_atomically(request.overlap_graph, mapped[0].overlap_graph);
-  if (!request.out.empty()) {
-    if (!many) scene::write_file_atomically(request.out, mapped[0].bytes);
-  } else if (request.json) {
+  if (!request.out.empty() && !many)
+    scene::write_file_atomically(request.out, wants_plain_list(request.out) ? mapped[0].list : mapped[0].json);
+  if (request.json.asked()) {
     std::string text = many ? "[\n" : "";
-    for (std::size_t i = 0; i < mapped.size(); ++i) text += (i ? ",\n" : "") + mapped[i].bytes;
-    std::fputs((text + (many ? "]\n" : "")).c_str(), stdout);
-    return fine;
+    for (std::size_t i = 0; i < mapped.size(); ++i) text += (i ? ",\n" : "") + mapped[i].json;
+    request.json.write(text + (many ? "]\n" : ""));
+    if (request.json.on_stdout() && request.out.empty()) return fine;
   }
   std::string table = mapper->table_head();
   for (const auto& cell : mapped) table += cell.summary + cell.umbra_summary;
-  std::fputs(table.c_str(), request.json ? stderr : stdout);
+  std::fputs(table.c_str(), request.json.on_stdout() ? stderr : stdout);
   return fine;
 }
 
@@ -205,13 +210,12 @@ int run_map(MapRequest request) {
 
 bool wants_plain_list(const fs::path& out) { return out.extension() == ".pvs" || out.extension() == ".txt"; }
 
-std::string bytes_of(scene::Result result, const MapRequest& request, const std::string& sha256,
-                     const std::optional<scene::Simplification>& simplification) {
+void put_result(MappedCell& cell, scene::Result result, const MapRequest& request, const std::string& sha256,
+                const std::optional<scene::Simplification>& simplification) {
   result.scene_file = fs::path(request.scene).filename().string();
   result.scene_sha256 = sha256;
-  const bool plain = request.cells.empty() && wants_plain_list(request.out);
-  if (plain) return scene::to_pvs_text(result.visible);
-  return simplification ? scene::to_json_text(result, *simplification) : scene::to_json_text(result);
+  if (wants_plain_list(request.out)) cell.list = scene::to_pvs_text(result.visible);
+  cell.json = simplification ? scene::to_json_text(result, *simplification) : scene::to_json_text(result);
 }
 
 void add_map_command(CLI::App& program, int& status) {
@@ -232,7 +236,7 @@ void add_map_command(CLI::App& program, int& status) {
                     "Put the regions, segments and wedges into the result too, in exact coordinates");
   command->add_flag("--render-states", request->with_states,
                     "With --map: say of each visible region which tests a renderer may leave out (docs/formats.md)");
-  command->add_flag("--json", request->json, "Without -o: print the result itself instead of a table");
+  request->json.add_to(*command, "The result itself");
   command
       ->add_option(
           "-o,--out", request->out,

@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/json_output.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
 #include "scene/mesh_io.h"
@@ -17,7 +18,7 @@ namespace {
 
 struct PrecisionRequest {
   std::string scene, cell, out, svg;
-  bool json = false;
+  JsonOutput json;
   MethodOptions method;
   RefineChoice refine;
 };
@@ -27,10 +28,10 @@ int run_precision(const PrecisionRequest& request) {
   const auto refinement = request.refine.refinement(validate::Refinement::cells);
   const auto refine = request.refine.to_reference();
   request.refine.check_retract(refinement);
-  for (const std::string* path : {&request.out, &request.svg}) {
+  for (const std::string* path : {&request.out, &request.json.file(), &request.svg}) {
     if (!path->empty()) require_writable_parent(*path);
   }
-  require_apart({&request.out, &request.svg}, {&request.scene, &request.cell});
+  require_apart({&request.out, &request.json.file(), &request.svg}, {&request.scene, &request.cell});
   const auto mesh = scene::read_mesh(request.scene);
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
   reference::Bounds bounds(mesh, cell, options);
@@ -39,7 +40,8 @@ int run_precision(const PrecisionRequest& request) {
                                                   scene::sha256_of_file(request.scene));
   if (!request.out.empty()) scene::write_file_atomically(request.out, text);
   if (!request.svg.empty()) scene::write_file_atomically(request.svg, validate::to_svg(report));
-  std::fputs((request.json ? text : validate::to_table(report)).c_str(), stdout);
+  request.json.write(text);
+  if (!request.json.on_stdout()) std::fputs(validate::to_table(report).c_str(), stdout);
   return fine;
 }
 
@@ -53,8 +55,8 @@ void add_precision_command(CLI::App& program, int& status) {
   command->add_option("--cell", request->cell, "The view cell")->type_name("SPEC")->required();
   request->method.add_to(*command);
   request->refine.add_to(*command);
-  command->add_flag("--json", request->json, "Print the report as JSON instead of a table");
-  command->add_option("-o,--out", request->out, "Write the JSON report into this file too")->type_name("FILE");
+  request->json.add_to(*command, "The report");
+  command->add_option("-o,--out", request->out, "The JSON report goes into this file too")->type_name("FILE");
   command->add_option("--svg", request->svg, "Draw the excess area against the depth")->type_name("FILE");
   command->footer(
       std::string(

@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/json_output.h"
 #include "app/progress.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh_io.h"
@@ -25,7 +26,7 @@ using nlohmann::json;
 
 struct QueryRequest {
   std::string scene, cell, points;
-  bool json = false;
+  JsonOutput json;
   MethodOptions method;
 };
 
@@ -160,6 +161,8 @@ std::string to_text(const std::vector<Asked>& all) {
 
 int run_query(const QueryRequest& request) {
   auto options = request.method.to_reference();
+  if (!request.json.file().empty()) require_writable_parent(request.json.file());
+  require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.points});
   const auto mesh = scene::read_mesh(request.scene);
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
   const auto points = validate::read_points(request.points);
@@ -190,7 +193,8 @@ int run_query(const QueryRequest& request) {
       bar.show("points", all.size(), points.size());
     }
   }
-  std::fputs((request.json ? to_json_text(all) : to_text(all)).c_str(), stdout);
+  if (request.json.asked()) request.json.write(to_json_text(all));
+  if (!request.json.on_stdout()) std::fputs(to_text(all).c_str(), stdout);
   const bool contradiction = std::any_of(all.begin(), all.end(), [](const Asked& q) {
     const auto bad = [](const auto& a) { return a.contradiction; };
     return std::any_of(q.report.answers.begin(), q.report.answers.end(), bad) ||
@@ -213,7 +217,7 @@ void add_query_command(CLI::App& program, int& status) {
       ->type_name("FILE")
       ->required();
   request->method.add_to(*command);
-  command->add_flag("--json", request->json, "Print the answers as JSON (docs/formats.md)");
+  request->json.add_to(*command, "The answers");
   command->footer(
       std::string(
           "DESCRIPTION\n"

@@ -64,7 +64,7 @@ void add_report_command(CLI::App& program, int& status) {
       "  picture from above with the cell and the sight line, where the scene (the suite, for a conformance report) "
       "can be read.\n\n"
       "EXAMPLES\n"
-      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt --json > results/town.json\n"
+      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt --json results/town.json\n"
       "  clues conform --impl ./libmine.so --json results/suite.json\n"
       "  clues report results\n\n"
       "EXIT CODES\n"

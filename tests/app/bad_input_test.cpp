@@ -135,7 +135,15 @@ TEST(BadInput, MissingSceneIsNamed) {
 
 TEST(BadInput, NoCommandIsAUsageError) {
   const TestFolder folder;
-  EXPECT_EQ(run_clues({}, folder.path()).exit_code, 2);
+  const auto alone = run_clues({}, folder.path());
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_EQ(alone.out, "");
+  // A line for each command, and at the end what is wrong.
+  for (const char* command : {"map", "precision", "check", "query", "verify", "conform", "iut", "lint", "fuzz",
+                              "replay", "shrink", "report", "demo"}) {
+    EXPECT_THAT(alone.err, testing::ContainsRegex("\n  " + std::string(command) + " +[A-Z][^\n]*\n"));
+  }
+  EXPECT_THAT(alone.err, testing::EndsWith("\nclues: error: no command; give one of these\n"));
   EXPECT_EQ(run_clues({"mop"}, folder.path()).exit_code, 2);
 }
 
