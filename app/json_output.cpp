@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "scene/atomic_file.h"
-#include "scene/error.h"
+#include "scene/files/atomic_file.h"
+#include "scene/messages/error.h"
 
 namespace clues::app {
 namespace {

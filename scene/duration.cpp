@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::scene {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 #include "validate/conform/grade.h"
 #include "validate/conform/program_subject.h"
 

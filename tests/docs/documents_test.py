@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Everything that the documents and the EXAMPLES of `--help` tell people to type is typed here, in a scratch folder.
 
-Usage: documents_test.py CLUES SOURCE [ADAPTER] [WHERE...]; CLUES the program, SOURCE the source folder, ADAPTER the C++ adapter as built;
-with WHERE only the documents that begin so. CLUES_LONG=1: also what takes minutes. Prints one line for each flaw; exits with 1 if there is one."""
+Usage: documents_test.py CLUES SOURCE [WHERE...] [-v]; CLUES the program, SOURCE the source folder; with WHERE only the documents that begin so; -v says how
+long each command took. Prints one line for each flaw; exits with 1 if there is one."""
 import dataclasses
 import json
 import os
@@ -26,7 +26,7 @@ class Entry:
     where: str
     text: str
     why: str
-    kind: str = "never"  # or: "block", nothing to type; "long", with CLUES_LONG=1 only
+    kind: str = "command"  # or "block": nothing in it is to be typed
     met: bool = False
 
 
@@ -37,7 +37,6 @@ NOT_RUN = [
     Entry("clues demo", r"\./run ", "builds all of clues; .ci/run does it"),
     Entry("README.md", "find_package", "CMake, built by house.installed_package", "block"),
     Entry("CONTRIBUTING.md", "CLUES_LONG=1", "two thousand scenes, an hour"),
-    Entry("docs/adding-an-implementation.md", r"g\+\+ ", "compiles for half a minute; the adapter that the build made stands in", "long"),
     Entry("docs/architecture.md", "app -> fuzz", "a picture of the layers", "block"),
     Entry("docs/formats.md", "# baked by", "a file", "block"),
     Entry("docs/fuzzing.md", r"clues fuzz .*--seed 2026112", "what was run: half an hour each"),
@@ -101,14 +100,14 @@ CHOSEN = re.compile(r"edge-|.*-one-ulp-")
 class Scratch:
     """A folder with all that the examples of one document take for granted."""
 
-    def __init__(self, folder, clues, source, adapter):
-        self.folder, self.source, self.adapter = pathlib.Path(folder), source, adapter
+    def __init__(self, folder, clues, source):
+        self.folder, self.source = pathlib.Path(folder), source
         self.environment = {**os.environ, "LC_ALL": "C", "PATH": os.pathsep.join(
             [str(self.folder / "bin"), str(clues.parent), os.environ["PATH"]])}
         self.environment.pop("CLUES_MESH_DIR", None)
 
     def sh(self, text):
-        ran = examples.run(text, self.folder, self.environment, 300)
+        ran = examples.run(text, self.folder, self.environment)
         if ran.returncode not in (0, 1):
             raise RuntimeError(f"preparing the scratch folder: {text}: {ran.stderr}{ran.stdout}")
 
@@ -168,8 +167,6 @@ class Scratch:
     def sources(self):
         shutil.copy(self.folder / "validate/adapters/cpp/clues_adapter.cpp", self.folder)
         shutil.copy(self.folder / "validate/adapters/c/clues_adapter.c", self.folder / "my_library.c")
-        if self.adapter:
-            shutil.copy(self.adapter, self.folder / "my_adapter")
         self.write("known.json", json.dumps({"format": "clues-expected-failures/1", "cases": []}))
 
     def cases(self):
@@ -183,12 +180,12 @@ class Scratch:
         shutil.copytree(self.folder / "fuzz-bake/sight-lines-hidden-visible-axis_boxes", self.folder / "received-finding")
 
 
-def entry_for(where, text, kinds):
+def is_listed(where, text, kind):
     for entry in NOT_RUN:
-        if entry.kind in kinds and where.startswith(entry.where) and re.match(entry.text, text):
+        if entry.kind == kind and where.startswith(entry.where) and re.match(entry.text, text):
             entry.met = True
-            return entry
-    return None
+            return True
+    return False
 
 
 def entries_without_use():
@@ -197,20 +194,19 @@ def entries_without_use():
             yield f"NOT_RUN: nothing in {entry.where} begins with {entry.text}; take the entry out"
 
 
-def check_block(block, scratch, long):
+def check_block(block, scratch):
     """Flaws of the block's commands, typed one after the other."""
-    if entry_for(block.where, "\n".join(block.lines), ["block"]):
+    if is_listed(block.where, "\n".join(block.lines), "block"):
         return
     for command in block.commands():
-        entry = entry_for(block.where, command.text, ["never", "long"])
-        if (entry and not (entry.kind == "long" and long)) or examples.SYNOPSIS.match(command.text):
+        if is_listed(block.where, command.text, "command") or examples.SYNOPSIS.match(command.text):
             continue
         text = command.text
         for pattern, shorter in SHORTER:
             text = re.sub(pattern, shorter, text)
         code = next((code for pattern, code in EXIT_CODES if re.match(pattern, command.text)), 0)
         begin = time.monotonic()
-        ran = examples.run(text, scratch.folder, scratch.environment, 1200 if long else 120)
+        ran = examples.run(text, scratch.folder, scratch.environment)
         if "-v" in sys.argv:
             print(f"{time.monotonic() - begin:6.1f} s  exit code {ran.returncode}  {block.where}: {text}", flush=True)
         for flaw in examples.flaws(command, code, ran):
@@ -237,7 +233,7 @@ def sources_of(source, texts):
         yield name, text, list(examples.blocks_of_help(name, text))
 
 
-def check_all(clues, source, adapter, only, long):
+def check_all(clues, source, only):
     texts = help_texts(clues)
     for name, text, blocks in sources_of(source, texts):
         if only and not name.startswith(tuple(only)):
@@ -249,10 +245,10 @@ def check_all(clues, source, adapter, only, long):
         if not blocks:
             continue
         with tempfile.TemporaryDirectory(prefix="clues-documents-") as folder:
-            scratch = Scratch(folder, clues, source, adapter)
+            scratch = Scratch(folder, clues, source)
             scratch.prepare(name)
             for block in blocks:
-                yield from check_block(block, scratch, long)
+                yield from check_block(block, scratch)
     if not only:
         yield from entries_without_use()
 
@@ -260,9 +256,8 @@ def check_all(clues, source, adapter, only, long):
 def main():
     words = [word for word in sys.argv[1:] if word != "-v"]
     clues, source = (pathlib.Path(word).resolve() for word in words[:2])
-    adapter = words[2] if len(words) > 2 else None
     found = 0
-    for flaw in check_all(clues, source, adapter, words[3:], os.environ.get("CLUES_LONG") == "1"):
+    for flaw in check_all(clues, source, words[2:]):
         print(flaw, flush=True)
         found += 1
     print(f"{found} flaws" if found else "the documents can be typed")

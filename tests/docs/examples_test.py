@@ -70,9 +70,9 @@ class Judged(unittest.TestCase):
 class Listed(unittest.TestCase):
     def test_what_is_neither_run_nor_listed_is_typed(self):
         with documents_test.tempfile.TemporaryDirectory() as folder:
-            scratch = documents_test.Scratch(folder, pathlib.Path("/bin/true"), pathlib.Path("."), None)
+            scratch = documents_test.Scratch(folder, pathlib.Path("/bin/true"), pathlib.Path("."))
             block = examples.Block("README.md:1", ["exit 3", "./run demo", "clues map SCENE --cell SPEC"])
-            found = list(documents_test.check_block(block, scratch, False))
+            found = list(documents_test.check_block(block, scratch))
         self.assertEqual(len(list(documents_test.entries_without_use())), len(documents_test.NOT_RUN) - 1)
         self.assertEqual(len(found), 1)
         self.assertIn("README.md:1: exit 3: exit code 3 in place of 0", found[0])

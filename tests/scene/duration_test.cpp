@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "scene/error.h"
+#include "scene/messages/error.h"
 
 namespace clues::tests {
 namespace {
