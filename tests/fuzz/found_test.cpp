@@ -131,6 +131,7 @@ void campaign_finds_nothing(const char* name, std::uint64_t cases = 320, const s
     if (generator.name != left_out) options.generators.push_back(generator.name);
   }
   options.jobs = 2;
+  options.require_coverage = true;
   options.out = folder.path();
   const auto subject = make_subject(name);
   const CampaignSummary summary = run_campaign(options, *subject);
