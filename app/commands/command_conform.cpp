@@ -136,7 +136,14 @@ int run_conform(const ConformRequest& request) {
   for (const auto& file : {request.json.file(), request.junit}) {
     if (!file.empty()) require_writable_parent(file);
   }
-  require_apart({&request.json.file(), &request.junit}, {&request.expect_failures, &request.implementation});
+  std::vector<std::string> read{request.expect_failures, request.implementation};
+  if (!request.implementation.empty() && !is_library(request.implementation)) {
+    const auto words = validate::split_command(request.implementation);  // the adapter is often one of them
+    read.insert(read.end(), words.begin(), words.end());
+  }
+  std::vector<const std::string*> inputs;
+  for (const std::string& file : read) inputs.push_back(&file);
+  require_apart({&request.json.file(), &request.junit}, inputs);
   const auto selection = selection_of(request);
   const auto folder = find_suite(request.suite);
   require_outside(request.json.file(), folder);

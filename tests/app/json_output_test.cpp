@@ -103,7 +103,7 @@ TEST_F(JsonOutput, OfMapBesidesItsFile) {
 }
 
 TEST_F(JsonOutput, NeverGoesOverAnInput) {
-  folder.write("scene.json", "mine");
+  folder.write("adapter.py", "print()\n");
   std::filesystem::create_hard_link(folder.file("pvs.txt"), folder.file("link.json"));
   std::filesystem::create_directory(folder.path() / "answers");
   folder.write("answers/needle.clues.json", "an answer");
@@ -123,6 +123,7 @@ TEST_F(JsonOutput, NeverGoesOverAnInput) {
            {{"precision", "scene.off", "--cell", screen_cell, "--json=scene.off"}, "is read by"},
            {{"lint", "suite", "--json", "suite/needles.json"}, "lies in suite"},
            {{"lint", "suite", "--json", "suite/report.json"}, "lies in suite"},
+           {{"conform", "--impl", "python3 ./adapter.py", "--suite", "suite", "--json", "adapter.py"}, "is read by"},
            {{"conform", "--impl", "true", "--suite", "suite", "--json", "suite/index.json"}, "lies in suite"},
            {{"conform", "--results", "answers", "--suite", "suite", "--json", "answers/needle.clues.json"},
             "lies in answers"}}) {
@@ -133,6 +134,7 @@ TEST_F(JsonOutput, NeverGoesOverAnInput) {
     EXPECT_EQ(folder.names(), before) << says;
   }
   EXPECT_EQ(read_all(folder.file("scene.off")), screen_scene);
+  EXPECT_EQ(read_all(folder.file("adapter.py")), "print()\n");
   EXPECT_EQ(read_all(folder.file("answers/needle.clues.json")), "an answer");
 }
 
