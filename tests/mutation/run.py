@@ -2,11 +2,13 @@
 """How many mutations of the reference does the conformance suite catch?
 
 usage: run.py SOURCE WORK [--only NAME,...] [--out FILE]
+       run.py --check SOURCE
 
 SOURCE is a checkout, WORK a folder for a copy of it with its own build (kept, so that a second run is quick). For each mutation of mutations.py:
 change the copy, build `clues`, and put the mutated reference to the suite through its own door (`clues conform --impl 'clues iut --kernel exact'`).
 Caught: an unsound answer, a crash or a time-out. Looser: a larger answer than that of the unchanged reference, and nothing worse. Survived: every answer
-is the same as without the mutation. A mutation that does not build, or whose text is not found, is an error: repair mutations.py.
+is the same as without the mutation. A mutation that does not build, or whose text is not found, is an error: repair mutations.py. --check only
+looks for the texts: each has to be there once.
 """
 import argparse
 import json
@@ -16,6 +18,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from edits import NotFound, edited, source_of  # noqa: E402
 from mutations import MUTATIONS  # noqa: E402
 
 
@@ -39,13 +42,31 @@ def judge(tree):
     return {c["id"]: (c["outcome"], c.get("extra"), c.get("missed")) for c in cases}
 
 
+def check(source):
+    """The mutations whose text is not found."""
+    for name, file, text, replacement in MUTATIONS:
+        try:
+            edited(file, source_of(source, file).read_text(), text, replacement)
+        except NotFound as error:
+            yield f"{name}: {error}"
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("source", type=pathlib.Path)
-    parser.add_argument("work", type=pathlib.Path)
+    parser.add_argument("work", type=pathlib.Path, nargs="?")
+    parser.add_argument("--check", action="store_true")
     parser.add_argument("--only", default="")
     parser.add_argument("--out", type=pathlib.Path)
     options = parser.parse_args()
+    stale = list(check(options.source))
+    if stale:
+        sys.exit("\n".join(stale))
+    if options.check:
+        print(f"the texts of {len(MUTATIONS)} mutations are found")
+        return
+    if not options.work:
+        parser.error("no folder to work in")
     tree = options.work.resolve() / "tree"
     if not tree.exists():
         shutil.copytree(options.source, tree, ignore=shutil.ignore_patterns("build", ".git"))
@@ -63,11 +84,9 @@ def main():
     for name, file, text, replacement in MUTATIONS:
         if names and name not in names:
             continue
-        path = tree / file
+        path = source_of(tree, file)
         original = path.read_text()
-        if text not in original:
-            sys.exit(f"{name}: its text is not in {file}")
-        path.write_text(original.replace(text, replacement, 1))
+        path.write_text(edited(file, original, text, replacement))
         try:
             if build(tree).returncode != 0:
                 verdict, seen = "does not build", []
