@@ -50,8 +50,7 @@ void SimplifyChoice::check() const {
 
 reference::OcclusionControls SimplifyChoice::to_reference(int threads) const {
   check();
-  return {min_occlusion.value_or(0), simplify_boundaries.value_or(0), threads, reference::PlantedStep::none,
-          intersect_planes};
+  return {min_occlusion.value_or(0), simplify_boundaries.value_or(0), threads, intersect_planes};
 }
 
 scene::Simplification record_of(const reference::SimplifiedMap& simplified, const SimplifyChoice& choice) {

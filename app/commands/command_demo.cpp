@@ -61,7 +61,7 @@ void print_check(const SelfCheck& check, double seconds) {
       "  checks: own PVS is {}: {} of {} triangles have a confirmed sight line; with one left out it is {}; {:.1f} s\n",
       validate::to_string(check.own.verdict), check.own.exact,
       check.own.exact + check.own.first_order + check.own.loose,
-      check.planted_is_caught ? "unsound, as it must be" : "NOT CAUGHT", seconds);
+      check.loss_is_caught ? "unsound, as it must be" : "NOT CAUGHT", seconds);
 }
 
 bool show(const DemoScene& demo, const DemoRequest& request) {

@@ -13,7 +13,7 @@ namespace clues::app {
 
 bool SelfCheck::passed() const {
   return hidden_points_seen == 0 && sight_lines_free == 0 && own.contradictions.empty() &&
-         own.verdict == validate::Verdict::sound && planted_is_caught;
+         own.verdict == validate::Verdict::sound && loss_is_caught;
 }
 
 SelfCheck check_map(const scene::TriangleMesh& mesh, const reference::VisibilityMap& map, std::uint64_t effort,
@@ -54,14 +54,14 @@ SelfCheck check_map(const scene::TriangleMesh& mesh, const reference::Visibility
   validate::JudgeOptions options;
   options.progress = [&](std::uint64_t done, std::uint64_t total) { progress("witnesses", done, total); };
   check.own = validate::judge_pvs(mesh, map, map.visible, options);
-  // A judge that never says "unsound" is none. Only the planted triangle is looked at again, so this costs little.
+  // A judge that never says "unsound" is none. Only the triangle left out is looked at again, so this costs little.
   if (!check.own.witnesses.empty()) {
-    const auto planted = check.own.witnesses[random.next() % check.own.witnesses.size()].triangle;
+    const auto lost = check.own.witnesses[random.next() % check.own.witnesses.size()].triangle;
     auto without = map.visible;
-    std::erase(without, planted);
+    std::erase(without, lost);
     options.progress = nullptr;
-    options.only = {planted};
-    check.planted_is_caught = validate::judge_pvs(mesh, map, without, options).verdict == validate::Verdict::unsound;
+    options.only = {lost};
+    check.loss_is_caught = validate::judge_pvs(mesh, map, without, options).verdict == validate::Verdict::unsound;
   }
   return check;
 }

@@ -17,7 +17,7 @@ struct SelfCheck {
   std::uint64_t sight_lines = 0;         // random exact sight lines to hidden regions (D5)
   std::uint64_t sight_lines_free = 0;    // must be 0
   validate::Judgement own;               // the verdict on the map's own PVS: must be sound, without contradictions
-  bool planted_is_caught = false;        // ... and on the PVS without one visible triangle: must be unsound
+  bool loss_is_caught = false;           // ... and on the PVS without one visible triangle: must be unsound
   bool passed() const;
 };
 

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
+#include <cassert>
 
 #include "fastpath/visibility/first_order.h"
 #include "fastpath/visibility/refinement/refinement.h"
@@ -23,14 +23,8 @@
 namespace clues::fuzz {
 namespace {
 
-using reference::PlantedBug;
 using scene::Error;
 using scene::ErrorCode;
-
-const std::map<std::string, PlantedBug> planted_bugs{{"wrong_wedge_side", PlantedBug::wrong_wedge_side},
-                                                     {"retested_csv", PlantedBug::retested_csv},
-                                                     {"no_rule_3", PlantedBug::no_rule_3},
-                                                     {"rounded_comparison", PlantedBug::rounded_comparison}};
 
 [[noreturn]] void throw_no_answer(const Error& error) {
   if (error.code() == ErrorCode::not_solid) throw InputRefused(error.what());
@@ -90,12 +84,10 @@ fastpath::LocalMapOptions fast_options(const Case& scene) {
   return options;
 }
 
-std::unique_ptr<Subject> reference_subject(const std::string& name, PlantedBug bug) {
-  return engine(name, [bug](const Case& scene) {
-    reference::Options options = reference_options(scene);
-    options.planted_bug = bug;
-    return answer_of(
-        reference::first_order_visibility(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options));
+std::unique_ptr<Subject> reference_subject(const std::string& name) {
+  return engine(name, [](const Case& scene) {
+    return answer_of(reference::first_order_visibility(scene.mesh, exact::ConvexCell::from_doubles(scene.cell),
+                                                       reference_options(scene)));
   });
 }
 
@@ -185,17 +177,13 @@ std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<
 
 std::unique_ptr<Subject> make_subject(const std::string& text) {
   if (is_program(text)) return std::make_unique<CommandSubject>(text);
-  if (text == "reference") return reference_subject(text, PlantedBug::none);
+  if (text == "reference") return reference_subject(text);
   if (text == "fast") return fast_subject(text);
   if (text == "subdivided") return refined_subject(text, validate::Refinement::cells);
   if (text == "backprojected") return refined_subject(text, validate::Refinement::backprojection);
   if (text == "fast:subdivided") return refined_fast_subject(text, fastpath::RefineBy::cells);
-  if (text == "fast:backprojected") return refined_fast_subject(text, fastpath::RefineBy::backprojection);
-  const auto bug = planted_bugs.find(text.substr(std::string_view("reference:").size()));
-  if (bug == planted_bugs.end())
-    throw Error(ErrorCode::bad_argument,
-                "--subject " + text + ": no such planted bug; `clues fuzz --help` lists the subjects");
-  return reference_subject(text, bug->second);
+  assert(text == "fast:backprojected");
+  return refined_fast_subject(text, fastpath::RefineBy::backprojection);
 }
 
 }  // namespace clues::fuzz

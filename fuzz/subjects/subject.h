@@ -41,7 +41,7 @@ class Subject {
   virtual bool takes_dials() const { return false; }   // answers as the dials of the case say (dials.h)
 };
 
-// "reference": the exact reference. "reference:BUG": with a planted bug, for the tests. "fast": the fast path. "subdivided",
+// "reference": the exact reference. "fast": the fast path. "subdivided",
 // "backprojected": the reference refined to depth 2; after "fast:" the fast path to depth 3. Anything else is a command line (words and quotes as in
 // a shell), in which {scene}, {cell} and {pvs} stand for an OFF file, an OBJ file of the cell's points and the file that it has to write, {mode} for
 // sheet or solid; without any of these words, the first three are appended. Throws scene::Error bad_argument.

@@ -98,7 +98,6 @@ TEST(FuzzCommand, BadUsage) {
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
            {"fuzz", "--generator", "none", "--cases", "1", "--out", out},
            {"fuzz", "--oracle", "none", "--cases", "1", "--out", out},
-           {"fuzz", "--subject", "reference:none", "--cases", "1", "--out", out},
            {"fuzz", "--cases", "0", "--out", out},
            {"fuzz", "--time", "20x", "--out", out},
            {"fuzz", "--time", "0", "--out", out},

@@ -65,7 +65,6 @@ INSTANTIATE_TEST_SUITE_P(Methods, WrongMethodTest,
                                          WrongMethod{"hides-one", "wall-in-the-open"},
                                          WrongMethod{"from-centre", "slit-off-centre"},
                                          WrongMethod{"random-rays", "two-crossed-slits"},
-                                         WrongMethod{"no-rule-3", "sight-line-leaves-a-solid-through-a-visible-face"},
                                          WrongMethod{"float32", "gap-of-one-ulp"}, WrongMethod{"cell-shrunk", rim},
                                          WrongMethod{"drops-small", "small-triangle-in-the-open"}),
                          [](const auto& test) {

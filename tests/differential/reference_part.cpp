@@ -23,7 +23,7 @@ class ReferencePart : public fastpath::PartialMap {
         map_(reference::first_order_visibility(mesh, cell, options_)),
         scene_(map_.complex, map_.cell),
         fixpoint_(reference::find_wedges(scene_, options_, statistics_)),
-        walker_(scene_, true) {
+        walker_(scene_) {
     // The pieces as triangles; what is unbounded is cut far outside of the scene.
     for (const reference::ValidPiece& piece : fixpoint_.wedges.pieces()) {
       const reference::Wedge& wedge = piece.wedge;

@@ -73,4 +73,17 @@ inline Scene slits_and_tiles() {
   return s;
 }
 
+// A-4 with its numbers, drawn out along z: the cell is the strip x = 0, -4 <= y <= 0; a plate ends in the edge E at (10, 0); a small plate O at x = 8 hides
+// y > -1 from E. The adjusted wedge is y = (x - 10) / 10; the point (100, 8.9) is below it, and is seen from (0, 0).
+struct HazardA4 : Scene {
+  std::uint32_t target, near_target;
+  HazardA4() {
+    quad({10, -50, -64}, {10, 0, -64}, {10, 0, 64}, {10, -50, 64});
+    quad({8, -0.2, -64}, {8, 0.2, -64}, {8, 0.2, 64}, {8, -0.2, 64});
+    target = quad({100, 8.75, -1}, {100, 8.9375, -1}, {100, 8.9375, 1}, {100, 8.75, 1});
+    near_target = quad({12, 0.0625, -1}, {12, 0.125, -1}, {12, 0.125, 1}, {12, 0.0625, 1});
+    cell = {{0, -4, -1}, {0, 0, -1}, {0, 0, 1}, {0, -4, 1}};
+  }
+};
+
 }  // namespace clues::fastpath

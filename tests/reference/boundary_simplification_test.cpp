@@ -1,46 +1,29 @@
-// Simpler borders of flat hidden regions, in closed form. Each outcome is also held against the old region as an exact set.
+// Simpler borders of flat hidden regions, in closed form. Each outcome is also held against the old region as an exact set. The literal readings (hazards)
+// are in tests/planted.
 #include "reference/visibility/hidden/boundary_simplification.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
-#include "fuzz/generators/random.h"
+#include "flat_regions.h"
 
 namespace clues::test {
 namespace {
 
 using exact::FT;
 using exact::Point2;
-using reference::boundary_segments;
 using reference::Face2;
 using reference::FlatSet;
-using reference::PlantedStep;
 using reference::Ring2;
 using reference::simplified;
 
-const FT kTwiceOutline(200 * 200);
 const FT kAll(200 * 200);  // more than any region can lose
+const Face2 chamfered = chamfered_square();
 
-exact::Kernel::Triangle_2 outline() { return {Point2(0, 0), Point2(200, 0), Point2(0, 200)}; }
-
-Ring2 ring(const std::vector<std::pair<int, int>>& corners) {
-  Ring2 out;
-  for (const auto& [x, y] : corners) out.emplace_back(x, y);
-  return out;
-}
-
-FlatSet set_of(const Face2& face) { return FlatSet(kTwiceOutline, {face}); }
-FT twice_area(const FlatSet& set) { return set.fraction() * kTwiceOutline; }
-bool inside(const Face2& inner, const Face2& outer) { return subtract(set_of(inner), set_of(outer)).empty(); }
-std::size_t segments(const Face2& face) { return boundary_segments(face, outline()); }
-
-std::vector<Point2> sorted(Ring2 points) {
-  std::sort(points.begin(), points.end());
-  return points;
-}
+FT twice_area(const FlatSet& set) { return set.fraction() * FT(200 * 200); }
+std::size_t segments(const Face2& face) { return reference::boundary_segments(face, outline()); }
 
 // Simplified, with what holds of every simplification.
 Face2 simpler(const Face2& face, const FT& budget) {
@@ -51,8 +34,6 @@ Face2 simpler(const Face2& face, const FT& budget) {
   EXPECT_LE(twice_area(set_of(face)) - twice_area(set_of(out)), budget);
   return out;
 }
-
-const Face2 chamfered{ring({{10, 10}, {30, 10}, {30, 29}, {29, 30}, {10, 30}})};
 
 TEST(BoundarySimplification, AChordCutsTheCornerThatLosesLeastAndTiesGoByPosition) {
   EXPECT_EQ(simpler(chamfered, FT(18)), chamfered);  // either corner of the chamfer costs 19
@@ -162,20 +143,6 @@ TEST(BoundarySimplification, WhatStandsInATriangleIsNotCutOff) {
   EXPECT_EQ(sorted(simpler(face, kAll)[0]), sorted(ring({{10, 10}, {40, 10}, {40, 40}})));
 }
 
-// Star-shaped polygons with corners on a circle of rays: convex and reflex corners in any order.
-Face2 star(std::uint64_t seed) {
-  fuzz::Random random(seed);
-  const std::vector<std::pair<int, int>> rays{{8, 0},  {7, 3},  {6, 6},  {3, 7},   {0, 8},   {-3, 7},
-                                              {-6, 6}, {-7, 3}, {-8, 0}, {-7, -3}, {-6, -6}, {-3, -7},
-                                              {0, -8}, {3, -7}, {6, -6}, {7, -3}};
-  Ring2 out;
-  for (const auto& [x, y] : rays) {
-    const FT length = FT(random.between(16, 64)) / FT(16);
-    out.emplace_back(FT(60) + length * FT(x), FT(60) + length * FT(y));
-  }
-  return {out};
-}
-
 TEST(BoundarySimplification, MoreLossContinuesWhatLessBegan) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE(seed);
@@ -189,20 +156,6 @@ TEST(BoundarySimplification, MoreLossContinuesWhatLessBegan) {
     }
     EXPECT_EQ(segments(last), 3U);
   }
-}
-
-// The literal readings, which take the step without asking where its triangle lies.
-TEST(BoundarySimplification, HazardA16AChordTakenBlindlyLeavesTheRegion) {
-  std::size_t outside = 0;
-  for (std::uint64_t seed = 1; seed <= 12; ++seed)
-    outside += !inside(simplified(star(seed), outline(), FT(400), PlantedStep::chord_outside), star(seed));
-  EXPECT_GT(outside, 6U);
-}
-
-TEST(BoundarySimplification, HazardA17AnExtensionOnTheOtherSideLeavesTheRegion) {
-  const Face2 out = simplified(chamfered, outline(), FT(1), PlantedStep::extension_outside);
-  EXPECT_EQ(sorted(out[0]), sorted(ring({{10, 10}, {30, 10}, {30, 30}, {10, 30}})));
-  EXPECT_FALSE(inside(out, chamfered));
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ TEST(Hazard, B11AskedBeforeAllWallsExist) {
   ASSERT_FALSE(left.empty());
   reference::WedgeSet wedges(scene);
   wedges.add(left);
-  const reference::Walker walker(scene, true);
+  const reference::Walker walker(scene);
   std::optional<reference::Start> start;
   for (const std::uint32_t triangle :
        {receiver, receiver + 1}) {  // just beside the left trace, beyond the crossing at Y = 0
@@ -375,7 +375,7 @@ TEST(Hazard, B31OneVertexDoesNotSpeakForItsMesh) {
   const exact::SceneQuery query(map.complex, cell);
   reference::Statistics unused;
   const auto wedges = reference::find_wedges(query, {}, unused).wedges;
-  const reference::Walker walker(query, true);
+  const reference::Walker walker(query);
   EXPECT_FALSE(walker.label({Point3(0, 0, 3.9375), std::nullopt, nullptr}, wedges, 1).visible);  // beside that vertex
   EXPECT_TRUE(is_visible(map, behind, kFront, {8.5, 0.0625, 4}));
   EXPECT_FALSE(is_visible(map, behind, kFront, {0.25, 0.0078125, 4}));

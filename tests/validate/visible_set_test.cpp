@@ -9,39 +9,20 @@
 #include "exact/sight/witness.h"
 #include "fuzz/generators/random_scenes.h"
 #include "scene/messages/error.h"
-#include "validate/windows/sight_window.h"
+#include "sight_scenes.h"
 
 namespace clues::validate {
 namespace {
 
 using exact::ConvexCell;
 using scene::Point;
+using tests::box;
+using Mesh = tests::SightMesh;
 
-struct Mesh : scene::TriangleMesh {
-  std::uint32_t triangle(const Point& a, const Point& b, const Point& c) {
-    const auto first = static_cast<std::uint32_t>(points.size());
-    points.insert(points.end(), {a, b, c});
-    triangles.push_back({first, first + 1, first + 2});
-    face_of.push_back(static_cast<std::uint32_t>(face_of.size()));
-    return static_cast<std::uint32_t>(triangles.size()) - 1;
-  }
-  void quad(const Point& a, const Point& b, const Point& c, const Point& d) {
-    triangle(a, b, c);
-    triangle(a, c, d);
-  }
-};
-
-ConvexCell box(double x, double y, double z0, double z1) {
-  std::vector<Point> corners;
-  for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z1 : z0});
-  return ConvexCell::from_doubles(corners);
-}
-
-Sight sight_of(const Mesh& mesh, std::uint32_t triangle, const ConvexCell& cell, bool trust_map = false,
-               PlantedSightBug bug = PlantedSightBug::none) {
+Sight sight_of(const scene::TriangleMesh& mesh, std::uint32_t triangle, const ConvexCell& cell,
+               bool trust_map = false) {
   VisibleSetOptions options;
   options.trust_map = trust_map;
-  options.planted_bug = bug;
   const auto set = exact_visible_set(mesh, cell, options);
   EXPECT_EQ(set.triangles.at(triangle).witness.has_value(), set.triangles[triangle].sight == Sight::visible);
   return set.triangles[triangle].sight;
@@ -105,28 +86,14 @@ TEST(VisibleSetKeyhole, PointAsCell) {
   EXPECT_EQ(sight_of(Keyhole(15 / 32.), Keyhole(1).target, cell), Sight::hidden);
 }
 
-// In this scene triangle 11 is seen through a hole that opens and closes where three shadows meet, and at no sampled point.
-TEST(VisibleSetEvents, PlantedBugForgettingTriplesIsCaught) {
-  const auto scene = fuzz::generate(fuzz::Kind::interpenetrating, 20261121, 11);
-  const auto cell = ConvexCell::from_doubles(scene.cell);
-  VisibleSetOptions options;
-  options.trust_map = false;
-  EXPECT_EQ(exact_visible_set(scene.mesh, cell, options).triangles[11].sight, Sight::visible);
-  options.planted_bug = PlantedSightBug::forget_triples;
-  EXPECT_EQ(exact_visible_set(scene.mesh, cell, options).triangles[11].sight, Sight::hidden)
-      << "the planted bug has no effect: this test shows nothing";
+TEST(VisibleSetEvents, AHoleBetweenThreeShadowsIsFound) {
+  const tests::HoleBetweenShadows hole;
+  EXPECT_EQ(sight_of(hole.scene.mesh, hole.target, hole.cell), Sight::visible);
 }
 
-// Only lines that come steeply from the left reach the cell, and each hits a plate after it has left the cell again.
-TEST(VisibleSetCell, PlantedBugBlockingBehindTheCellIsCaught) {
-  Mesh scene;
-  const auto target = scene.triangle({-6, -1, 6}, {6, -1, 6}, {-6, 1, 6});
-  scene.quad({-1, -9, 1}, {9, -9, 1}, {9, 9, 1}, {-1, 9, 1});
-  scene.quad({1.5, -9, .75}, {1.5, 9, .75}, {-.5, 9, -2.875}, {-.5, -9, -2.875});
-  const ConvexCell cell = box(.5, .5, -1, 0);
-  EXPECT_EQ(sight_of(scene, target, cell), Sight::visible);
-  EXPECT_EQ(sight_of(scene, target, cell, false, PlantedSightBug::block_behind_cell), Sight::hidden)
-      << "the planted bug has no effect: this test shows nothing";
+TEST(VisibleSetCell, WhatLiesBehindTheCellBlocksNothing) {
+  const tests::PlateBehindTheCell plate;
+  EXPECT_EQ(sight_of(plate.mesh, plate.target, plate.cell), Sight::visible);
 }
 
 TEST(VisibleSetWindowLimit, IsReportedAsUndecided) {

@@ -134,7 +134,7 @@ class Search {
   // Windows along one line until every open range between critical places is decided.
   std::optional<Witness> sweep(const SightQuestion& question, const SightEdge& edge, Passage passage) {
     ++statistics_.edges_swept;
-    SightWindow window(scene_.shape(), question.target, edge, passage, options_.planted_bug);
+    SightWindow window(scene_.shape(), question.target, edge, passage);
     for (const int wedge : {1, -1}) {
       if (wedge < 0 && passage != Passage::edge) break;
       std::vector<OpenRange> todo;

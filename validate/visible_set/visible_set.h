@@ -13,8 +13,6 @@
 
 namespace clues::validate {
 
-enum class PlantedSightBug : int;  // sight_window.h; for the tests of the tests
-
 enum class Sight {
   visible,
   hidden,
@@ -36,7 +34,6 @@ struct VisibleSetOptions {
       true;  // see docs/visible-set.md, section 5; false: hidden triangles are proved hidden without the first-order map
   std::vector<std::uint32_t> only;  // ascending: decides these and leaves the others undecided; empty: all
   bool points_first = true;         // false: sweep the edges before asking single points; slower, for the tests
-  PlantedSightBug planted_bug{};
 };
 
 struct VisibleSetStatistics {

@@ -167,7 +167,7 @@ int MovingPlanes::sign_here(Polynomial& p) {
 }
 
 void MovingPlanes::remember(Polynomial& p, int sign) {
-  if (p.remembered_for == visit_ || (forget_triples && p.planes[0] >= 0)) return;
+  if (p.remembered_for == visit_) return;
   p.remembered_for = visit_;
   if (sign == 0) {
     const auto& c = exact_of(p);

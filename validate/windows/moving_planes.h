@@ -60,9 +60,6 @@ class MovingPlanes {
   // The normal at s, times a positive factor.
   const IVector& normal(int i);
 
-  // A planted bug of the tests: events of three planes are not remembered.
-  bool forget_triples = false;
-
  private:
   struct Plane {
     IVector a, b;

@@ -48,16 +48,13 @@ CellShape::CellShape(const exact::ConvexCell& cell) : dimension(cell.dimension()
   }
 }
 
-SightWindow::SightWindow(const CellShape& cell, const SightTarget& target, const SightEdge& edge, Passage passage,
-                         PlantedSightBug bug)
+SightWindow::SightWindow(const CellShape& cell, const SightTarget& target, const SightEdge& edge, Passage passage)
     : cell_(cell),
       edge_(edge),
       passage_(passage),
-      bug_(bug),
       planes_(edge.origin, edge.direction),
       target_value_(planes_.add_value(target.up, target.triangle[0])),
       target_lines_(add_lines(target.triangle)) {
-  planes_.forget_triples = bug == PlantedSightBug::forget_triples;
   if (passage != Passage::on_cell) {
     for (const auto& facet : cell.facets) {
       facets_.push_back({planes_.add_value(facet.normal, facet.corners[0]), planes_.add_constant(facet.normal),
@@ -196,7 +193,7 @@ const SightWindow::Cone* SightWindow::shadow_cone(Shadow& shadow) {
 // Whether the line in a direction of the shadow and of the cell meets the polygon before a solid cell. The polygon is
 // convex and outside int V, so the answer is the same for all of them.
 bool SightWindow::is_before(Shadow& shadow, const IVector& d) {
-  if (shadow.way != Shadow::Way::cell || bug_ == PlantedSightBug::block_behind_cell) return true;
+  if (shadow.way != Shadow::Way::cell) return true;
   if (shadow.before == 0) {
     const RVector line{d[0], d[1], d[2]};
     const auto reach = [&](const RVector& normal, const RVector& at) {

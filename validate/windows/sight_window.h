@@ -65,13 +65,10 @@ struct Opening {
   RVector nudge;  // moved a little this way, the line passes all sheets at y; zero unless Passage::edge
 };
 
-enum class PlantedSightBug : int { none, forget_triples, block_behind_cell };
-
 class SightWindow {
  public:
   // Keeps references.
-  SightWindow(const CellShape& cell, const SightTarget& target, const SightEdge& edge, Passage passage,
-              PlantedSightBug bug);
+  SightWindow(const CellShape& cell, const SightTarget& target, const SightEdge& edge, Passage passage);
 
   enum class Answer { covered, open, on_event };
   // The window at y(s). `wedge`, +1 or -1: the side of the plane (edge, d) on which all sheets lie (Passage::edge only).
@@ -114,7 +111,6 @@ class SightWindow {
   const CellShape& cell_;
   const SightEdge& edge_;
   Passage passage_;
-  PlantedSightBug bug_;
   MovingPlanes planes_;
   int target_value_;
   std::vector<int> target_lines_;

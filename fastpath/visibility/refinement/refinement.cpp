@@ -181,7 +181,6 @@ class Refiner {
         cut[i].push_back(std::move(part));
         return;
       }
-      if (refinement_.planted_bug == RefinementBug::one_half_only) cells.pop_back();
       Flags wanted = open;
       for (std::size_t t = 0; t < wanted.size(); ++t) wanted[t] = wanted[t] && part.seen[t];
       for (ConvexCell& cell : cells) cut[i].push_back({std::move(cell), wanted, {}, {}, false});

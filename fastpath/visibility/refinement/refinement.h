@@ -27,9 +27,6 @@ namespace clues::fastpath {
 
 enum class RefineBy : std::uint8_t { cells, backprojection, both };  // both: adjusted planes first, then cells
 
-// The planted bugs of the tests of the tests. A user never sets one.
-enum class RefinementBug : std::uint8_t { none, one_half_only };
-
 struct RefinementOptions {
   RefineBy by = RefineBy::cells;
   int max_depth = 4;          // cuts on the way from V to a part
@@ -37,7 +34,6 @@ struct RefinementOptions {
   bool regions = false;       // refine the regions too
   // Tried to each triangle before the first depth, and a quarter as many after each. 0: all triangles are asked about in the maps of all parts.
   int sight_lines = 512;
-  RefinementBug planted_bug = RefinementBug::none;
 };
 
 // The state after one more depth; depth 0 is the first-order map.

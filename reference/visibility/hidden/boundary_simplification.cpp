@@ -65,8 +65,7 @@ bool in_the_way(const std::array<Point2, 3>& t, const std::vector<Point2>& may_t
 
 class Simplifier {
  public:
-  Simplifier(const Face2& face, const Kernel::Triangle_2& outline, PlantedStep planted)
-      : outline_(outline), planted_(planted) {
+  Simplifier(const Face2& face, const Kernel::Triangle_2& outline) {
     for (const Ring2& ring : face) {
       rings_.emplace_back();
       for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -118,10 +117,9 @@ class Simplifier {
     const Point2 &a = from.p, &b = mid.p, &c = corner(r, i + 1).p;
     if (!from.boundary || !mid.boundary) return std::nullopt;
     const CGAL::Orientation turn = CGAL::orientation(a, b, c);
-    const auto wanted = planted_ == PlantedStep::chord_outside ? CGAL::RIGHT_TURN : CGAL::LEFT_TURN;
-    if (turn != wanted && turn != CGAL::COLLINEAR) return std::nullopt;
+    if (turn == CGAL::RIGHT_TURN) return std::nullopt;
     const bool straight = turn == CGAL::COLLINEAR;
-    Step step = made(r, i, false, turn == CGAL::RIGHT_TURN ? std::array{a, c, b} : std::array{a, b, c});
+    Step step = made(r, i, false, {a, b, c});
     step.may_touch = straight ? std::vector{a, c} : std::vector{a, b, c};
     return step;
   }
@@ -131,17 +129,10 @@ class Simplifier {
     if (!from.boundary || !mid.boundary || !to.boundary || !from.line || !to.line) return std::nullopt;
     const Point2 &a = from.p, &b = mid.p, &c = to.p, &d = corner(r, i + 2).p;
     const CGAL::Orientation at_b = CGAL::orientation(a, b, c), at_c = CGAL::orientation(b, c, d);
-    const bool both_out = at_b == CGAL::LEFT_TURN && at_c == CGAL::LEFT_TURN;
     if (at_b == CGAL::COLLINEAR || at_c == CGAL::COLLINEAR) return std::nullopt;
-    if (both_out != (planted_ == PlantedStep::extension_outside)) return std::nullopt;
+    if (at_b == CGAL::LEFT_TURN && at_c == CGAL::LEFT_TURN) return std::nullopt;
     const auto x = crossing(*from.line, *to.line);
-    if (!x) return std::nullopt;
-    const CGAL::Orientation side = CGAL::orientation(b, c, *x);
-    if (both_out) {
-      if (side != CGAL::RIGHT_TURN || outline_.has_on_unbounded_side(*x)) return std::nullopt;
-      return made(r, i, true, {b, *x, c});
-    }
-    if (side != CGAL::LEFT_TURN) return std::nullopt;
+    if (!x || CGAL::orientation(b, c, *x) != CGAL::LEFT_TURN) return std::nullopt;
     Step step = made(r, i, true, {b, c, *x});  // beyond a, or d, x has that corner in the way
     if (at_b == CGAL::LEFT_TURN) step.may_touch = {b};
     if (at_c == CGAL::LEFT_TURN) step.may_touch = {c};
@@ -173,7 +164,7 @@ class Simplifier {
     if (step.extend) {
       const std::size_t next = (step.at + 1) % ring.size();
       ring[step.at] = ring[next];
-      ring[step.at].p = planted_ == PlantedStep::extension_outside ? step.lost[1] : step.lost[2];
+      ring[step.at].p = step.lost[2];
       ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(next));
     } else {
       ring[before(step.ring, step.at)].line.reset();
@@ -181,8 +172,6 @@ class Simplifier {
     }
   }
 
-  const Kernel::Triangle_2& outline_;
-  PlantedStep planted_;
   std::vector<Ring> rings_;
 };
 
@@ -196,8 +185,8 @@ std::size_t boundary_segments(const Face2& face, const Kernel::Triangle_2& outli
   return count;
 }
 
-Face2 simplified(const Face2& face, const Kernel::Triangle_2& outline, const FT& budget, PlantedStep planted) {
-  Simplifier simplifier(face, outline, planted);
+Face2 simplified(const Face2& face, const Kernel::Triangle_2& outline, const FT& budget) {
+  Simplifier simplifier(face, outline);
   simplifier.run(budget);
   return simplifier.face();
 }

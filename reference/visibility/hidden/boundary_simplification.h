@@ -14,16 +14,12 @@
 
 namespace clues::reference {
 
-// The tests' bugs: a chord, or an extension, taken on the side of the border that is not hidden.
-enum class PlantedStep { none, chord_outside, extension_outside };
-
 // The segments of the face's rings that do not lie on the outline.
 std::size_t boundary_segments(const Face2& face, const exact::Kernel::Triangle_2& outline);
 
 // Takes the step that loses least, ties by position, until the next would make the loss (as doubled area) more than `budget`. So a larger budget continues what a
 // smaller one began. The hidden face must have no corner in the middle of one of its other segments. A ring of three corners stays as it is. Each step O(n^2) for n
 // corners at worst, O(n log n) where the first choice will do.
-Face2 simplified(const Face2& face, const exact::Kernel::Triangle_2& outline, const exact::FT& budget,
-                 PlantedStep planted = PlantedStep::none);
+Face2 simplified(const Face2& face, const exact::Kernel::Triangle_2& outline, const exact::FT& budget);
 
 }  // namespace clues::reference

@@ -181,7 +181,7 @@ void simplify(std::vector<HiddenRegion>& regions, const exact::Complex& complex,
     if (region.segments < 2) return;
     const TriangleFrame frame(complex, piece_of(region.side));
     const FT budget = exact::collapsed(FT(controls.max_loss) * region.fraction * frame.twice_area());
-    Face2 simpler = simplified(region.face, frame.flat(), budget, controls.planted);
+    Face2 simpler = simplified(region.face, frame.flat(), budget);
     if (simpler == region.face) return;
     region.face = std::move(simpler);
     measure(region, complex, frame);
@@ -200,7 +200,7 @@ VisibilityMap rebuilt(const VisibilityMap& map, const std::map<std::size_t, std:
     const TriangleFrame frame(map.complex, t);
     FlatSet hidden(frame.twice_area());
     for (const Face2& face : changed.at(order[k])) hidden = unite(hidden, FlatSet(frame.twice_area(), {face}));
-    if (controls.planted == PlantedStep::none && !subtract(hidden, set_with(false, old.at(order[k]), frame)).empty())
+    if (!subtract(hidden, set_with(false, old.at(order[k]), frame)).empty())
       throw scene::Error(scene::ErrorCode::internal, "simplification: a hidden region grew");
     made[k] = side_faces(subtract(whole_of(frame), hidden), frame, t, is_front(order[k]));
   });

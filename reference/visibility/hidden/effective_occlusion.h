@@ -41,7 +41,6 @@ struct OcclusionControls {
       0;  // in units of the scene, squared: where effective() is less, after the simplification, the boundary goes
   double max_loss = 0;  // 0 to 1: the largest part of its area that a hidden region gives up for a simpler border
   int threads = 0;      // 0: as many as the machine has; the result does not depend on it
-  PlantedStep planted = PlantedStep::none;
   std::optional<double> corner_angle = std::
       nullopt;  // FIG. 20B, before all else: the planes meet where that is within so many degrees of every swept wedge
 };

@@ -26,8 +26,8 @@ CGAL::Oriented_side strict_side(bool front) { return front ? CGAL::ON_POSITIVE_S
 
 }  // namespace
 
-Walker::Walker(const exact::SceneQuery& scene, bool rule_3, std::int64_t longest)
-    : scene_(&scene), rule_3_(rule_3), longest_(longest == exact::Dials::kOwn ? kLongestWalk : longest) {}
+Walker::Walker(const exact::SceneQuery& scene, std::int64_t longest)
+    : scene_(&scene), longest_(longest == exact::Dials::kOwn ? kLongestWalk : longest) {}
 
 Point3 Walker::choose(std::uint64_t seed, const std::optional<Point3>& anchor, const Good& good) const {
   const exact::ConvexCell& cell = scene_->cell();
@@ -233,7 +233,6 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     const Point3 m = last_crossing(v, p, last, good);
     const bool front = complex.planes[last.piece].oriented_side(p) == CGAL::ON_POSITIVE_SIDE;
     walk.legs.push_back({m, p, last.piece, front, false, false});
-    if (!rule_3_) return walk;
     p = m;
     surface = SurfaceSide{last.piece, front};
     contour = nullptr;

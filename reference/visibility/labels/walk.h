@@ -70,7 +70,7 @@ struct Start {
 class Walker {
  public:
   // `longest`: legs after which a walk is given up (Dials).
-  Walker(const exact::SceneQuery& scene, bool rule_3, std::int64_t longest = exact::Dials::kOwn);
+  explicit Walker(const exact::SceneQuery& scene, std::int64_t longest = exact::Dials::kOwn);
 
   // Different seeds use different sight lines; the label must not depend on the seed (D14). Deterministic.
   Walk walk(const Start& start, std::uint64_t seed) const;
@@ -143,7 +143,6 @@ class Walker {
   exact::Point3 last_crossing(const exact::Point3& v, const exact::Point3& p, const exact::Hit& hit,
                               const Good& good) const;
   const exact::SceneQuery* scene_;
-  bool rule_3_;
   std::int64_t longest_;
 };
 

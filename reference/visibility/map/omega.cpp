@@ -7,7 +7,7 @@ namespace clues::reference {
 using exact::Point3;
 
 SpaceLabels::SpaceLabels(const Omega& omega, const CGAL::Bbox_3& bounds)
-    : omega_(&omega), walker_(omega.scene(), true), wedges_(omega.scene(), bounds + omega.scene().bounds()) {
+    : omega_(&omega), walker_(omega.scene()), wedges_(omega.scene(), bounds + omega.scene().bounds()) {
   wedges_.add(omega.fixpoint().wedges.pieces());
 }
 

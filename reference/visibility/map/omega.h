@@ -39,7 +39,7 @@ class Omega {
 };
 
 // Labels of points of free space within a box (and within that of scene and cell), in the coordinates of
-// omega.map(). Keeps a reference. Not for maps with a planted bug.
+// omega.map(). Keeps a reference.
 class SpaceLabels {
  public:
   SpaceLabels(const Omega& omega, const CGAL::Bbox_3& bounds);

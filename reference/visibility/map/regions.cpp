@@ -69,7 +69,7 @@ class SideMapper {
         fixpoint_(fixpoint),
         visited_(visited),
         options_(options),
-        walker_(scene, options.planted_bug != PlantedBug::no_rule_3, options.dials.longest_walk) {
+        walker_(scene, options.dials.longest_walk) {
     for (const ValidPiece& piece : fixpoint.wedges.pieces()) {
       const Wedge& w = piece.wedge;
       if (!w.unbounded) {

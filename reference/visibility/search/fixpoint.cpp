@@ -33,15 +33,12 @@ class Search {
         complex_(scene.complex()),
         options_(options),
         statistics_(statistics),
-        walker_(scene, options.planted_bug != PlantedBug::no_rule_3, options.dials.longest_walk),
+        walker_(scene, options.dials.longest_walk),
         contours_(contour_edges(complex_, scene.cell())),
-        maker_(scene, contours_, options.planted_bug),
+        maker_(scene, contours_),
         cuts_(complex_.edges.size()),
         wedges_(scene) {
     for (const ContourEdge& c : contours_) is_contour_.insert(c.edge);
-    if (options.planted_bug == PlantedBug::wrong_wedge_side) {
-      for (ContourEdge& c : contours_) c.plane = c.plane.opposite();
-    }
   }
 
   Fixpoint run() {
@@ -243,10 +240,6 @@ class Search {
   }
 
   void add_csv(const ValidPiece& piece, const Crossing& c) {
-    if (options_.planted_bug == PlantedBug::retested_csv) {
-      const Start start{c.at.p, std::nullopt, nullptr};
-      if (walker_.visible(start, walker_.walk(start, kSourceSeed), wedges_, 0) != Meets::yes) return;
-    }
     Apex* apex = c.at_vertex ? corner(c.id) : csv(c.id, c.at.p);
     const int generation = piece.wedge.generation + 1;
     if (apex->on_edge() && (apex->generation < 0 || generation < apex->generation)) apex->generation = generation;

@@ -26,7 +26,6 @@ struct Options {
   bool check_two_walks =
       true;  // D14: walk twice, from two independent v, and count disagreements (a debug build stops at one)
   Progress progress;
-  PlantedBug planted_bug = PlantedBug::none;
   exact::Dials dials;  // the limits of D17, and what else only tests turn
 };
 

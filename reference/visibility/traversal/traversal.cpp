@@ -97,7 +97,7 @@ Traversal traverse(const exact::SceneQuery& whole, const Options& options, Stati
     carry_over(statistics, of_pass);
 
     visit_around(spread, complex, fixpoint);
-    const Walker walker(*scene, options.planted_bug != PlantedBug::no_rule_3, options.dials.longest_walk);
+    const Walker walker(*scene, options.dials.longest_walk);
     std::vector<std::uint32_t> lit =
         darkness.not_dark(*scene, walker, fixpoint, spread.visited(), statistics.shaft_tests);
     if (options.dials.batch > 0) lit.resize(std::min(lit.size(), options.dials.batch));

@@ -15,19 +15,6 @@ using exact::Point3;
 
 namespace {
 
-// The planted bug of a tolerance: strips that look narrow in doubles are taken for nothing.
-bool is_narrow(const Strip& s, const Point3& center) {
-  const auto c = exact::to_double_estimate(center), a = exact::to_double_estimate(s.on_ray0.p),
-             b = exact::to_double_estimate(s.on_ray1.p);
-  double dot = 0, aa = 0, bb = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    dot += (a[i] - c[i]) * (b[i] - c[i]);
-    aa += (a[i] - c[i]) * (a[i] - c[i]);
-    bb += (b[i] - c[i]) * (b[i] - c[i]);
-  }
-  return dot * dot > 0.98 * aa * bb;
-}
-
 // Where the ray through `on_ray` starts: on the sector's near bound.
 Point3 near_point(const Sector& sector, const OnWedge& on, const Spot& on_ray) {
   if (sector.from_apex()) return sector.center;
@@ -40,8 +27,8 @@ Point3 near_point(const Sector& sector, const OnWedge& on, const Spot& on_ray) {
 
 }  // namespace
 
-PieceMaker::PieceMaker(const exact::SceneQuery& scene, const std::vector<ContourEdge>& contours, PlantedBug planted_bug)
-    : scene_(scene), contours_(contours), planted_bug_(planted_bug) {
+PieceMaker::PieceMaker(const exact::SceneQuery& scene, const std::vector<ContourEdge>& contours)
+    : scene_(scene), contours_(contours) {
   for (const ContourEdge& c : contours) edge_wedges_.emplace_back(c.touching.size());
 }
 
@@ -110,7 +97,6 @@ std::vector<ValidPiece> PieceMaker::pieces_of(const Job& job) const {
   const bool holds_cell = exact::lies_in(scene_.cell(), sector.plane);
   std::vector<ValidPiece> pieces;
   for (const Strip& strip : strips) {
-    if (planted_bug_ == PlantedBug::rounded_comparison && is_narrow(strip, sector.center)) continue;
     ValidPiece piece{{}, on, strip, holds_cell};
     Wedge& w = piece.wedge;
     w.kind = job.touching < 0                             ? WedgeKind::se_mv

@@ -18,7 +18,7 @@ namespace clues::reference {
 class PieceMaker {
  public:
   // Keeps references to both.
-  PieceMaker(const exact::SceneQuery& scene, const std::vector<ContourEdge>& contours, PlantedBug planted_bug);
+  PieceMaker(const exact::SceneQuery& scene, const std::vector<ContourEdge>& contours);
 
   struct Job {
     std::size_t contour = 0;
@@ -44,7 +44,6 @@ class PieceMaker {
 
   const exact::SceneQuery& scene_;
   const std::vector<ContourEdge>& contours_;
-  PlantedBug planted_bug_;
   std::vector<std::vector<std::shared_ptr<const OnWedge>>> edge_wedges_;  // per contour edge and touching vertex
 };
 

@@ -17,9 +17,6 @@
 
 namespace clues::reference {
 
-// The planted bugs of the tests of the tests. A user never sets one.
-enum class PlantedBug { none, wrong_wedge_side, retested_csv, no_rule_3, rounded_comparison };
-
 enum class WedgeKind : std::uint8_t { sv_me, se_me, se_mv };
 
 struct Wedge {

@@ -11,7 +11,7 @@ namespace clues::planted {
 
 using Ids = std::vector<std::uint32_t>;
 
-// Modes: reference, everything-visible, everything-hidden, hides-one, from-centre, random-rays, no-rule-3, float32, cell-shrunk, drops-small. Throws
+// Modes: reference, everything-visible, everything-hidden, hides-one, from-centre, random-rays, float32, cell-shrunk, drops-small. Throws
 // std::invalid_argument for any other.
 Ids answer(const std::string& mode, const validate::Request& request);
 bool is_method(const std::string& mode);

@@ -1,0 +1,116 @@
+#!/usr/bin/env python3
+"""Copies of our sources that take one decision wrongly. A program of tests that is linked with such a copy has to notice.
+
+usage: plant.py source ROOT NAME       prints the source of which NAME is a copy
+       plant.py write ROOT NAME FILE   writes the copy
+
+ROOT is a checkout. Each text has to be in its source once: repair COPIES where it is not.
+"""
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "mutation"))
+from edits import NotFound, edited, source_of  # noqa: E402
+
+# Name: (source, [(text, replacement), ...]).
+COPIES = {
+    # ---- the reference
+
+    # Wedges are looked for on the other side of the supporting planes.
+    "wrong_wedge_side": ("reference/fixpoint.cpp", [
+        ("    for (const ContourEdge& c : contours_) is_contour_.insert(c.edge);\n",
+         "    for (ContourEdge& c : contours_) {\n"
+         "      is_contour_.insert(c.edge);\n"
+         "      c.plane = c.plane.opposite();\n"
+         "    }\n")]),
+    # A compound silhouette vertex has to be visible by what is known already.
+    "retested_csv": ("reference/fixpoint.cpp", [
+        ("    Apex* apex = c.at_vertex ? corner(c.id) : csv(c.id, c.at.p);\n",
+         "    const Start start{c.at.p, std::nullopt, nullptr};\n"
+         "    if (walker_.visible(start, walker_.walk(start, kSourceSeed), wedges_, 0) != Meets::yes) return;\n"
+         "    Apex* apex = c.at_vertex ? corner(c.id) : csv(c.id, c.at.p);\n")]),
+    # A walk ends at the first surface that it meets (D14).
+    "no_rule_3": ("reference/walk.cpp", [
+        ("    p = m;\n    surface = SurfaceSide{last.piece, front};\n    contour = nullptr;\n", "    return walk;\n")]),
+    # A tolerance: strips that look narrow in doubles are taken for nothing.
+    "rounded_comparison": ("reference/valid_pieces.cpp", [
+        ("// Where the ray through `on_ray` starts",
+         "bool is_narrow(const Strip& s, const Point3& center) {\n"
+         "  const auto c = exact::to_double_estimate(center), a = exact::to_double_estimate(s.on_ray0.p),\n"
+         "             b = exact::to_double_estimate(s.on_ray1.p);\n"
+         "  double dot = 0, aa = 0, bb = 0;\n"
+         "  for (std::size_t i = 0; i < 3; ++i) {\n"
+         "    dot += (a[i] - c[i]) * (b[i] - c[i]);\n"
+         "    aa += (a[i] - c[i]) * (a[i] - c[i]);\n"
+         "    bb += (b[i] - c[i]) * (b[i] - c[i]);\n"
+         "  }\n"
+         "  return dot * dot > 0.98 * aa * bb;\n"
+         "}\n\n"
+         "// Where the ray through `on_ray` starts"),
+        ("    ValidPiece piece{{}, on, strip, holds_cell};\n",
+         "    if (is_narrow(strip, sector.center)) continue;\n"
+         "    ValidPiece piece{{}, on, strip, holds_cell};\n")]),
+    # With any of these: a wrong reference goes on where its walks disagree.
+    "disagreeing_walks": ("reference/first_order.cpp", [
+        ("  assert(map.statistics.walk_disagreements == 0);  // D14\n", "")]),
+
+    # ---- simpler occlusion: steps as the published text has them
+
+    # Hazard A-16: the chord that is taken runs outside the hidden region.
+    "chord_outside": ("reference/boundary_simplification.cpp", [
+        ("    if (turn == CGAL::RIGHT_TURN) return std::nullopt;\n",
+         "    if (turn == CGAL::LEFT_TURN) return std::nullopt;\n"),
+        ("made(r, i, false, {a, b, c})", "made(r, i, false, straight ? std::array{a, b, c} : std::array{a, c, b})")]),
+    # Hazard A-17: the segments are extended on the outside.
+    "extension_outside": ("reference/boundary_simplification.cpp", [
+        ("  Simplifier(const Face2& face, const Kernel::Triangle_2& outline) {\n",
+         "  Simplifier(const Face2& face, const Kernel::Triangle_2& outline) : outline_(outline) {\n"),
+        ("  std::vector<Ring> rings_;\n};\n", "  const Kernel::Triangle_2& outline_;\n  std::vector<Ring> rings_;\n};\n"),
+        ("    if (at_b == CGAL::LEFT_TURN && at_c == CGAL::LEFT_TURN) return std::nullopt;\n",
+         "    if (at_b != CGAL::LEFT_TURN || at_c != CGAL::LEFT_TURN) return std::nullopt;\n"),
+        ("    if (!x || CGAL::orientation(b, c, *x) != CGAL::LEFT_TURN) return std::nullopt;\n",
+         "    if (!x || CGAL::orientation(b, c, *x) != CGAL::RIGHT_TURN) return std::nullopt;\n"
+         "    if (outline_.has_on_unbounded_side(*x)) return std::nullopt;\n"),
+        ("made(r, i, true, {b, c, *x})", "made(r, i, true, {b, *x, c})"),
+        ("    if (at_b == CGAL::LEFT_TURN) step.may_touch = {b};\n    if (at_c == CGAL::LEFT_TURN) step.may_touch = {c};\n", ""),
+        ("ring[step.at].p = step.lost[2];", "ring[step.at].p = step.lost[1];")]),
+    # With either of these: nobody looks whether a hidden region grew.
+    "growing_regions": ("reference/effective_occlusion.cpp", [
+        ("    if (!subtract(hidden, set_with(false, old.at(order[k]), frame)).empty())\n"
+         "      throw scene::Error(scene::ErrorCode::internal, \"simplification: a hidden region grew\");\n", "")]),
+
+    # ---- refinement in the fast path
+
+    # Hazard A-4: the raw adjusted wedge, which is the map of V+ without V-.
+    "one_half_only": ("fastpath/refinement.cpp", [
+        ("      Flags wanted = open;\n", "      cells.pop_back();\n      Flags wanted = open;\n")]),
+
+    # ---- the exact visible set
+
+    # Events of three planes are not remembered.
+    "forget_triples": ("validate/moving_planes.cpp", [
+        ("  if (p.remembered_for == visit_) return;\n", "  if (p.remembered_for == visit_ || p.planes[0] >= 0) return;\n")]),
+    # What lies behind the cell blocks too.
+    "block_behind_cell": ("validate/sight_window.cpp", [
+        ("  if (shadow.way != Shadow::Way::cell) return true;\n", "  return true;\n")]),
+}
+
+
+def main():
+    command, root, name, *out = sys.argv[1:]
+    source, edits = COPIES[name]
+    try:
+        path = source_of(pathlib.Path(root), source)
+        text = path.read_text()
+        for old, new in edits:
+            text = edited(source, text, old, new)
+    except NotFound as error:
+        sys.exit(f"plant.py: {name}: {error}")
+    if command == "source":
+        print(path)
+    else:
+        pathlib.Path(out[0]).write_text(text)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,51 @@
+// Scenes in which the exact visible set needs every one of its questions.
+#pragma once
+
+#include <vector>
+
+#include "exact/cell/convex_cell.h"
+#include "fuzz/generators/random_scenes.h"
+#include "scene/mesh/mesh.h"
+
+namespace clues::validate::tests {
+
+struct SightMesh : scene::TriangleMesh {
+  std::uint32_t triangle(const scene::Point& a, const scene::Point& b, const scene::Point& c) {
+    const auto first = static_cast<std::uint32_t>(points.size());
+    points.insert(points.end(), {a, b, c});
+    triangles.push_back({first, first + 1, first + 2});
+    face_of.push_back(static_cast<std::uint32_t>(face_of.size()));
+    return static_cast<std::uint32_t>(triangles.size()) - 1;
+  }
+  void quad(const scene::Point& a, const scene::Point& b, const scene::Point& c, const scene::Point& d) {
+    triangle(a, b, c);
+    triangle(a, c, d);
+  }
+};
+
+inline exact::ConvexCell box(double x, double y, double z0, double z1) {
+  std::vector<scene::Point> corners;
+  for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z1 : z0});
+  return exact::ConvexCell::from_doubles(corners);
+}
+
+// The target is seen through a hole that opens and closes where three shadows meet, and at no sampled point.
+struct HoleBetweenShadows {
+  fuzz::GeneratedScene scene = fuzz::generate(fuzz::Kind::interpenetrating, 20261121, 11);
+  exact::ConvexCell cell = exact::ConvexCell::from_doubles(scene.cell);
+  std::uint32_t target = 11;
+};
+
+// Only lines that come steeply from the left reach the cell, and each hits a plate after it has left the cell again.
+struct PlateBehindTheCell {
+  SightMesh mesh;
+  exact::ConvexCell cell = box(.5, .5, -1, 0);
+  std::uint32_t target;
+  PlateBehindTheCell() {
+    target = mesh.triangle({-6, -1, 6}, {6, -1, 6}, {-6, 1, 6});
+    mesh.quad({-1, -9, 1}, {9, -9, 1}, {9, 9, 1}, {-1, 9, 1});
+    mesh.quad({1.5, -9, .75}, {1.5, 9, .75}, {-.5, 9, -2.875}, {-.5, -9, -2.875});
+  }
+};
+
+}  // namespace clues::validate::tests
