@@ -47,7 +47,7 @@ MUTATIONS = [
     ("regions-facing-away-swapped", "reference/regions.cpp", "if (!faces_cell(scene_.complex(), scene_.cell(), r.piece, r.front)) {", "if (!faces_cell(scene_.complex(), scene_.cell(), r.piece, !r.front)) {"),
     ("star-free-between-always", "reference/local_star.cpp", "    if (in_arc(a, b, arc.normal, CGAL::is_zero(at0)", "    if (false && in_arc(a, b, arc.normal, CGAL::is_zero(at0)"),
     ("star-spreads-never", "reference/local_star.cpp", "  if (turn(inner) == way) return true;", "  if (turn(inner) == way) return false;"),
-    ("d3-contact-is-not-visible", "reference/first_order.cpp", "    if (!scene.meets_cell(t)) continue;", "    continue;"),
+    ("d3-contact-is-not-visible", "reference/visibility_map.cpp", "    if (!scene.meets_cell(t)) continue;", "    continue;"),
     ("fixpoint-nothing-lit-outright", "reference/fixpoint.cpp", "if (sources_[i].walk.ends_at_cell || sources_[i].walk.unresolved) lit.push_back(i);", "if (sources_[i].walk.unresolved) lit.push_back(i);"),
     ("d3-border-not-cut", "exact/complex.cpp", "  if (cell && cell->dimension() == 3) {", "  if (cell && cell->dimension() == 4) {"),
     ("d16-contacts-forgotten", "exact/complex.cpp", "    contacts[i].push_back(contact);\n", ""),
