@@ -60,7 +60,6 @@ def clip(h: Plane, polygon: Sequence[Point]) -> list[Point]:
             kept.append(reduced(*(abs(values[i]) * a + abs(values[i - 1]) * b for a, b in zip(polygon[i - 1], q))))
         if values[i] >= 0: kept.append(q)
     return list(dict.fromkeys(kept))
-
 class Hull:
     """D2: a convex hull of any dimension. `flats` vanish on it, `sides` are not negative on it. `faces` are triangles
     around a body; or pieces (triangles, segments, a point) of a thin hull, which is made thick to find them."""
@@ -220,6 +219,7 @@ def one_of(value: Json, *choices: str) -> str:
     demand(value in choices, f"{str(value)[:40]!r} is none of {', '.join(choices)}")
     return value
 def is_front(value: Json) -> bool: return one_of(value, "front", "back") == "front"
+def is_solid(value: Json) -> bool: return one_of(value, "sheet", "solid") == "solid"
 def load(path: pathlib.Path, form: str | None) -> Json:
     def once(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
         return dict(pairs) if len(dict(pairs)) == len(pairs) else demand(False, "a key is there twice in an object")
@@ -244,11 +244,10 @@ def read_off(lines: list[list[str]]) -> tuple[list[list[str]], list[list[int]]]:
     if keyword.endswith("OFF"):
         demand(keyword in ("OFF", "COFF", "NOFF", "CNOFF") and "BINARY" not in rest, "of OFF only plain text is read")
         lines = ([rest] if rest else []) + lines[1:]
-    n, m = int(lines[0][0]), int((lines[0] + lines[1])[1])
+    n, m = (int(word) for word in sum(lines[:2], [])[:2])
     if len(lines) == 1 + n + m:  # what follows on a line is colours
         lines = [lines[0], *(x[:3] for x in lines[1:n + 1]), *(x[:int(x[0]) + 1] for x in lines[n + 1:])]
-    words = itertools.chain(*lines, ["end"])
-    next(words), next(words), next(words)
+    words = itertools.islice(itertools.chain(*lines, ["end"]), 3, None)
     points = [list(itertools.islice(words, 3)) for _ in range(n)]
     faces = [[int(word) for word in itertools.islice(words, int(next(words)))] for _ in range(m)]
     demand(next(words) == "end", "the counts are not those of what follows")
@@ -323,36 +322,36 @@ def suite(folder: pathlib.Path, glob: str, o: Opinion) -> None:
             if fnmatch.fnmatchcase(case["id"], glob):
                 mesh, cell = data["scenes"][case["scene"]], Hull(point(map(number, p)) for p in case["cell"])
                 triangles = [[point(map(number, pick(mesh["vertices"], i))) for i in t] for t in mesh["triangles"]]
-                s = Scene(triangles, cell, one_of(case["mode"], "sheet", "solid") == "solid")
-                expectations(s, case["expect"], where, o)
+                expectations(Scene(triangles, cell, is_solid(case["mode"])), case["expect"], where, o)
                 o.confirmed["cases"] += 1
+    demand(o.confirmed["cases"], "no case has such an id")
     n, said = sum(topics.values()), [index[key] for key in ("active", "withdrawn", "topics")]
     o.same("index.json", said, [n, len(index["cases"]) - n, dict(topics)])
 def judgement(s: Scene, j: Json, o: Opinion) -> None:
-    words, seen, fractions = j["triangles"], set(j["meet_cell"]), j["first_order_fractions"]
+    words, seen, fractions = j["triangles"], dict.fromkeys(j["meet_cell"]), j["first_order_fractions"]
     demand(len(words) == len(fractions) == len(s.triangles), "this is about another scene")
     for t in j["meet_cell"]:
         o.examine(f"meet_cell, triangle {t}", "cell contacts", check_contact, s, t)
     for w in j["witnesses"]:
-        t, front, line = w["triangle"], is_front(w["side"]), (estimated(w["v"]), estimated(w["p"]))
-        o.examine(f"witness of triangle {t}", "witnesses", check_chain, s, t, front, [line])
-        o.same(f"witness of triangle {t}: nothing in the map", fractions[t][not front] == "0", False)
-        seen.add(t)
+        t, line = w["triangle"], (estimated(w["v"]), estimated(w["p"]))
+        seen[t] = is_front(w["side"])
+        o.examine(f"witness of triangle {t}", "witnesses", check_chain, s, t, seen[t], [line])
     for c in j["chains"]:
         t, links = c["triangle"], [(estimated(link["v"]), estimated(link["x"])) for link in c["links"]]
         o.examine(f"chain of triangle {t}", "chains", check_chain, s, t, is_front(c["side"]), links)
     for t, x in enumerate(s.triangles):
         word = one_of(words[t], "exact", "missing-visible", "first-order", "missing-undecided", "loose", "hidden")
         o.same(f"triangle {t}, {word}: proof that it is visible", t in seen, word in ("exact", "missing-visible"))
+        unmapped = seen.get(t) is not None and fractions[t][not seen[t]] == "0"
+        o.same(f"triangle {t}, {word}: is seen and not in the map", unmapped, False)
         if word in ("loose", "hidden") and x:
             proof = "proved_hidden" if t in j["proved_hidden"] else "first_order_map"
             o.same(f"triangle {t}, {word}: is in the map", fractions[t] != ["0", "0"], proof == "proved_hidden")
             examine_hidden(s, t, f"triangle {t}, {word}", proof, o)
     count = collections.Counter(word.replace("-", "_") for word in words)
     o.same("counts", j["counts"], {key: count[key] for key in j["counts"]})
-    unsound, undecided = count["missing_visible"], count["missing_undecided"]
-    o.same("verdict", j["verdict"], "unsound" if unsound else "undecided" if undecided else "sound")
-    o.same("contradictions", j["contradictions"], [])
+    verdict = "unsound" if count["missing_visible"] else "undecided" if count["missing_undecided"] else "sound"
+    o.same("verdict, contradictions", [j["verdict"], j["contradictions"]], [verdict, []])
 def check_answer(s: Scene, p: Point, a: Json) -> None:
     """D18, a point: seen from v; or covered, by no triangle too many; or on a side that nobody is in front of."""
     ahead = None if a["triangle"] is None else s.surface(a["triangle"]).facing(is_front(a["side"]))
@@ -448,6 +447,8 @@ def umbra(s: Scene, u: Json, o: Opinion, listed: list[int] | None) -> None:
     for t in range(len(s.triangles)) if listed is None else listed:
         found.examine(f"triangle {t}", "hidden triangles", check_enclosed, s, facets, t)
     if listed is None: o.confirmed += found.confirmed
+NO_SIGHT_LINE = ("answer/other-answer", "label/other-label", "hidden/first-order-visible", "visible/first-order-hidden",
+                 "no-answer/answer", "crash/answer", "no-end/answer")
 def finding(folder: pathlib.Path, o: Opinion) -> None:
     about = load(folder / "finding.json", "clues-finding/2")
     said, text = about.pop("checksum"), json.dumps(about, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
@@ -455,14 +456,14 @@ def finding(folder: pathlib.Path, o: Opinion) -> None:
     for place, sums in ((folder, about["sha256"]), (folder / "original", about["sha256_original"])):
         for name in ("scene.off", "cell.obj", "witness.json"):
             o.same(f"sha256 of {place / name}", sums[name], hashlib.sha256((place / name).read_bytes()).hexdigest())
-        s = Scene(read_mesh(place / "scene.off")[1], read_cell(str(place / "cell.obj")), about["mode"] == "solid")
+        s = Scene(read_mesh(place / "scene.off")[1], read_cell(str(place / "cell.obj")), is_solid(about["mode"]))
         w = load(place / "witness.json", None)
         if about["verdict"].endswith("/visible"):
             line = exact(w["v"]), exact(w["p"])
             o.examine(str(place), "witnesses", check_chain, s, w["triangle"], is_front(w["side"]), [line])
         elif about["verdict"] == "hidden/meets-cell":
             o.examine(str(place), "cell contacts", check_contact, s, w["triangle"])
-        else: o.unchecked[f"{about['verdict']}: there is no sight line to it"] += 1
+        else: o.unchecked["findings without a sight line: " + one_of(about["verdict"], *NO_SIGHT_LINE)] += 1
 def main(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     forms = {"check": "clues-judgement/1", "query": "clues-query/1", "umbra": "clues-umbra/1"}
@@ -494,7 +495,6 @@ def main(arguments: list[str]) -> int:
     for flaw in o.flaws: print(f"WRONG: {flaw}")
     print(f"{len(o.flaws)} proofs do not hold" if o.flaws else "all that can be checked holds")
     return 1 if o.flaws else 0
-
 if __name__ == "__main__":
     sys.set_int_max_str_digits(0)
     sys.exit(main(sys.argv[1:]))
