@@ -469,6 +469,21 @@ class Points(Folder):
                 self.write("forged.json", forged)
                 self.reject(says, *self.COMMAND, "forged.json")
 
+    def test_a_wall_on_the_border_of_the_cell(self):
+        """D3: it blocks; what is within the cell does not."""
+        for height, sight in ((0, "occluded"), (-.25, "visible")):
+            self.write("scene.off", off([[[-9, -9, height], [9, -9, height], [0, 9, height]]]))
+            self.write("points.txt", "1/8 1/8 1\n")
+            self.clues(*self.COMMAND, "--points", "points.txt", "--json", out="good.json")
+            good = json.loads((self.folder / "good.json").read_text())
+            self.assertEqual(good["points"][0]["answers"][0]["sight"], sight)
+            self.accept(*self.COMMAND, "good.json")
+            lie = {"occluded": {"sight": "visible", "v": ["0", "0", "-1/8"], "first_order": "visible"},
+                   "visible": {"sight": "occluded", "faces_away": False, "covered_by": [0]}}[sight]
+            good["points"][0]["answers"][0].update(lie)
+            self.write("forged.json", good)
+            self.reject({"occluded": "blocks", "visible": "do not cover"}[sight], *self.COMMAND, "forged.json")
+
     def test_cells_without_an_interior(self):
         """Where checkers of points were wrong once (tests/app/query_test.cpp, tests/validate/thin_occlusion_test.cpp): they
         forgot that a triangle crosses a segment, or that what holds a point of int V blocks, or took one point for enough."""
@@ -561,7 +576,7 @@ class Umbrae(Folder):
         command = "umbra", "scene.off", "--cell", self.CELL, "good.json"
         self.assertEqual(self.accept(*command)["hidden triangles"], 1)
         self.assertEqual(self.accept(*command, "--list", "list.txt")["hidden triangles"], 1)
-        for ids, says in (("0\n", "not in the umbra"), ("2\n3\n", "triangle 3: is divided"), ("4\n", "no triangle 4")):
+        for ids, says in (("0\n", "not in the umbra"), ("2 3\n", "triangle 3: is divided"), ("4\n", "no triangle 4")):
             self.write("forged.txt", ids)
             self.reject(says, *command, "--list", "forged.txt")
         empty = {"format": "clues-umbra/1", "vertices_exact": [], "facets": []}

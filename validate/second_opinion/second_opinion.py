@@ -93,9 +93,7 @@ class Hull:
         self.faces = thin if normals else faces
     def contains(self, q: Point, least: int = 0) -> bool:
         return not any(side(h, q) for h in self.flats) and all(side(h, q) >= least for h in self.sides)
-    def inside(self, q: Point) -> bool:
-        """In the interior relative to its own dimension: int V of D2."""
-        return self.contains(q, 1)
+    def inside(self, q: Point) -> bool: return self.contains(q, 1)  # relative to its own dimension: int V of D2
     def clip(self, polygon: Sequence[Point]) -> list[Point]:
         for h in (*self.flats, *map(back, self.flats), *self.sides): polygon = clip(h, polygon)
         return list(polygon)
@@ -124,6 +122,7 @@ class Scene:
         need(x, f"there is no triangle {number}, or it has no area")
         return x
     def touching(self, p: Point) -> list[Surface]: return [x for x in self.surfaces if x.holds(p)]
+    def planes_at(self, p: Point) -> int: return len({max(x.plane, back(x.plane)) for x in self.touching(p)})
 
 # --- sight lines and chains (D3, D5, D6, D8, D18) ---------------------------------------------------------------------
 def blocks(x: Surface, a: Point, b: Point, with_a: bool) -> bool:
@@ -286,7 +285,7 @@ def check_contact(s: Scene, number: int, contact: bool = True) -> None:
 def check_not_seen(s: Scene, p: Point, ahead: Plane | None) -> None:
     """Where surfaces of two planes touch, a point may be seen and nothing beside it (section 6): no word on these."""
     need(not s.cell.contains(p), "is in the cell")
-    if len({max(x.plane, back(x.plane)) for x in s.touching(p)}) < 2:
+    if s.planes_at(p) < 2:
         need(not viewpoints(s.cell, p, ahead, s.surfaces), f"is visible: a part of the cell sees {p[:3]} / {p[3]}")
 def check_hidden(s: Scene, number: int) -> None:
     """No proof: the triangle does not meet the cell, and some points of it are occluded."""
@@ -359,7 +358,7 @@ def check_answer(s: Scene, p: Point, a: Json) -> None:
         v = exact(a["v"])
         need(ahead is None or side(ahead, v) > 0, "v is not strictly on that side")
         check_sight(s, v, p)
-        need(a["first_order"] == "visible" or len(s.touching(p)) > 1, "is visible, but not to first order (T1)")
+        need(a["first_order"] == "visible" or s.planes_at(p) > 1, "is visible, but not to first order (T1)")
     elif a["faces_away"]:
         need(ahead and all(side(ahead, q) <= 0 for q in s.cell.points), "does not face away from the cell")
     else:
@@ -484,7 +483,8 @@ def main(arguments: list[str]) -> int:
             scene, said = Scene(read_mesh(a.path)[1], cell, a.solid), data.get("cell")
             said = said["vertices"] if isinstance(said, dict) else said
             if said: o.same("the cell", sorted(set(map(point, said))), sorted(cell.points))
-            listed = a.list and [int(x) for x in a.list.read_text().splitlines() if x.isdecimal()]
+            rows = a.list.read_text().splitlines() if a.list else []
+            listed = a.list and [int(x) for row in rows if re.fullmatch(r"[\d\s]*", row) for x in row.split()]
             if a.command == "umbra": umbra(scene, data, o, listed)
             else: (judgement if a.command == "check" else query)(scene, data, o)
     except Exception as e:  # whatever a file may do to what reads it
