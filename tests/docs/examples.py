@@ -34,7 +34,8 @@ class Block:
 
 
 def blocks_of_document(name, text):
-    """Indented and fenced blocks, as Markdown has them; an indented one follows a blank line."""
+    """Indented and fenced blocks, as Markdown has them; an indented one follows a blank line. Without those that name
+    another language than that of the shell."""
     lines = text.split("\n")
     at = 0
     while at < len(lines):
@@ -44,7 +45,8 @@ def blocks_of_document(name, text):
         if fence:
             while begin < len(lines) and not lines[begin].lstrip().startswith("```"):
                 begin += 1
-            yield Block(f"{name}:{at + 2}", [line.removeprefix(fence[1]) for line in lines[at + 1:begin]])
+            if lines[at].strip().removeprefix("```") in ("", "sh", "console"):
+                yield Block(f"{name}:{at + 2}", [line.removeprefix(fence[1]) for line in lines[at + 1:begin]])
             begin += 1
         elif indented:
             while begin < len(lines) and lines[begin].startswith("    "):

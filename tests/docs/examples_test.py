@@ -26,7 +26,7 @@ class Found(unittest.TestCase):
         self.assertEqual([c.text for c in commands(text)], ["one  # why", "two", "three \\\n  more", "four"])
 
     def test_no_blocks(self):
-        self.assertEqual(commands("- item\n    goes on\n\ntext `code`\n"), [])
+        self.assertEqual(commands("- item\n    goes on\n\ntext `code`\n\n```yaml\na: b\n```\n"), [])
 
     def test_a_loop_is_one_command(self):
         self.assertEqual(len(commands("\n    for i in 1 2; do\n      echo $i\n    done\n    echo 3\n")), 2)
