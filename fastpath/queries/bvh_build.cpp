@@ -50,13 +50,13 @@ Part gathered(std::span<const BoxedTriangle> items, const AddItem& add_item, con
   });
 }
 
-struct Range {
+struct ItemRange {
   std::span<BoxedTriangle> items;
   Bounds bounds;
   std::size_t offset = 0;  // of items in the whole
 };
 
-Range range_of(std::span<BoxedTriangle> items, std::size_t offset) {
+ItemRange range_of(std::span<BoxedTriangle> items, std::size_t offset) {
   return {items,
           gathered<Bounds>(items, add,
                            [](Bounds& a, const Bounds& b) {
@@ -122,7 +122,7 @@ Cut best_cut(const Bins& bins) {
   return best;
 }
 
-std::pair<Range, Range> split(const Range& range, int level) {
+std::pair<ItemRange, ItemRange> split(const ItemRange& range, int level) {
   std::size_t left = 0;
   if (level < kSurfaceAreaLevels) {
     const Binning binning(range.bounds.centers);
@@ -152,7 +152,7 @@ std::pair<Range, Range> split(const Range& range, int level) {
     }
   }
   if (left == 0 || left == range.items.size()) left = range.items.size() / 2;
-  Range a, b;
+  ItemRange a, b;
   const auto do_left = [&] { a = range_of(range.items.first(left), range.offset); };
   const auto do_right = [&] { b = range_of(range.items.subspan(left), range.offset + left); };
   if (range.items.size() < kParallel) {
@@ -185,8 +185,8 @@ void append(Tree& tree, Tree&& part) {
   tree.leaf_sizes.insert(tree.leaf_sizes.end(), part.leaf_sizes.begin(), part.leaf_sizes.end());
 }
 
-void build(const Range& range, int level, Tree& tree) {
-  std::array<Range, BoxLanes::kWidth> part{range};
+void build(const ItemRange& range, int level, Tree& tree) {
+  std::array<ItemRange, BoxLanes::kWidth> part{range};
   std::size_t parts = 1;
   while (parts < part.size()) {
     std::size_t largest = parts;

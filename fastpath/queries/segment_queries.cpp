@@ -15,7 +15,7 @@
 namespace clues::fastpath {
 namespace {
 
-constexpr std::size_t kGrain = 256;   // segments a task
+constexpr std::size_t kSegmentsATask = 256;
 constexpr std::size_t kTogether = 6;  // segments that one thread walks with at once
 
 bool apart(const Range& x, const Range& y) { return x.high < y.low || y.high < x.low; }
@@ -210,10 +210,10 @@ std::optional<std::uint32_t> SegmentQueries::first_hit(const Segment& s, const E
 std::vector<std::uint8_t> any_hits(const Bvh& bvh, std::span<const Segment> segments, const Except& except,
                                    SegmentCounts* counts) {
   std::vector<std::uint8_t> answers(segments.size());
-  std::vector<SegmentCounts> parts((segments.size() + kGrain - 1) / kGrain);
+  std::vector<SegmentCounts> parts((segments.size() + kSegmentsATask - 1) / kSegmentsATask);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
     SegmentQueries queries(bvh);
-    const std::size_t begin = part * kGrain, size = std::min(segments.size() - begin, kGrain);
+    const std::size_t begin = part * kSegmentsATask, size = std::min(segments.size() - begin, kSegmentsATask);
     queries.any_hits(segments.subspan(begin, size), std::span(answers).subspan(begin, size), except);
     parts[part] = queries.counts();
   });

@@ -12,12 +12,6 @@ namespace {
 
 using scene::Point;
 
-std::int64_t volume(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
-  const auto u = [&](const GridPoint& p, std::size_t i) { return std::int64_t{p[i]} - a[i]; };
-  return u(b, 0) * (u(c, 1) * u(d, 2) - u(c, 2) * u(d, 1)) - u(b, 1) * (u(c, 0) * u(d, 2) - u(c, 2) * u(d, 0)) +
-         u(b, 2) * (u(c, 0) * u(d, 1) - u(c, 1) * u(d, 0));
-}
-
 // The convex hull of integer points no four of which lie in a plane; false where some do. O(n^4), for a dozen points.
 bool add_hull(GridMesh& mesh, const std::vector<GridPoint>& points) {
   std::vector<std::array<GridPoint, 3>> facets;

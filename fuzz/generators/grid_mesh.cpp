@@ -62,6 +62,12 @@ std::vector<std::array<std::size_t, 3>> triangulate(const std::vector<GridPoint2
   return triangles;
 }
 
+std::int64_t volume(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
+  const auto u = [&](const GridPoint& p, std::size_t i) { return std::int64_t{p[i]} - a[i]; };
+  return u(b, 0) * (u(c, 1) * u(d, 2) - u(c, 2) * u(d, 1)) - u(b, 1) * (u(c, 0) * u(d, 2) - u(c, 2) * u(d, 0)) +
+         u(b, 2) * (u(c, 0) * u(d, 1) - u(c, 1) * u(d, 0));
+}
+
 bool collinear(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
   const auto minor = [&](std::size_t i, std::size_t j) {
     return std::int64_t{b[i] - a[i]} * (c[j] - a[j]) - std::int64_t{b[j] - a[j]} * (c[i] - a[i]);

@@ -21,6 +21,9 @@ using GridPoint2 = std::array<int, 2>;
 // on the edge of a triangle it is not a corner of. O(n^3).
 std::vector<std::array<std::size_t, 3>> triangulate(const std::vector<GridPoint2>& polygon);
 
+// Six times that of the tetrahedron abcd; positive where abc turns left seen from d.
+std::int64_t volume(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d);
+
 bool collinear(const GridPoint& a, const GridPoint& b, const GridPoint& c);
 
 class GridMesh {

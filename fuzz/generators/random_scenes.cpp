@@ -17,12 +17,6 @@ GridPoint random_point(Random& random, const GridPoint& lo, const GridPoint& hi)
   return {random.between(lo[0], hi[0]), random.between(lo[1], hi[1]), random.between(lo[2], hi[2])};
 }
 
-std::int64_t volume(const GridPoint& a, const GridPoint& b, const GridPoint& c, const GridPoint& d) {
-  const auto u = [&](const GridPoint& p, std::size_t i) { return std::int64_t{p[i]} - a[i]; };
-  return u(b, 0) * (u(c, 1) * u(d, 2) - u(c, 2) * u(d, 1)) - u(b, 1) * (u(c, 0) * u(d, 2) - u(c, 2) * u(d, 0)) +
-         u(b, 2) * (u(c, 0) * u(d, 1) - u(c, 1) * u(d, 0));
-}
-
 void add_loose_triangle(GridMesh& mesh, Random& random, const GridPoint& lo, const GridPoint& hi, int reach) {
   GridPoint a, b, c;
   do {

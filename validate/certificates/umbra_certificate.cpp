@@ -179,7 +179,7 @@ RayMeets meets(const Corners& t, const RVector& p, const RVector& d) {
 // The i-th of a list of directions; no plane holds more than a few.
 RVector direction(int i) { return {Rational(101 + 7 * i * i), Rational(57 - 31 * i), Rational(211 + 13 * i)}; }
 
-constexpr int kDirections = 64;
+constexpr int kDirectionsTried = 64;
 
 }  // namespace
 
@@ -223,7 +223,7 @@ CertificateVerdict check_umbra_certificate(const scene::TriangleMesh& mesh, cons
 }
 
 std::optional<int> winding_number(const UmbraCertificate& facets, const RVector& p) {
-  for (int i = 0; i < kDirections; ++i) {
+  for (int i = 0; i < kDirectionsTried; ++i) {
     const RVector d = direction(i);
     int w = 0;
     bool clean = true;
@@ -273,7 +273,7 @@ bool proves_hidden(const scene::TriangleMesh& mesh, const exact::ConvexCell& cel
     if (most > 0) apart.push_back(f);
   }
   // Rays from `middle` to that side meet what is there, and nothing at `middle` itself.
-  for (int i = 0; i < kDirections; ++i) {
+  for (int i = 0; i < kDirectionsTried; ++i) {
     const RVector d = direction(i);
     const int slope = sgn(dot(up, d));
     if (slope == 0) continue;

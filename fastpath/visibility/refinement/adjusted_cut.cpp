@@ -8,6 +8,8 @@
 
 #include "fastpath/visibility/points/points.h"
 
+#include "fastpath/visibility/refinement/estimated_vectors.h"
+
 namespace clues::fastpath {
 namespace {
 
@@ -15,11 +17,6 @@ constexpr int kOnEdge = 16;    // places of an edge that are asked whether somet
 constexpr int kOnSegment = 8;  // places of an obstructed segment that look at the cell
 constexpr int kBisections = 20;
 
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross_of(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot_of(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Point along(const Point& a, const Point& b, double t) {
   return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
 }

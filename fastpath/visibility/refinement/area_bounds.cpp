@@ -5,6 +5,8 @@
 
 #include "fastpath/visibility/points/points.h"
 
+#include "fastpath/visibility/refinement/estimated_vectors.h"
+
 namespace clues::fastpath {
 namespace {
 
@@ -12,12 +14,6 @@ using Polygon = std::vector<Point>;
 
 // Areas below this part of a side's are roundings.
 constexpr double kRounding = 0x1p-30;
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross_of(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-double dot_of(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // Twice the area, as a vector along the normal.
 Point area_vector(const Polygon& p) {

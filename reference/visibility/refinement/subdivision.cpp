@@ -11,12 +11,12 @@ using exact::ConvexCell;
 
 namespace {
 
-struct Part {
+struct SubCell {
   ConvexCell cell;
   SideSets seen;
 };
 
-bool sees_more(const Part& part, const Bounds& bounds, const std::vector<bool>& open) {
+bool sees_more(const SubCell& part, const Bounds& bounds, const std::vector<bool>& open) {
   for (std::size_t i = 0; i < open.size(); ++i) {
     if (open[i] && !subtract(part.seen[i], bounds.lower()[i]).empty()) return true;
   }
@@ -35,15 +35,15 @@ std::vector<DepthFigures> refine_by_cells(Bounds& bounds, const RefineOptions& o
     depths.push_back(figures(depth, cells, bounds));
     if (report) report(depths.back());
   };
-  std::vector<Part> parts{{bounds.first_order().cell, bounds.upper()}};
+  std::vector<SubCell> parts{{bounds.first_order().cell, bounds.upper()}};
   bounds.look_around(0);
   note(0, 1);
   for (int depth = 1; depth <= options.max_depth; ++depth) {
     std::vector<bool> open = bounds.open_sides();
     if (std::none_of(open.begin(), open.end(), [](bool o) { return o; })) break;
     if (depths.back().area.excess() <= bounds.range().area_moved_in(options.tolerance_area)) break;
-    std::vector<Part> next;
-    for (Part& part : parts) {
+    std::vector<SubCell> next;
+    for (SubCell& part : parts) {
       const std::vector<ConvexCell> cut = exact::halves(part.cell);
       if (cut.size() < 2 || !sees_more(part, bounds, open)) {
         next.push_back(std::move(part));
