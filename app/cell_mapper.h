@@ -30,7 +30,7 @@ struct MapRequest {
 
 struct MappedCell {
   std::string name;
-  std::string json;           // the result
+  std::string json;           // the result, where it is printed or the file is one
   std::string list;           // the plain list, where the file is one
   std::string summary;        // one line of the table, and one more of what simplification did
   std::string overlap_graph;  // GraphViz, where it was asked for

@@ -135,6 +135,7 @@ void print(const std::string& text, std::FILE* to) {
 }
 
 void require_writable_parent(const std::filesystem::path& path) {
+  if (path.empty()) return;
   const auto parent = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   std::error_code ignored;
   if (!std::filesystem::is_directory(parent, ignored)) {

@@ -46,7 +46,7 @@ extern const char* const cell_help;
 // Text for a person: with nothing in it that a terminal would obey, wherever it came from (scene/messages/printable.h).
 void print(const std::string& text, std::FILE* to = stdout);
 
-// Throws Error file_unwritable now, and not after an hour, when a file could not be made at `path`.
+// Throws Error file_unwritable now, and not after an hour, when a file could not be made at `path`. No path: fine.
 void require_writable_parent(const std::filesystem::path& path);
 
 // Throws Error bad_argument when an output is one of the inputs, or another output, under whatever name. Empty names, and what is no file, are passed over.

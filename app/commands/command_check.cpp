@@ -25,7 +25,7 @@ struct CheckRequest {
 
 int run_check(const CheckRequest& request) {
   auto options = request.method.to_reference();
-  if (!request.json.file().empty()) require_writable_parent(request.json.file());
+  require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.pvs});
   const auto mesh = scene::read_mesh(request.scene);
   const auto spec = scene::parse_cell(request.cell);

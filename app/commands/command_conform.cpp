@@ -133,9 +133,8 @@ int run_conform(const ConformRequest& request) {
   if (request.jobs < 0 || request.jobs > 4096)
     fail_usage(fmt::format("--jobs {}: use 0 (all cores) to 4096", request.jobs));
   if (request.errors < 0) fail_usage(fmt::format("--errors {}: use 0 (never stop) or more", request.errors));
-  for (const auto& file : {request.json.file(), request.junit}) {
-    if (!file.empty()) require_writable_parent(file);
-  }
+  require_writable_parent(request.json.file());
+  require_writable_parent(request.junit);
   std::vector<std::string> read{request.expect_failures, request.implementation};
   if (!request.implementation.empty() && !is_library(request.implementation)) {
     const auto words = validate::split_command(request.implementation);  // the adapter is often one of them

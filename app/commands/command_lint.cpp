@@ -24,7 +24,7 @@ int run_lint(const LintRequest& request) {
   if (options.accept && !options.write) {
     throw scene::Error(scene::ErrorCode::bad_argument, "--accept goes with --write (see `clues lint --help`)");
   }
-  if (!request.json.file().empty()) require_writable_parent(request.json.file());
+  require_writable_parent(request.json.file());
   require_outside(request.json.file(), request.folder);
   if (options.jobs == 0) options.jobs = static_cast<int>(std::thread::hardware_concurrency());
   validate::LintReport report;

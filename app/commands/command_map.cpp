@@ -169,7 +169,7 @@ int run_map(MapRequest request) {
   if (request.with_states && !request.with_map)
     throw Error(ErrorCode::bad_argument, "--render-states are put into the regions of --map; give that too");
   require_good(request.umbra, many);
-  if (!request.out.empty() && !(many && fs::is_directory(request.out))) require_writable_parent(request.out);
+  if (!(many && fs::is_directory(request.out))) require_writable_parent(request.out);
   if (request.with_map && !many && wants_plain_list(request.out)) {
     throw Error(ErrorCode::bad_argument,
                 request.out + ": a plain list cannot hold --map; name the output *.clues.json");
@@ -178,7 +178,7 @@ int run_map(MapRequest request) {
     if (many) throw Error(ErrorCode::bad_argument, "--overlap-graph is for one cell; use --cell");
     require_writable_parent(request.overlap_graph);
   }
-  if (!request.json.file().empty()) require_writable_parent(request.json.file());
+  require_writable_parent(request.json.file());
   require_apart({&request.out, &request.json.file(), &request.umbra.file, &request.overlap_graph},
                 {&request.scene, &request.cell, &request.cells});
   const std::string sha256 = scene::sha256_of_file(request.scene);
@@ -214,7 +214,9 @@ void put_result(MappedCell& cell, scene::Result result, const MapRequest& reques
                 const std::optional<scene::Simplification>& simplification) {
   result.scene_file = fs::path(request.scene).filename().string();
   result.scene_sha256 = sha256;
-  if (wants_plain_list(request.out)) cell.list = scene::to_pvs_text(result.visible);
+  const bool list = request.cells.empty() && wants_plain_list(request.out);
+  if (list) cell.list = scene::to_pvs_text(result.visible);
+  if ((request.out.empty() || list) && !request.json.asked()) return;  // only the list, or the table
   cell.json = simplification ? scene::to_json_text(result, *simplification) : scene::to_json_text(result);
 }
 

@@ -28,9 +28,7 @@ int run_precision(const PrecisionRequest& request) {
   const auto refinement = request.refine.refinement(validate::Refinement::cells);
   const auto refine = request.refine.to_reference();
   request.refine.check_retract(refinement);
-  for (const std::string* path : {&request.out, &request.json.file(), &request.svg}) {
-    if (!path->empty()) require_writable_parent(*path);
-  }
+  for (const std::string* path : {&request.out, &request.json.file(), &request.svg}) require_writable_parent(*path);
   require_apart({&request.out, &request.json.file(), &request.svg}, {&request.scene, &request.cell});
   const auto mesh = scene::read_mesh(request.scene);
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);

@@ -161,7 +161,7 @@ std::string to_text(const std::vector<Asked>& all) {
 
 int run_query(const QueryRequest& request) {
   auto options = request.method.to_reference();
-  if (!request.json.file().empty()) require_writable_parent(request.json.file());
+  require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.points});
   const auto mesh = scene::read_mesh(request.scene);
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
