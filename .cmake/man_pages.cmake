@@ -1,5 +1,5 @@
-# PROGRAM, VERSION, COMMANDS, HELP2MAN, MAN: writes clues.1.gz and clues-COMMAND.1.gz into the folder MAN. The line under NAME
-# is the first line of the help.
+# PROGRAM, VERSION, HELP2MAN, MAN: writes clues.1.gz, and clues-COMMAND.1.gz for each command that the help lists, into the
+# folder MAN. The line under NAME is the first line of the help.
 function(page words name)
   execute_process(COMMAND ${PROGRAM} ${words} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX MATCH "^[^\n]*" what "${help}")
@@ -14,8 +14,13 @@ function(page words name)
   execute_process(COMMAND gzip -9nf ${MAN}/${name}.1 COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
+file(REMOVE_RECURSE ${MAN})
 file(MAKE_DIRECTORY ${MAN})
-page("" clues)
-foreach(command IN LISTS COMMANDS)
+execute_process(COMMAND ${PROGRAM} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX REPLACE ".*\nSubcommands:\n(.*)\n\nEXAMPLES.*" "\\1" commands "${help}")
+string(REGEX MATCHALL "(^|\n)  [a-z]+" commands "${commands}")
+list(TRANSFORM commands STRIP)
+foreach(command IN LISTS commands)
   page(${command} clues-${command})
 endforeach()
+page("" clues)

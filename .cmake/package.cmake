@@ -2,17 +2,12 @@
 # the completion of bash. The man pages are made from `clues COMMAND --help` (target clues_man; help2man).
 find_program(HELP2MAN help2man)
 if(HELP2MAN)
-  set(commands map precision check query verify conform iut lint fuzz replay shrink report demo)
   set(man ${PROJECT_BINARY_DIR}/man)
-  set(pages ${man}/clues.1.gz)
-  foreach(command IN LISTS commands)
-    list(APPEND pages ${man}/clues-${command}.1.gz)
-  endforeach()
-  add_custom_command(OUTPUT ${pages}
-    COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:clues> -DVERSION=${PROJECT_VERSION} "-DCOMMANDS=${commands}"
-      -DHELP2MAN=${HELP2MAN} -DMAN=${man} -P ${CMAKE_CURRENT_LIST_DIR}/man_pages.cmake
+  add_custom_command(OUTPUT ${man}/clues.1.gz
+    COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:clues> -DVERSION=${PROJECT_VERSION} -DHELP2MAN=${HELP2MAN}
+      -DMAN=${man} -P ${CMAKE_CURRENT_LIST_DIR}/man_pages.cmake
     DEPENDS clues ${CMAKE_CURRENT_LIST_DIR}/man_pages.cmake VERBATIM)
-  add_custom_target(clues_man DEPENDS ${pages})
+  add_custom_target(clues_man DEPENDS ${man}/clues.1.gz)
   install(DIRECTORY ${man}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
 endif()
 install(FILES ${PROJECT_SOURCE_DIR}/app/completion/clues.bash
