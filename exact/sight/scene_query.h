@@ -22,6 +22,8 @@ struct Hit {
 struct SegmentAnswer {
   bool degenerate = false;  // touches an edge, a vertex, or runs in a plane: choose another segment
   std::vector<Hit> hits;    // ascending in t; complete unless degenerate
+
+  bool is_clear() const { return !degenerate && hits.empty(); }  // surely nothing in between
 };
 
 // Whether the closed triangle meets the closed cell (D3), exactly. One without area is no surface and meets nothing (D1). A flat cell is bounded by its plane (both sides) and by its edges.

@@ -126,15 +126,22 @@ const ExactPoint* Walker::along_groove(const ExactPoint& p, const Surface& on, c
   return nullptr;
 }
 
+template <class Skip>
+bool Walker::is_blocked(const ExactPoint& y, const ExactPoint& q, const Skip& skip) const {
+  return scene_->tree.any(SegmentTest(y, q), [&](std::uint32_t occluder) {
+    const std::uint32_t t = scene_->occluders[occluder];
+    return !skip(t) && scene_->crosses(y, q, t) != Crossing::no;
+  });
+}
+
 // A groove between two walls that meet in an edge, into which no point of V looks: the walk would go from one wall to the
 // other for ever, towards the edge. Beside the edge all is hidden, as V touches the edge's line nowhere but upon the edge
 // (docs/definition.md, D14); so it ends with a leg from the edge.
 bool Walker::groove_leg(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const {
   const std::size_t n = walk.legs.size();
-  if (n < 4 || !is_wall(walk.legs[n - 3].piece, on, before) || !is_wall(walk.legs[n - 4].piece, before, on))
-    return false;
-  return scene_->cell.vertices.size() == 2 ? leg_in_slice(walk, on, before, how, pool)
-                                           : leg_from_edge(walk, on, before, how, pool);
+  if (!is_wall(walk.legs[n - 3].piece, on, before) || !is_wall(walk.legs[n - 4].piece, before, on)) return false;
+  return scene_->cell.dimension == 1 ? leg_in_slice(walk, on, before, how, pool)
+                                     : leg_from_edge(walk, on, before, how, pool);
 }
 
 bool Walker::leg_from_edge(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const {
@@ -155,12 +162,10 @@ bool Walker::leg_from_edge(Walk& walk, const Surface& on, const Surface& before,
     if (how == Both::touch && in_front_of_both(on, before, chain_of(i, common)) != Both::apart) continue;
     const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
     if (scene_->cell.divides(*y, *last.next)) continue;
-    const bool blocked = scene_->tree.any(SegmentTest(*y, *last.next), [&](std::uint32_t occluder) {
-      const std::uint32_t piece = scene_->occluders[occluder];
-      if (std::find(e.pieces.begin(), e.pieces.end(), piece) != e.pieces.end()) return false;
-      return scene_->crosses(*y, *last.next, piece) != Crossing::no;
-    });
-    if (blocked) return false;
+    const auto at_y = [&](std::uint32_t wall) {
+      return std::find(e.pieces.begin(), e.pieces.end(), wall) != e.pieces.end();
+    };
+    if (is_blocked(*y, *last.next, at_y)) return false;
     const auto at_edge =
         std::find_if(e.pieces.begin(), e.pieces.end(), [&](std::uint32_t t2) { return is_wall(t2, on, before); });
     if (at_edge == e.pieces.end()) continue;
@@ -201,13 +206,10 @@ bool Walker::leg_in_slice(Walk& walk, const Surface& on, const Surface& before, 
   const ExactPoint* y = pool.keep(ExactPoint(s[0].exact() + to_y));
   const std::optional<std::uint32_t> piece = piece_from(*y, along_wall, on, before);
   if (!piece || !piece_from(*y, along_other, before, on)) return false;
-  const bool blocked = scene_->tree.any(SegmentTest(*y, q), [&](std::uint32_t occluder) {
-    const std::uint32_t t = scene_->occluders[occluder];
-    if (scene_->planes[t].side(*y) == 0 && scene_->planes[t].side(q) != 0)
-      return false;  // the segment leaves its plane
-    return scene_->crosses(*y, q, t) != Crossing::no;
-  });
-  if (blocked) return false;
+  const auto leaves_plane = [&](std::uint32_t t) {
+    return scene_->planes[t].side(*y) == 0 && scene_->planes[t].side(q) != 0;
+  };
+  if (is_blocked(*y, q, leaves_plane)) return false;
   walk.legs.push_back({y, &q, nullptr, *piece, last.side, false, true});
   return true;
 }
@@ -234,7 +236,7 @@ std::optional<std::uint32_t> Walker::piece_from(const ExactPoint& y, const Exact
 bool Walker::corner_leg(Walk& walk) const {
   constexpr std::size_t kTurns = 6;
   const std::size_t n = walk.legs.size();
-  if (n < kTurns || n % 3 != 0 || scene_->cell.vertices.size() == 2) return false;  // leg_in_slice() sees to those
+  if (n < kTurns || n % 3 != 0 || scene_->cell.dimension == 1) return false;  // leg_in_slice() sees to those
   const Leg& last = walk.legs.back();
   for (const std::uint32_t corner : scene_->pieces[last.piece].corners) {
     const bool of_all = std::all_of(walk.legs.end() - kTurns, walk.legs.end(), [&](const Leg& leg) {
@@ -245,12 +247,8 @@ bool Walker::corner_leg(Walk& walk) const {
     const ExactPoint& y = scene_->points[corner];
     if (scene_->cell.divides(y, *last.next)) continue;
     const auto& incident = scene_->point_pieces[corner];
-    const bool blocked = scene_->tree.any(SegmentTest(y, *last.next), [&](std::uint32_t i) {
-      const std::uint32_t piece = scene_->occluders[i];
-      if (std::find(incident.begin(), incident.end(), piece) != incident.end()) return false;
-      return scene_->crosses(y, *last.next, piece) != Crossing::no;
-    });
-    if (blocked || !is_dark_corner(*scene_, corner, *last.next)) continue;
+    const auto at_y = [&](std::uint32_t t) { return std::find(incident.begin(), incident.end(), t) != incident.end(); };
+    if (is_blocked(y, *last.next, at_y) || !is_dark_corner(*scene_, corner, *last.next)) continue;
     walk.legs.push_back({&y, last.next, nullptr, last.piece, last.side, false, true});
     return true;
   }

@@ -79,7 +79,10 @@ class Walker {
   // A point of int V in front of `on`, from which the sight line to p comes in past the other wall, where the closed V
   // touches the groove.
   const ExactPoint* along_groove(const ExactPoint& p, const Surface& on, const Surface& before, Pool& pool) const;
-  // Each adds the last leg of a walk that has none, if it can.
+  // Whether something stands between a place where walls meet and q, or may; without the pieces that `skip` says.
+  template <class Skip>
+  bool is_blocked(const ExactPoint& y, const ExactPoint& q, const Skip& skip) const;
+  // Each adds the last leg of a walk that has none, if it can; groove_leg() to four legs or more.
   bool corner_leg(Walk& walk) const;
   bool groove_leg(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
   bool leg_from_edge(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;

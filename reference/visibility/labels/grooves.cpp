@@ -136,8 +136,7 @@ std::optional<Leg> Walker::leg_from_edge(const SurfaceSide& wall, const SurfaceS
     if (!apart && !touches_only(id, wall, other)) continue;
     const Point3 y = exact::collapsed(a + t * (b - a));  // the foot of q on the edge
     if (divided_by_cell(y, q)) continue;
-    const exact::SegmentAnswer between = scene_->crossings(q, y);
-    if (between.degenerate || !between.hits.empty()) return std::nullopt;
+    if (!scene_->crossings(q, y).is_clear()) return std::nullopt;
     const auto at_edge =
         *std::find_if(e.pieces.begin(), e.pieces.end(), [&](auto i) { return is_wall(i, wall, other); });
     return Leg{y, q, at_edge, wall.front, true, false};
@@ -173,8 +172,7 @@ std::optional<Leg> Walker::leg_in_slice(const SurfaceSide& wall, const SurfaceSi
   if (!apart && !above) return std::nullopt;
   const std::optional<std::uint32_t> piece = piece_from(y, along_wall, wall, other);
   if (!piece || !piece_from(y, along_other, other, wall)) return std::nullopt;
-  const exact::SegmentAnswer between = scene_->crossings(q, y);
-  if (between.degenerate || !between.hits.empty()) return std::nullopt;
+  if (!scene_->crossings(q, y).is_clear()) return std::nullopt;
   return Leg{y, q, *piece, wall.front, false, true};
 }
 
@@ -212,8 +210,7 @@ std::optional<Leg> Walker::corner_leg(const Walk& walk) const {
     const Point3& y = complex.points[corner];
     const Point3 q = exact::collapsed(CGAL::midpoint(last.m, last.p));
     if (divided_by_cell(y, q)) continue;
-    const exact::SegmentAnswer between = scene_->crossings(q, y);
-    if (between.degenerate || !between.hits.empty()) continue;
+    if (!scene_->crossings(q, y).is_clear()) continue;
     if (is_dark_corner(complex, scene_->cell(), corner, q - y)) return Leg{y, q, last.piece, last.front, false, true};
   }
   return std::nullopt;

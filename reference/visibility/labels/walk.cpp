@@ -116,8 +116,7 @@ Point3 Walker::last_crossing(const Point3& v, const Point3& p, const exact::Hit&
       if (t >= FT(1)) continue;
       const Point3 from = p + (*near - p) / (FT(1) - t);
       if (!scene_->cell().interior_contains(from) || !good(from)) continue;
-      const exact::SegmentAnswer between = scene_->crossings(*near, p);
-      if (!between.degenerate && between.hits.empty()) return *near;
+      if (scene_->crossings(*near, p).is_clear()) return *near;
     }
   }
   return exact::collapsed(m);
@@ -190,12 +189,9 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     }
     if (surface) {  // next to a flat cell or a segment few points of V may see p: those right beneath it
       const std::optional<Point3> beneath = foot(p);
-      if (beneath && good(*beneath)) {
-        const exact::SegmentAnswer straight = scene_->crossings(*beneath, p);
-        if (!straight.degenerate && straight.hits.empty()) {
-          walk.ends_at_cell = true;
-          return walk;
-        }
+      if (beneath && good(*beneath) && scene_->crossings(*beneath, p).is_clear()) {
+        walk.ends_at_cell = true;
+        return walk;
       }
     }
     exact::SegmentAnswer answer;
