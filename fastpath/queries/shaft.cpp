@@ -4,18 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fastpath/predicates/estimated_vectors.h"
 #include "scene/messages/error.h"
 
 namespace clues::fastpath {
 namespace {
-
-using Vector = std::array<double, 3>;
-
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // A plane is worth having if the points on its wrong side are within this fraction of the shaft's size: only tightness depends on it.
 constexpr double kSupports = 0x1p-30;
@@ -50,7 +43,7 @@ Shaft::Shaft(const LocalFrame& frame, const Corners& triangle, std::span<const P
   double size = 1;
   bool near = true;
   for (const Point& p : points_) {
-    Vector local{};
+    Point local{};
     for (std::size_t k = 0; k < 3; ++k) {
       if (!std::isfinite(p[k])) throw scene::Error(scene::ErrorCode::non_finite, "a point of a shaft is not finite");
       local[k] = frame.to_local(p[k], k);
@@ -67,7 +60,7 @@ Shaft::Shaft(const LocalFrame& frame, const Corners& triangle, std::span<const P
   slack_ = 0x1p-19 + 0x1p-49 * size;
   for (std::size_t k = 0; k < 3; ++k) {
     for (const double direction : {-1.0, 1.0}) {
-      Vector axis{};
+      Point axis{};
       axis[k] = direction;
       add_half_space(axis);
     }
@@ -77,15 +70,15 @@ Shaft::Shaft(const LocalFrame& frame, const Corners& triangle, std::span<const P
   const std::size_t n = local_.size();
   for (std::size_t i = 0; i < triangle.size(); ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
-      const Vector edge = minus(local_[j], local_[i]);
+      const Point edge = minus(local_[j], local_[i]);
       for (std::size_t k = j + 1; k < n; ++k) {
-        Vector normal = cross(edge, minus(local_[k], local_[i]));
+        Point normal = cross_of(edge, minus(local_[k], local_[i]));
         const double length = std::max({std::fabs(normal[0]), std::fabs(normal[1]), std::fabs(normal[2])});
         if (!(length > 0x1p-300)) continue;
         for (double& x : normal) x /= length;
         double low = INFINITY, high = -INFINITY;
-        for (const Vector& p : local_) {
-          const double value = dot(normal, minus(p, local_[i]));
+        for (const Point& p : local_) {
+          const double value = dot_of(normal, minus(p, local_[i]));
           low = std::min(low, value);
           high = std::max(high, value);
         }
@@ -97,15 +90,15 @@ Shaft::Shaft(const LocalFrame& frame, const Corners& triangle, std::span<const P
   }
 }
 
-void Shaft::add_half_space(const Vector& normal) {
+void Shaft::add_half_space(const Point& normal) {
   HalfSpace h;
-  Vector rounded{};
+  Point rounded{};
   for (std::size_t k = 0; k < 3; ++k) {
     h.normal[k] = static_cast<float>(normal[k]);
     rounded[k] = static_cast<double>(h.normal[k]);
   }
   double offset = -INFINITY;
-  for (const Vector& p : local_) offset = std::max(offset, dot(rounded, p));
+  for (const Point& p : local_) offset = std::max(offset, dot_of(rounded, p));
   h.offset = rounded_up(offset + slack_);
   // Coplanar corners span the same plane many times.
   const bool known = std::any_of(half_spaces_.begin(), half_spaces_.end(),

@@ -5,13 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "fastpath/predicates/estimated_vectors.h"
+
 namespace clues::fastpath {
 namespace {
-
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Point cross_estimate(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 // How far off its side, to its extent, a region is asked for its label; its corners are estimates, less far off.
 constexpr double kStep = 0x1p-34;
@@ -40,7 +37,7 @@ std::vector<std::array<std::vector<Trace>, 2>> traces_of_sides(const LocalScene&
 // Cuts the parts that the trace runs through along its line.
 std::vector<std::vector<Point>> cut_along(const std::vector<std::vector<Point>>& parts, const Trace& trace,
                                           const Point& n, double extent) {
-  const Point along = minus(trace.b, trace.a), beside = cross_estimate(n, along);
+  const Point along = minus(trace.b, trace.a), beside = cross_of(n, along);
   const double tolerance = length_estimate(beside) * extent * 0x1p-40;
   const auto at = [](const Point& d, const Point& x, const Point& o) {
     return d[0] * (x[0] - o[0]) + d[1] * (x[1] - o[1]) + d[2] * (x[2] - o[2]);
@@ -98,7 +95,7 @@ ExactPoint beside(const LocalScene& scene, std::uint32_t t, int side, const Poin
   // The point of the plane with about the same weights of the corners.
   const Point d = minus(inner, corners[0]), u = minus(corners[1], corners[0]), w = minus(corners[2], corners[0]);
   const auto share = [&](const Point& c) { return (c[0] * n[0] + c[1] * n[1] + c[2] * n[2]) / (size * size); };
-  const double at1 = share(cross_estimate(d, w)), at2 = share(cross_estimate(u, d));
+  const double at1 = share(cross_of(d, w)), at2 = share(cross_of(u, d));
   Exact3 sum = Rational(0) * scene.corner(t, 0).exact();
   Rational all(0);
   for (const auto& [corner, weight] : {std::pair(0, 1 - at1 - at2), std::pair(1, at1), std::pair(2, at2)}) {
@@ -131,7 +128,7 @@ void map_side(const LocalScene& scene, std::uint32_t t, bool front, const LocalO
       std::any_of(s.begin(), s.end(), [&](const ExactPoint& v) { return scene.planes[t].side(v) == side; });
   const std::vector<Point> whole{scene.corner(t, 0).estimate(), scene.corner(t, 1).estimate(),
                                  scene.corner(t, 2).estimate()};
-  const Point n = cross_estimate(minus(whole[1], whole[0]), minus(whole[2], whole[0]));
+  const Point n = cross_of(minus(whole[1], whole[0]), minus(whole[2], whole[0]));
   const double size = length_estimate(n), extent = std::sqrt(size);
   if (!(size > 0)) return;
   std::vector<std::vector<Point>> parts{whole};
@@ -145,7 +142,7 @@ void map_side(const LocalScene& scene, std::uint32_t t, bool front, const LocalO
     Point sum{0, 0, 0}, center{0, 0, 0};
     for (std::size_t i = 0; i < part.size(); ++i) {
       if (i >= 2) {
-        const Point c = cross_estimate(minus(part[i - 1], part[0]), minus(part[i], part[0]));
+        const Point c = cross_of(minus(part[i - 1], part[0]), minus(part[i], part[0]));
         for (std::size_t k = 0; k < 3; ++k) sum[k] += c[k] / 2;
       }
       for (std::size_t k = 0; k < 3; ++k) center[k] += part[i][k] / static_cast<double>(part.size());

@@ -5,7 +5,7 @@
 
 #include "fastpath/visibility/points/points.h"
 
-#include "fastpath/visibility/refinement/estimated_vectors.h"
+#include "fastpath/predicates/estimated_vectors.h"
 
 namespace clues::fastpath {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fastpath/predicates/estimated_vectors.h"
 #include "fastpath/visibility/points/near_enough.h"
 #include "scene/messages/error.h"
 
@@ -11,8 +12,6 @@ namespace clues::fastpath {
 namespace {
 
 double length(const Point& v) { return length_estimate(v); }
-double inner(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 }  // namespace
 
@@ -23,7 +22,7 @@ std::optional<ExactPoint> beside_edge(const LocalScene& scene, const PieceSet& s
                    &a = scene.points[edge.a], &b = scene.points[edge.b];
   const Point y = part.y->estimate(), along = minus(b.estimate(), a.estimate());
   Point to = minus(touching.estimate(), y);  // across the edge
-  const double shift = -inner(to, along) / inner(along, along);
+  const double shift = -dot_of(to, along) / dot_of(along, along);
   for (std::size_t k = 0; k < 3; ++k) to[k] += shift * along[k];
   const Vec3<Interval>& n = c.plane->normal_approximate();
   const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};

@@ -1,4 +1,5 @@
-// Vectors of doubles, as rounded as they are: for choosing planes and for estimates of areas, on which no answer rests.
+// Vectors of doubles, rounded as they come: for estimates, and for choices that any plane would do for. Where more rests on
+// them, the caller has a bound on the error.
 #pragma once
 
 #include "scene/mesh/mesh.h"
