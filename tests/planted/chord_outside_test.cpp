@@ -3,6 +3,7 @@
 
 #include "../reference/flat_regions.h"
 #include "../reference/shadow_scenes.h"
+#include "wrong_step.h"
 
 namespace clues::test {
 namespace {
@@ -16,10 +17,7 @@ TEST(ChordOutside, LeavesTheRegion) {
 
 TEST(ChordOutside, HidesWhatIsSeen) {
   const Window scene;
-  const auto map = map_of(scene.s.mesh(), scene.cell);
-  const auto literal = reference::with_simpler_occlusion(map, controls(0, 0.5));
-  EXPECT_FALSE(reference::hides_no_more(map, literal.map));
-  EXPECT_GT(seen_of_newly_hidden(map, literal.map), 0U) << "what is visible is called hidden";
+  expect_hides_what_is_seen(map_of(scene.s.mesh(), scene.cell));
 }
 
 }  // namespace

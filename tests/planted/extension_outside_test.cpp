@@ -3,6 +3,7 @@
 
 #include "../reference/flat_regions.h"
 #include "../reference/shadow_scenes.h"
+#include "wrong_step.h"
 
 namespace clues::test {
 namespace {
@@ -15,10 +16,7 @@ TEST(ExtensionOutside, LeavesTheRegion) {
 
 TEST(ExtensionOutside, HidesWhatIsSeen) {
   const Fig30 scene;
-  const auto map = map_of(scene.s.mesh(), scene.cell);
-  const auto literal = reference::with_simpler_occlusion(map, controls(0, 0.5));
-  EXPECT_FALSE(reference::hides_no_more(map, literal.map));
-  EXPECT_GT(seen_of_newly_hidden(map, literal.map), 0U) << "what is visible is called hidden";
+  expect_hides_what_is_seen(map_of(scene.s.mesh(), scene.cell));
 }
 
 }  // namespace

@@ -2,16 +2,13 @@
 #include <gtest/gtest.h>
 
 #include "../validate/sight_scenes.h"
-#include "validate/visible_set/visible_set.h"
 
 namespace clues::validate {
 namespace {
 
 TEST(ForgetTriples, HidesWhatIsSeenThroughAHoleBetweenThreeShadows) {
   const tests::HoleBetweenShadows scene;
-  VisibleSetOptions options;
-  options.trust_map = false;
-  EXPECT_EQ(exact_visible_set(scene.scene.mesh, scene.cell, options).triangles[scene.target].sight, Sight::hidden);
+  EXPECT_EQ(tests::sight_of(scene.scene.mesh, scene.target, scene.cell), Sight::hidden);
 }
 
 }  // namespace

@@ -1,4 +1,6 @@
 // Linked with a simplification that takes a step on the wrong side of a border (plant.py): caught where nothing was arranged for it.
+#include "wrong_step.h"
+
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -7,6 +9,13 @@
 #include "fuzz/generators/random_scenes.h"
 
 namespace clues::test {
+
+void expect_hides_what_is_seen(const reference::VisibilityMap& map) {
+  const auto literal = reference::with_simpler_occlusion(map, controls(0, 0.5));
+  EXPECT_FALSE(reference::hides_no_more(map, literal.map));
+  EXPECT_GT(seen_of_newly_hidden(map, literal.map), 0U) << "what is visible is called hidden";
+}
+
 namespace {
 
 TEST(WrongStep, IsCaughtInRandomScenes) {

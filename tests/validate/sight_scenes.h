@@ -1,11 +1,14 @@
 // Scenes in which the exact visible set needs every one of its questions.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <vector>
 
 #include "exact/cell/convex_cell.h"
 #include "fuzz/generators/random_scenes.h"
 #include "scene/mesh/mesh.h"
+#include "validate/visible_set/visible_set.h"
 
 namespace clues::validate::tests {
 
@@ -22,6 +25,16 @@ struct SightMesh : scene::TriangleMesh {
     triangle(a, c, d);
   }
 };
+
+// What the exact visible set says of it; where that is visible, with a sight line.
+inline Sight sight_of(const scene::TriangleMesh& mesh, std::uint32_t triangle, const exact::ConvexCell& cell,
+                      bool trust_map = false) {
+  VisibleSetOptions options;
+  options.trust_map = trust_map;
+  const auto set = exact_visible_set(mesh, cell, options);
+  EXPECT_EQ(set.triangles.at(triangle).witness.has_value(), set.triangles[triangle].sight == Sight::visible);
+  return set.triangles[triangle].sight;
+}
 
 inline exact::ConvexCell box(double x, double y, double z0, double z1) {
   std::vector<scene::Point> corners;

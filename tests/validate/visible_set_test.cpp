@@ -17,16 +17,8 @@ namespace {
 using exact::ConvexCell;
 using scene::Point;
 using tests::box;
+using tests::sight_of;
 using Mesh = tests::SightMesh;
-
-Sight sight_of(const scene::TriangleMesh& mesh, std::uint32_t triangle, const ConvexCell& cell,
-               bool trust_map = false) {
-  VisibleSetOptions options;
-  options.trust_map = trust_map;
-  const auto set = exact_visible_set(mesh, cell, options);
-  EXPECT_EQ(set.triangles.at(triangle).witness.has_value(), set.triangles[triangle].sight == Sight::visible);
-  return set.triangles[triangle].sight;
-}
 
 // Five slits in the planes z = 1 ... 5. A line (p + q z, z) is seen by slit i through f_i = n_i . (p + q z_i), linear in (p, q). The first
 // four let |f_i| < 1/16 pass and f_5 = -4 f_1 - 4 f_2 + 7 f_3 + 2 f_4, so that f_5 < 17/16 for every line that passes them.
