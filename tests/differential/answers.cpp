@@ -10,6 +10,7 @@
 #include "fastpath/visibility/refinement/refinement.h"
 #include "fuzz/campaign/generators.h"
 #include "reference/visibility/refinement/bounds.h"
+#include "tests/seed.h"
 #include "validate/verdicts/precision.h"
 #include "validate/visible_set/visible_set.h"
 
@@ -18,8 +19,6 @@ namespace clues::tests {
 using exact::Point3;
 
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 reference::Options reference_options(const exact::Dials& dials) {
   reference::Options options;

@@ -14,7 +14,7 @@
 namespace clues::tests {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261122;
+constexpr std::uint64_t kScenesSeed = 20261122;
 
 // The generators by turns.
 fuzz::Case scene_number(std::uint64_t seed, std::uint64_t n) {
@@ -30,7 +30,7 @@ const std::map<std::string, std::uint64_t> none;
 // Without a fallback, where that is asked: about one scene in twenty still has one. The other formulation of the
 // reference, which is the slowest of the kernels, is asked in one scene of eight where the series is long.
 void nothing_hidden_is_seen(std::uint64_t from, std::uint64_t scenes, bool no_fallbacks) {
-  const Series series{number_from("CLUES_SEED", kSeed), scene_number, [=](std::uint64_t n) {
+  const Series series{number_from("CLUES_SEED", kScenesSeed), scene_number, [=](std::uint64_t n) {
                         JudgeSettings settings;
                         settings.visible_set = n % 10 == 0;
                         settings.no_fallbacks = no_fallbacks;
@@ -61,7 +61,7 @@ void limits_hide_nothing(std::uint64_t from, std::uint64_t scenes) {
     if (turn % 3 != 1) scene.dials["csv_limit"] = csv_limits[turn / 9 % csv_limits.size()];
     return scene;
   };
-  const Series series{number_from("CLUES_SEED", kSeed + 1), limited, [](std::uint64_t n) {
+  const Series series{number_from("CLUES_SEED", kScenesSeed + 1), limited, [](std::uint64_t n) {
                         JudgeSettings settings;
                         settings.refined = (n / 56 + n) % 4 == 0;
                         settings.points_per_region = 2;

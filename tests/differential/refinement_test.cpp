@@ -13,11 +13,10 @@
 #include "fuzz/generators/random_scenes.h"
 #include "reference/visibility/refinement/bounds.h"
 #include "reference/visibility/refinement/subdivision.h"
+#include "tests/seed.h"
 
 namespace clues {
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 struct Tally {
   std::uint64_t scenes = 0, less = 0, less_area = 0, same_area = 0, fallbacks = 0;

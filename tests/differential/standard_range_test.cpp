@@ -21,7 +21,7 @@
 namespace clues {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261123;
+constexpr std::uint64_t kRangeSeed = 20261123;
 constexpr int kPowers[] = {-1068, -1000, -540, -100, 100, 480, 900};
 
 using exact::ConvexCell;
@@ -53,10 +53,10 @@ Point3 scaled(const Point3& p, int power) {
 }
 
 std::vector<GeneratedScene> scenes(std::uint64_t of_each) {
-  std::printf("seed %lu\n", kSeed);
+  std::printf("seed %lu\n", kRangeSeed);
   std::vector<GeneratedScene> all;
   for (const fuzz::Kind kind : fuzz::all_kinds) {
-    for (std::uint64_t i = 0; i < of_each; ++i) all.push_back(fuzz::generate(kind, kSeed, i));
+    for (std::uint64_t i = 0; i < of_each; ++i) all.push_back(fuzz::generate(kind, kRangeSeed, i));
   }
   return all;
 }
@@ -148,7 +148,7 @@ TEST(StandardRange, TheReferenceGivesTheSameMapAtEveryScale) {
 // The file is made from the map in the standard range, which is not that of scale 1.
 TEST(StandardRange, ResultsAreInTheCoordinatesOfTheScene) {
   for (const fuzz::Kind kind : {fuzz::Kind::open_sheets, fuzz::Kind::interpenetrating}) {
-    const GeneratedScene scene = fuzz::generate(kind, kSeed, 0);
+    const GeneratedScene scene = fuzz::generate(kind, kRangeSeed, 0);
     for (const int power : {-540, 480}) {
       SCOPED_TRACE(scene.name + " times 2^" + std::to_string(power));
       const GeneratedScene moved = scaled(scene, power);
@@ -192,7 +192,7 @@ TEST(StandardRange, TheFastPathGivesTheSameMapAtEveryScale) {
 
 TEST(StandardRange, RefinementGivesTheSameAtEveryScale) {
   for (const fuzz::Kind kind : {fuzz::Kind::loose_triangles, fuzz::Kind::tetrahedra}) {
-    const GeneratedScene scene = fuzz::generate(kind, kSeed, 0);
+    const GeneratedScene scene = fuzz::generate(kind, kRangeSeed, 0);
     for (const int power : {-540, 480}) {
       SCOPED_TRACE(scene.name + " times 2^" + std::to_string(power));
       const GeneratedScene moved = scaled(scene, power);
@@ -219,7 +219,7 @@ TEST(StandardRange, RefinementGivesTheSameAtEveryScale) {
 }
 
 TEST(StandardRange, TheUmbraIsInTheCoordinatesOfTheScene) {
-  const GeneratedScene scene = fuzz::generate(fuzz::Kind::tetrahedra, kSeed, 0);
+  const GeneratedScene scene = fuzz::generate(fuzz::Kind::tetrahedra, kRangeSeed, 0);
   const reference::Box box{Point3(-64, -64, -64), Point3(64, 64, 64)};
   const auto umbra_of = [&](int power) {
     const GeneratedScene moved = scaled(scene, power);

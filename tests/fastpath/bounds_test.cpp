@@ -9,11 +9,11 @@
 #include "fastpath/queries/local_segment.h"
 #include "fastpath/queries/triangle_block.h"
 #include "oracle.h"
+#include "tests/seed.h"
 
 namespace clues::fastpath {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261121;
 using Q = mpq_class;
 
 // A value of size at most `size`, computed with an error of at most `error`.

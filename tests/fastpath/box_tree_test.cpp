@@ -11,7 +11,7 @@
 namespace clues::fastpath {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261122;
+constexpr std::uint64_t kScenesSeed = 20261122;
 
 IntervalBox box_at(double x, double y, double z, double size) {
   return {Interval(x, x + size), Interval(y, y + size), Interval(z, z + size)};
@@ -31,7 +31,7 @@ std::vector<std::uint32_t> found(const BoxTree& tree, const Test& test) {
 
 TEST(LocalBoxTree, FindsWhatLookingAtEveryBoxFinds) {
   const RoundedUp rounded_up;
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kScenesSeed);
   std::uniform_real_distribution<double> unit(0, 1);
   const std::function<IntervalBox(int)> kinds[] = {
       [](int) { return box_at(1, 2, 3, 1); },                       // all the same
@@ -60,7 +60,7 @@ TEST(LocalBoxTree, FindsWhatLookingAtEveryBoxFinds) {
 
 TEST(LocalBoxTree, ASegmentIsNeverSaidToMissABoxThatHoldsAPointOfIt) {
   const RoundedUp rounded_up;
-  std::mt19937_64 random(kSeed);
+  std::mt19937_64 random(kScenesSeed);
   std::uniform_real_distribution<double> unit(-1, 1);
   int missed = 0;
   for (int i = 0; i < 20000; ++i) {

@@ -12,11 +12,10 @@
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/random_scenes.h"
 #include "oracle.h"
+#include "tests/seed.h"
 
 namespace clues::fastpath {
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 struct Faults {
   int outside = 0;  // corners outside a box that should hold them

@@ -10,11 +10,10 @@
 #include "fastpath/predicates/exact_segment.h"
 #include "oracle.h"
 #include "scene/messages/error.h"
+#include "tests/seed.h"
 
 namespace clues::fastpath {
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 Sign exact_sign(const Point& a, const Point& b, const Point& c, const Point& d) {
   using exact::to_exact;

@@ -17,12 +17,11 @@
 #include "fuzz/campaign/generators.h"
 #include "fuzz/generators/random_scenes.h"
 #include "reference/visibility/first_order.h"
+#include "tests/seed.h"
 #include "validate/vectors/reader.h"
 
 namespace clues::fastpath {
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 using Ids = std::vector<std::uint32_t>;
 

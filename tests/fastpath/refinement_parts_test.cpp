@@ -13,11 +13,10 @@
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
 #include "slit_scenes.h"
+#include "tests/seed.h"
 
 namespace clues::fastpath {
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 // Random planes through cells of all dimensions, and through the parts again: each half lies in the part for its side, and the parts in the cell.
 TEST(FastRefinement, PartsCoverTheCell) {

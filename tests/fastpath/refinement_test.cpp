@@ -14,12 +14,11 @@
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
 #include "refinement_judges.h"
+#include "tests/seed.h"
 #include "validate/visible_set/visible_set.h"
 
 namespace clues::fastpath {
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 Ids exactly_visible(const scene::TriangleMesh& mesh, const std::vector<Point>& cell) {
   const auto set = validate::exact_visible_set(mesh, exact::ConvexCell::from_doubles(cell));

@@ -12,11 +12,10 @@
 #include "fuzz/generators/random_scenes.h"
 #include "oracle.h"
 #include "scene/messages/error.h"
+#include "tests/seed.h"
 
 namespace clues::fastpath {
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 // Answers that differ from the oracle's, in `segments` aimed segments. A query that finds out that it contradicted itself is wrong, too.
 int wrong_answers(const scene::TriangleMesh& mesh, const Bvh& bvh, std::uint64_t seed, int segments,

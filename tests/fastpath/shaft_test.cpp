@@ -14,11 +14,10 @@
 #include "fuzz/generators/random_scenes.h"
 #include "oracle.h"
 #include "scene/messages/error.h"
+#include "tests/seed.h"
 
 namespace clues::fastpath {
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 // Triangles that exactly meet the hull of triangle t and the cell.
 std::vector<std::uint32_t> meeting_hull(const scene::TriangleMesh& mesh, const Corners& t,

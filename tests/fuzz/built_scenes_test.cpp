@@ -14,11 +14,12 @@
 #include "scene/files/temporary_folder.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
+#include "tests/seed.h"
 
 namespace clues::fuzz {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261121, kScenes = 24;
+constexpr std::uint64_t kScenes = 24;
 
 const DegenerateGenerator& named(const std::string& name) {
   for (const auto& g : built_generators()) {

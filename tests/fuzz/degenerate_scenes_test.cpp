@@ -7,11 +7,12 @@
 #include "exact/complex/complex.h"
 #include "exact/sight/scene_query.h"
 #include "fuzz/generators/degenerate_scenes.h"
+#include "tests/seed.h"
 
 namespace clues::fuzz {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261121, kScenes = 24;
+constexpr std::uint64_t kScenes = 24;
 
 const DegenerateGenerator& named(const std::string& name) {
   for (const auto& g : degenerate_generators()) {

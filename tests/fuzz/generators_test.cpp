@@ -5,11 +5,10 @@
 #include "exact/sight/scene_query.h"
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/random_scenes.h"
+#include "tests/seed.h"
 
 namespace clues::fuzz {
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 TEST(RandomSceneGenerator, IsPureAndKeepsItsBounds) {
   for (const Kind kind : all_kinds) {

@@ -12,14 +12,14 @@
 namespace clues::fuzz {
 namespace {
 
-constexpr std::uint64_t kSeed = 20261122, kScenes = 64;
+constexpr std::uint64_t kScenesSeed = 20261122, kTouching = 64;
 
 TEST(CellShapes, AreConvexWithTheFacesTheySay) {
   std::map<int, int> dimensions;
   for (int kind = 0; kind < cell_kinds; ++kind) {
     for (std::uint64_t i = 0; i < 40; ++i) {
       SCOPED_TRACE(std::to_string(kind) + " " + std::to_string(i));
-      Random random(kSeed + i);
+      Random random(kScenesSeed + i);
       const CellShape shape = cell_shape(kind, random);
       const auto cell = exact::ConvexCell::from_doubles(shape.vertices);
       EXPECT_EQ(cell.dimension(), shape.dimension);
@@ -40,9 +40,9 @@ TEST(CellShapes, AreConvexWithTheFacesTheySay) {
 
 TEST(TouchingScenes, ArePureAndWithinBounds) {
   for (const auto& g : touching_generators()) {
-    for (std::uint64_t i = 0; i < kScenes; ++i) {
+    for (std::uint64_t i = 0; i < kTouching; ++i) {
       SCOPED_TRACE(std::string(g.name) + " " + std::to_string(i));
-      const GeneratedScene scene = g.make(kSeed, i), again = g.make(kSeed, i);
+      const GeneratedScene scene = g.make(kScenesSeed, i), again = g.make(kScenesSeed, i);
       EXPECT_EQ(scene.mesh.points, again.mesh.points);
       EXPECT_EQ(scene.mesh.triangles, again.mesh.triangles);
       EXPECT_EQ(scene.cell, again.cell);
@@ -96,8 +96,8 @@ TEST(TouchingScenes, MeetCellsOfEveryDimensionInEveryWay) {
   std::map<int, std::map<std::string, int>> by_dimension;
   std::map<std::string, int> meeting;  // scenes with contact, by generator
   for (const auto& g : touching_generators()) {
-    for (std::uint64_t i = 0; i < kScenes; ++i) {
-      const GeneratedScene scene = g.make(kSeed, i);
+    for (std::uint64_t i = 0; i < kTouching; ++i) {
+      const GeneratedScene scene = g.make(kScenesSeed, i);
       const auto places = places_of(scene);
       auto& sum = by_dimension[exact::ConvexCell::from_doubles(scene.cell).dimension()];
       for (const auto& [what, times] : places) sum[what] += times;
@@ -113,7 +113,7 @@ TEST(TouchingScenes, MeetCellsOfEveryDimensionInEveryWay) {
     for (const auto& way : ways) EXPECT_GT(found[way], 10) << way << ", dimension " << dimension;
   }
   for (const char* name : {"rim_fans", "stands_on_cell", "crosses_cell", "leaves_cell"})
-    EXPECT_GT(meeting[name], static_cast<int>(kScenes / 2)) << name;
+    EXPECT_GT(meeting[name], static_cast<int>(kTouching / 2)) << name;
 }
 
 }  // namespace

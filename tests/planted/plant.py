@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Copies of our sources that take one decision wrongly. A program of tests that is linked with such a copy has to notice.
 
-usage: plant.py source ROOT NAME       prints the source of which NAME is a copy
+usage: plant.py sources ROOT           prints all sources that have copies, a line each
+       plant.py source ROOT NAME       prints the source of which NAME is a copy
        plant.py write ROOT NAME FILE   writes the copy
 
 ROOT is a checkout. Each text has to be in its source once: repair COPIES where it is not.
@@ -97,7 +98,11 @@ COPIES = {
 
 
 def main():
-    command, root, name, *out = sys.argv[1:]
+    command, root, *rest = sys.argv[1:]
+    if command == "sources":
+        print(*sorted({str(source_of(pathlib.Path(root), source)) for source, _ in COPIES.values()}), sep="\n")
+        return
+    name, *out = rest
     source, edits = COPIES[name]
     try:
         path = source_of(pathlib.Path(root), source)

@@ -14,6 +14,7 @@
 #include "reference/visibility/refinement/bounds.h"
 #include "reference/visibility/refinement/subdivision.h"
 #include "shadow_scenes.h"
+#include "tests/seed.h"
 
 namespace clues::test {
 namespace {
@@ -24,8 +25,6 @@ using reference::OcclusionControls;
 using reference::SimplifiedMap;
 using reference::VisibilityMap;
 using reference::with_simpler_occlusion;
-
-constexpr std::uint64_t kSeed = 20261121;
 
 std::string bytes_of(const VisibilityMap& map) { return scene::to_json_text(reference::to_result(map, {}, true)); }
 

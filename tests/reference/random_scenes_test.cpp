@@ -11,11 +11,10 @@
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
 #include "judges.h"
+#include "tests/seed.h"
 
 namespace clues::test {
 namespace {
-
-constexpr std::uint64_t kSeed = 20261121;
 
 // What must have occurred, or the run proved less than it says.
 struct Occurred {

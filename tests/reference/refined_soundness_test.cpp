@@ -9,6 +9,7 @@
 #include "exact/sight/point_occlusion.h"
 #include "fuzz/campaign/generators.h"
 #include "judges.h"
+#include "tests/seed.h"
 #include "validate/verdicts/precision.h"
 #include "validate/visible_set/visible_set.h"
 
@@ -22,8 +23,6 @@ using exact::Point3;
 using reference::Bounds;
 using reference::side_index;
 using validate::Refinement;
-
-constexpr std::uint64_t kSeed = 20261121;
 
 struct Judged {
   std::uint64_t scenes = 0, gained = 0, decided = 0, points = 0, witnessed_points = 0;

@@ -11,6 +11,7 @@
 #include "reference/visibility/refinement/deviation.h"
 #include "reference/visibility/refinement/retraction.h"
 #include "strip_scenes.h"
+#include "tests/seed.h"
 
 namespace clues::test {
 namespace {
@@ -21,8 +22,6 @@ using exact::Plane3;
 using exact::Point3;
 using reference::Bounds;
 using reference::ContourSegment;
-
-constexpr std::uint64_t kSeed = 20261121;
 
 std::vector<bool> all_sides(const exact::Complex& complex) {
   return std::vector<bool>(2 * complex.pieces.size(), true);

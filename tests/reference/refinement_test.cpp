@@ -13,6 +13,7 @@
 #include "reference/visibility/refinement/bounds.h"
 #include "reference/visibility/refinement/exactness.h"
 #include "reference/visibility/refinement/subdivision.h"
+#include "tests/seed.h"
 
 namespace clues::test {
 namespace {
@@ -25,8 +26,6 @@ using reference::Bounds;
 using reference::FlatSet;
 using reference::RefineOptions;
 using reference::side_index;
-
-constexpr std::uint64_t kSeed = 20261121;
 
 enum class By { cells, backprojection };
 

@@ -40,33 +40,33 @@ constexpr auto unsupported = ErrorCode::unsupported;
 constexpr auto non_finite = ErrorCode::non_finite;
 constexpr auto out_of_range = ErrorCode::index_out_of_range;
 
-const std::string points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+const std::string three_points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Obj, BadSceneTest,
     testing::Values(
         BadScene{"Empty", "a.obj", "", malformed, "", "empty"},
-        BadScene{"NoTriangles", "a.obj", points, malformed, "", "no triangles"},
+        BadScene{"NoTriangles", "a.obj", three_points, malformed, "", "no triangles"},
         BadScene{"Nan", "a.obj", "v 0 0 0\nv nan 0 0\n", non_finite, ":2", "'nan'"},
         BadScene{"Infinity", "a.obj", "v 0 -inf 0\n", non_finite, ":1", "'-inf'"},
         BadScene{"Overflow", "a.obj", "# c\n\nv 0 0 1e999\n", non_finite, ":3", "1e999"},
         BadScene{"Word", "a.obj", "v 0 x 0\n", malformed, ":1", "'x'"},
         BadScene{"TwoCoordinates", "a.obj", "v 0 0\n", malformed, ":1", "2"},
         BadScene{"ColourIsAWord", "a.obj", "v 0 0 0 red\n", malformed, ":1", "'red'"},
-        BadScene{"NothingButAnEdge", "a.obj", points + "f 1 2\n", malformed, "", "no triangles"},
-        BadScene{"NoCorners", "a.obj", points + "f\n", malformed, ":4", "0 corners"},
-        BadScene{"IndexZero", "a.obj", points + "f 0 1 2\n", out_of_range, ":4", "0"},
-        BadScene{"IndexTooLarge", "a.obj", points + "f 1 2 3\nf 1 2 4\nf 1 2 3\n", out_of_range, ":5",
+        BadScene{"NothingButAnEdge", "a.obj", three_points + "f 1 2\n", malformed, "", "no triangles"},
+        BadScene{"NoCorners", "a.obj", three_points + "f\n", malformed, ":4", "0 corners"},
+        BadScene{"IndexZero", "a.obj", three_points + "f 0 1 2\n", out_of_range, ":4", "0"},
+        BadScene{"IndexTooLarge", "a.obj", three_points + "f 1 2 3\nf 1 2 4\nf 1 2 3\n", out_of_range, ":5",
                  "vertex 4, but the vertices are 1 to 3"},
-        BadScene{"IndexBeyond32Bits", "a.obj", points + "f 1 2 4294967297\n", out_of_range, ":4", "4294967297"},
-        BadScene{"IndexTooNegative", "a.obj", points + "f -1 -2 -4\n", out_of_range, ":4", "-4"},
+        BadScene{"IndexBeyond32Bits", "a.obj", three_points + "f 1 2 4294967297\n", out_of_range, ":4", "4294967297"},
+        BadScene{"IndexTooNegative", "a.obj", three_points + "f -1 -2 -4\n", out_of_range, ":4", "-4"},
         BadScene{"NoVertices", "a.obj", "f 1 2 3\n", out_of_range, ":1", "no vertex"},
-        BadScene{"CornerIsAWord", "a.obj", points + "f 1 2 three\n", malformed, ":4", "three"},
-        BadScene{"CornerIsDecimal", "a.obj", points + "f 1 2 3.0\n", malformed, ":4", "3.0"},
-        BadScene{"CornerIsASlash", "a.obj", points + "f 1 2 /\n", malformed, ":4", "'/'"},
-        BadScene{"CornerWithThreeSlashes", "a.obj", points + "f 1 2 3///\n", malformed, ":4", "3///"},
-        BadScene{"CornerWithFourParts", "a.obj", points + "f 1/1/1/1 2 3\n", malformed, ":4", "1/1/1/1"},
-        BadScene{"FreeFormSurface", "a.obj", points + "cstype bezier\n", unsupported, ":4", "polygons"},
+        BadScene{"CornerIsAWord", "a.obj", three_points + "f 1 2 three\n", malformed, ":4", "three"},
+        BadScene{"CornerIsDecimal", "a.obj", three_points + "f 1 2 3.0\n", malformed, ":4", "3.0"},
+        BadScene{"CornerIsASlash", "a.obj", three_points + "f 1 2 /\n", malformed, ":4", "'/'"},
+        BadScene{"CornerWithThreeSlashes", "a.obj", three_points + "f 1 2 3///\n", malformed, ":4", "3///"},
+        BadScene{"CornerWithFourParts", "a.obj", three_points + "f 1/1/1/1 2 3\n", malformed, ":4", "1/1/1/1"},
+        BadScene{"FreeFormSurface", "a.obj", three_points + "cstype bezier\n", unsupported, ":4", "polygons"},
         BadScene{"UnknownKeyword", "a.obj", "vertex 1 2 3\n", malformed, ":1", "vertex"},
         BadScene{"UnprintableBytes", "a.obj", std::string("v\0\x01\n", 4), malformed, ":1", "v??"},
         BadScene{"LineNumberAfterContinuation", "a.obj", "v 0 \\\n0 \\\n0\nv 1 1 y\n", malformed, ":4", "y"},
