@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "exact/complex/complex_internal.h"
+#include "exact/complex/cut_memory.h"
 #include "exact/kernel.h"
 #include "scene/messages/error.h"
 
@@ -48,6 +49,9 @@ class PointPool {
 struct Sheet {
   Corners corners;
   std::vector<Origin> origins;
+  CutMemory::Name name = 0;
+  std::vector<Contact> contacts;       // that need a cut,
+  std::vector<CutMemory::Name> meets;  // and with which sheets
 };
 
 bool is_even_permutation(const Corners& a, const Corners& b) {
@@ -140,157 +144,236 @@ void compact(Complex& complex) {
   }
 }
 
-}  // namespace
-
-Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell) {
+std::vector<Point3> exact_points(const scene::TriangleMesh& mesh) {
   std::vector<Point3> points(mesh.points.size());
   std::transform(mesh.points.begin(), mesh.points.end(), points.begin(), to_exact);
-  return build_complex(points, mesh.triangles, cell);
+  return points;
 }
 
-Complex build_complex(const std::vector<Point3>& points, const std::vector<Corners>& input, const ConvexCell* cell) {
-  Complex complex;
-  complex.input_triangles = input.size();
-
-  PointPool pool;
-  std::vector<std::uint32_t> point_of(points.size());
-  std::vector<bool> used(points.size(), false);
-  for (const auto& t : input) {
-    for (const std::uint32_t c : t) used[c] = true;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (used[i]) point_of[i] = pool.id_of(points[i]);
-  }
-
-  std::vector<Sheet> sheets;
-  std::map<Corners, std::size_t> sheet_of;
-  for (std::uint32_t t = 0; t < input.size(); ++t) {
-    const auto& in = input[t];
-    const Corners corners{point_of[in[0]], point_of[in[1]], point_of[in[2]]};
-    if (CGAL::collinear(pool[corners[0]], pool[corners[1]], pool[corners[2]])) {
-      complex.degenerate.push_back(t);
-      continue;
-    }
-    Corners key = corners;
-    std::sort(key.begin(), key.end());
-    const auto [it, fresh] = sheet_of.try_emplace(key, sheets.size());
-    if (fresh) sheets.push_back({corners, {}});
-    Sheet& sheet = sheets[it->second];
-    sheet.origins.push_back({t, is_even_permutation(sheet.corners, corners)});
-  }
-
-  if (cell && cell->dimension() == 3) {
-    const auto corner = [&](int i) { return pool.id_of(cell->vertices()[static_cast<std::size_t>(i)]); };
-    for (const CellFacet& f : cell->facets()) {
-      for (std::size_t i = 2; i < f.corners.size(); ++i) {
-        const Corners corners{corner(f.corners[0]), corner(f.corners[i - 1]), corner(f.corners[i])};
-        Corners key = corners;
-        std::sort(key.begin(), key.end());
-        if (sheet_of.try_emplace(key, sheets.size()).second) sheets.push_back({corners, {}});
-      }
-    }
-  }
-
-  // Contacts that need a cut.
-  std::vector<std::vector<Contact>> contacts(sheets.size());
-  std::vector<std::size_t> cluster(sheets.size());
-  std::iota(cluster.begin(), cluster.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (cluster[i] != i) i = cluster[i] = cluster[cluster[i]];
-    return i;
-  };
-  using Box = CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_intersection_d::ID_EXPLICIT>;
-  struct SheetBox : Box {
-    std::size_t sheet;
-    SheetBox(const CGAL::Bbox_3& b, std::size_t s) : Box(b), sheet(s) {}
-  };
-  std::vector<SheetBox> boxes;
-  boxes.reserve(sheets.size());
-  const auto triangle3 = [&](const Sheet& s) {
-    return Kernel::Triangle_3(pool[s.corners[0]], pool[s.corners[1]], pool[s.corners[2]]);
-  };
-  for (std::size_t i = 0; i < sheets.size(); ++i) boxes.emplace_back(triangle3(sheets[i]).bbox(), i);
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const SheetBox& a, const SheetBox& b) {
-    pairs.push_back(std::minmax(a.sheet, b.sheet));
-  });
-  std::sort(pairs.begin(), pairs.end());
-  std::vector<Contact> met(pairs.size());
-  // Isolated: who calls this from a task of his own must not be given another one while he waits here.
+// In parallel, and isolated: who calls this from a task of his own must not be given another one while he waits here.
+void for_each_isolated(std::size_t n, const auto& work) {
   const CGAL::Protect_FPU_rounding<true> as_usual(
       CGAL_FE_TONEAREST);  // TBB gives its threads that of who calls it first
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t k) {
-      const Sheet &a = sheets[pairs[k].first], &b = sheets[pairs[k].second];
-      if (strictly_beside(pool, a.corners, b.corners) || strictly_beside(pool, b.corners, a.corners)) return;
-      Contact contact = meet(triangle3(a), triangle3(b));
-      if (!contact.overlap) {
-        // One common corner, or one whole common edge, needs no cut.
-        if (static_cast<int>(contact.points.size()) <= common_corners(a.corners, b.corners)) return;
-        for (Point3& p : contact.points) p = collapsed(p);
-      }
-      met[k] = std::move(contact);
-    });
-  });
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const auto [i, j] = pairs[k];
-    const Contact& contact = met[k];
-    if (contact.points.empty()) continue;
-    if (contact.overlap) {
-      cluster[root(i)] = root(j);
-      continue;
-    }
-    contacts[i].push_back(contact);
-    contacts[j].push_back(contact);
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, n, work); });
+}
+
+class Builder {
+ public:
+  Builder(const ConvexCell* cell, std::span<const std::uint32_t> names, CutMemory* memory)
+      : cell_(cell && cell->dimension() == 3 ? cell : nullptr), names_(names), memory_(memory) {}
+
+  Complex build(const std::vector<Point3>& points, const std::vector<Corners>& input) {
+    complex_.input_triangles = input.size();
+    take_in(points, input);
+    if (cell_) add_border();
+    find_contacts();
+    cut();
+    finish();
+    return std::move(complex_);
   }
 
-  // Cut each cluster; clusters in order of their first sheet, so that the result does not depend on union order.
-  std::map<std::size_t, std::vector<std::size_t>> members;
-  for (std::size_t i = 0; i < sheets.size(); ++i) members[root(i)].push_back(i);
-  std::vector<std::vector<std::size_t>> work;
-  for (auto& [r, m] : members) {
-    if (std::any_of(m.begin(), m.end(), [&](std::size_t s) { return !sheets[s].origins.empty(); })) work.push_back(m);
+ private:
+  using Sheets = std::vector<std::size_t>;
+
+  // 1.
+  void take_in(const std::vector<Point3>& points, const std::vector<Corners>& input) {
+    std::vector<bool> used(points.size(), false);
+    for (const auto& t : input) {
+      for (const std::uint32_t c : t) used[c] = true;
+    }
+    std::vector<std::uint32_t> point_of(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (used[i]) point_of[i] = pool_.id_of(points[i]);
+    }
+    for (std::uint32_t t = 0; t < input.size(); ++t) {
+      const auto& in = input[t];
+      const Corners corners{point_of[in[0]], point_of[in[1]], point_of[in[2]]};
+      if (CGAL::collinear(pool_[corners[0]], pool_[corners[1]], pool_[corners[2]])) {
+        complex_.degenerate.push_back(t);
+        continue;
+      }
+      Sheet& sheet = sheets_[sheet_with(corners, names_.empty() ? 0 : names_[t])];
+      sheet.origins.push_back({t, is_even_permutation(sheet.corners, corners)});
+    }
   }
-  std::sort(work.begin(), work.end());
-  for (const auto& sheet_ids : work) {
-    const Sheet& first = sheets[sheet_ids.front()];
-    if (sheet_ids.size() == 1 && contacts[sheet_ids.front()].empty()) {
-      complex.pieces.push_back({first.corners, first.origins});
-      continue;
+
+  void add_border() {
+    CutMemory::Name name = CutMemory::kBorder;
+    const auto corner = [&](int i) { return pool_.id_of(cell_->vertices()[static_cast<std::size_t>(i)]); };
+    for (const CellFacet& f : cell_->facets()) {
+      for (std::size_t i = 2; i < f.corners.size(); ++i)
+        sheet_with({corner(f.corners[0]), corner(f.corners[i - 1]), corner(f.corners[i])}, name++);
     }
+  }
+
+  // The sheet with these corners, in whatever order; a new one gets this name.
+  std::size_t sheet_with(const Corners& corners, CutMemory::Name name) {
+    Corners key = corners;
+    std::sort(key.begin(), key.end());
+    const auto [it, fresh] = sheet_of_.try_emplace(key, sheets_.size());
+    if (fresh) sheets_.push_back({corners, {}, name, {}, {}});
+    return it->second;
+  }
+
+  Kernel::Triangle_3 triangle(const Sheet& s) const {
+    return {pool_[s.corners[0]], pool_[s.corners[1]], pool_[s.corners[2]]};
+  }
+
+  // 2.
+  void find_contacts() {
+    const std::vector<std::pair<std::size_t, std::size_t>> pairs = overlapping_boxes();
+    std::vector<Contact> met(pairs.size());
+    for_each_isolated(pairs.size(),
+                      [&](std::size_t k) { met[k] = contact(sheets_[pairs[k].first], sheets_[pairs[k].second]); });
+    cluster_.resize(sheets_.size());
+    std::iota(cluster_.begin(), cluster_.end(), std::size_t{0});
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const auto [i, j] = pairs[k];
+      if (memory_) memory_->keep(sheets_[i].name, sheets_[j].name, met[k]);
+      if (met[k].overlap) {
+        cluster_[root(i)] = root(j);
+      } else if (!met[k].points.empty()) {
+        sheets_[i].contacts.push_back(met[k]);
+        sheets_[j].contacts.push_back(met[k]);
+        sheets_[i].meets.push_back(sheets_[j].name);
+        sheets_[j].meets.push_back(sheets_[i].name);
+      }
+    }
+  }
+
+  std::vector<std::pair<std::size_t, std::size_t>> overlapping_boxes() const {
+    using Box = CGAL::Box_intersection_d::Box_d<double, 3, CGAL::Box_intersection_d::ID_EXPLICIT>;
+    struct SheetBox : Box {
+      std::size_t sheet;
+      SheetBox(const CGAL::Bbox_3& b, std::size_t s) : Box(b), sheet(s) {}
+    };
+    std::vector<SheetBox> boxes;
+    boxes.reserve(sheets_.size());
+    for (std::size_t i = 0; i < sheets_.size(); ++i) boxes.emplace_back(triangle(sheets_[i]).bbox(), i);
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const SheetBox& a, const SheetBox& b) {
+      pairs.push_back(std::minmax(a.sheet, b.sheet));
+    });
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+
+  // Without points where no cut is needed.
+  Contact contact(const Sheet& a, const Sheet& b) const {
+    if (const Contact* known = memory_ ? memory_->contact(a.name, b.name) : nullptr) return *known;
+    if (strictly_beside(pool_, a.corners, b.corners) || strictly_beside(pool_, b.corners, a.corners)) return {};
+    Contact contact = meet(triangle(a), triangle(b));
+    if (contact.overlap) return contact;
+    // One common corner, or one whole common edge, needs no cut.
+    if (static_cast<int>(contact.points.size()) <= common_corners(a.corners, b.corners)) return {};
+    for (Point3& p : contact.points) p = collapsed(p);
+    return contact;
+  }
+
+  std::size_t root(std::size_t i) {
+    while (cluster_[i] != i) i = cluster_[i] = cluster_[cluster_[i]];
+    return i;
+  }
+
+  // 3. Clusters in order of their first sheet, so that the result does not depend on union order.
+  void cut() {
+    std::map<std::size_t, Sheets> members;
+    for (std::size_t i = 0; i < sheets_.size(); ++i) members[root(i)].push_back(i);
+    std::vector<Sheets> work;
+    for (auto& [r, m] : members) {
+      if (std::any_of(m.begin(), m.end(), [&](std::size_t s) { return !sheets_[s].origins.empty(); }))
+        work.push_back(std::move(m));
+    }
+    std::sort(work.begin(), work.end());
+    const auto is_whole = [&](const Sheets& ids) { return ids.size() == 1 && sheets_[ids[0]].contacts.empty(); };
+    std::vector<std::vector<CutFace>> faces(work.size());
+    for_each_isolated(work.size(), [&](std::size_t w) {
+      if (!is_whole(work[w])) faces[w] = cut_faces(work[w]);
+    });
+    for (std::size_t w = 0; w < work.size(); ++w) {
+      if (is_whole(work[w])) {
+        const Sheet& whole = sheets_[work[w][0]];
+        complex_.pieces.push_back({whole.corners, whole.origins});
+        continue;
+      }
+      if (memory_) memory_->keep(situation(work[w]), faces[w]);
+      for (const std::size_t s : work[w]) complex_.refined_triangles += sheets_[s].origins.size();
+      add_pieces(work[w], faces[w]);
+    }
+  }
+
+  CutMemory::Situation situation(const Sheets& ids) const {
+    CutMemory::Situation situation;
+    for (const std::size_t s : ids) {
+      situation.push_back({sheets_[s].name});
+      situation.back().insert(situation.back().end(), sheets_[s].meets.begin(), sheets_[s].meets.end());
+    }
+    return situation;
+  }
+
+  std::vector<CutFace> cut_faces(const Sheets& ids) const {
+    if (const std::vector<CutFace>* known = memory_ ? memory_->cut(situation(ids)) : nullptr) return *known;
     std::vector<std::array<Point3, 3>> triangles;
-    std::vector<Contact> cuts;
-    for (const std::size_t s : sheet_ids) {
-      const Corners& c = sheets[s].corners;
-      triangles.push_back({pool[c[0]], pool[c[1]], pool[c[2]]});
-      cuts.insert(cuts.end(), contacts[s].begin(), contacts[s].end());
-      complex.refined_triangles += sheets[s].origins.size();
+    std::vector<Contact> contacts;
+    for (const std::size_t s : ids) {
+      const Corners& c = sheets_[s].corners;
+      triangles.push_back({pool_[c[0]], pool_[c[1]], pool_[c[2]]});
+      contacts.insert(contacts.end(), sheets_[s].contacts.begin(), sheets_[s].contacts.end());
     }
-    for (const CutFace& face : cut_in_plane(triangles, cuts)) {
+    return cut_in_plane(triangles, contacts);
+  }
+
+  void add_pieces(const Sheets& ids, const std::vector<CutFace>& faces) {
+    for (const CutFace& face : faces) {
       Piece piece;
-      for (std::size_t k = 0; k < 3; ++k) piece.corners[k] = pool.id_of(face.corners[k]);
+      for (std::size_t k = 0; k < 3; ++k) piece.corners[k] = pool_.id_of(face.corners[k]);
       for (const auto& [member, same_side] : face.owners) {
-        for (const Origin& o : sheets[sheet_ids[member]].origins)
+        for (const Origin& o : sheets_[ids[member]].origins)
           piece.origins.push_back({o.triangle, o.same_side == same_side});
       }
       if (piece.origins.empty()) continue;
       std::sort(piece.origins.begin(), piece.origins.end(),
                 [](const Origin& x, const Origin& y) { return x.triangle < y.triangle; });
-      complex.pieces.push_back(std::move(piece));
+      complex_.pieces.push_back(std::move(piece));
     }
   }
 
-  complex.points = pool.take();
-  compact(complex);
-  complex.unit = unit_of(complex.points);
-  for (const Piece& p : complex.pieces) {
-    const Point3 &a = complex.points[p.corners[0]], &b = complex.points[p.corners[1]],
-                 &c = complex.points[p.corners[2]];
-    complex.planes.emplace_back(a, b, c);
-    complex.in_cell.push_back(cell && cell->dimension() == 3 && cell->interior_contains(CGAL::centroid(a, b, c)));
+  void finish() {
+    complex_.points = pool_.take();
+    compact(complex_);
+    complex_.unit = unit_of(complex_.points);
+    for (const Piece& p : complex_.pieces) {
+      const Point3 &a = complex_.points[p.corners[0]], &b = complex_.points[p.corners[1]],
+                   &c = complex_.points[p.corners[2]];
+      complex_.planes.emplace_back(a, b, c);
+      complex_.in_cell.push_back(cell_ && cell_->interior_contains(CGAL::centroid(a, b, c)));
+    }
+    find_edges(complex_);
   }
-  find_edges(complex);
-  return complex;
+
+  const ConvexCell* cell_;  // null unless it is solid
+  std::span<const std::uint32_t> names_;
+  CutMemory* memory_;
+  Complex complex_;
+  PointPool pool_;
+  std::vector<Sheet> sheets_;
+  std::map<Corners, std::size_t> sheet_of_;
+  std::vector<std::size_t> cluster_;  // union-find
+};
+
+}  // namespace
+
+Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell) {
+  return Builder(cell, {}, nullptr).build(exact_points(mesh), mesh.triangles);
+}
+
+Complex build_complex(const std::vector<Point3>& points, const std::vector<Corners>& input, const ConvexCell* cell) {
+  return Builder(cell, {}, nullptr).build(points, input);
+}
+
+Complex build_complex(const scene::TriangleMesh& part, const ConvexCell* cell, std::span<const std::uint32_t> names,
+                      CutMemory& memory) {
+  return Builder(cell, names, &memory).build(exact_points(part), part.triangles);
 }
 
 std::vector<std::uint32_t> triangles_not_solid(const Complex& complex) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "exact/cell/convex_cell.h"
@@ -12,6 +13,8 @@
 #include "scene/mesh/mesh.h"
 
 namespace clues::exact {
+
+class CutMemory;
 
 struct Origin {
   std::uint32_t triangle = 0;  // input id (D1)
@@ -47,6 +50,11 @@ struct Complex {
 // pieces in int V are in nothing but `pieces`, `planes` and `in_cell`: edges and points know occluders only.
 // O(n log n + k) box tests for k box contacts, then the exact cuts: quadratic where every triangle meets every other.
 Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell = nullptr);
+
+// The same of a part of a scene, with what `memory` knows from other parts of it (cut_memory.h), and adds to that. `names` are the
+// ids, ascending and below 2^31, of the part's triangles in the whole scene; the cell is the same each time.
+Complex build_complex(const scene::TriangleMesh& part, const ConvexCell* cell, std::span<const std::uint32_t> names,
+                      CutMemory& memory);
 
 // The same for exact points.
 Complex build_complex(const std::vector<Point3>& points, const std::vector<std::array<std::uint32_t, 3>>& triangles,

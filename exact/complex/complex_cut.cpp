@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "exact/complex/complex_internal.h"
 
@@ -25,8 +26,16 @@ bool inside(const std::array<Point2, 3>& t, const Point2& p) {
 }  // namespace
 
 Point2 drop_axis(const Point3& p, int axis, double unit) {
-  const Point2 q(p[(axis + 1) % 3], p[(axis + 2) % 3]);
-  return unit == 1 ? q : Point2(q.x() / unit, q.y() / unit);
+  // A double stays one, where it does not leave their range.
+  const auto in_units = [&](const FT& x) {
+    if (unit == 1) return x;
+    if (x.approx().is_point()) {
+      const double given = x.approx().inf(), q = given / unit;
+      if (q * unit == given) return FT(q);
+    }
+    return FT(x / unit);
+  };
+  return {in_units(p[(axis + 1) % 3]), in_units(p[(axis + 2) % 3])};
 }
 
 int dominant_axis(const Vector3& normal) {
@@ -81,19 +90,29 @@ std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& tria
   };
 
   Cdt cdt;
+  std::map<Cdt::Vertex_handle, Point3> given;  // the vertices that are no crossings of constraints
+  const auto insert = [&](const Point3& p, const Point2& q) {
+    const Cdt::Vertex_handle vertex = cdt.insert(q);
+    given.emplace(vertex, p);
+    return vertex;
+  };
   std::vector<std::array<Point2, 3>> flat;
   for (const auto& t : triangles) {
     flat.push_back({lay_flat(t[0]), lay_flat(t[1]), lay_flat(t[2])});
-    const auto& f = flat.back();
-    for (std::size_t i = 0; i < 3; ++i) cdt.insert_constraint(f[i], f[(i + 1) % 3]);
+    const Cdt::Vertex_handle a = insert(t[0], flat.back()[0]), b = insert(t[1], flat.back()[1]);
+    cdt.insert_constraint(a, b);
+    const Cdt::Vertex_handle c = insert(t[2], flat.back()[2]);
+    cdt.insert_constraint(b, c);
+    cdt.insert_constraint(c, a);
   }
   for (const Contact& c : contacts) {
-    if (c.points.size() == 1) {
-      cdt.insert(lay_flat(c.points[0]));
-    } else {
-      cdt.insert_constraint(lay_flat(c.points[0]), lay_flat(c.points[1]));
-    }
+    const Cdt::Vertex_handle first = insert(c.points[0], lay_flat(c.points[0]));
+    if (c.points.size() > 1) cdt.insert_constraint(first, insert(c.points[1], lay_flat(c.points[1])));
   }
+  const auto corner_at = [&](Cdt::Vertex_handle vertex) {
+    const auto it = given.find(vertex);
+    return it != given.end() ? it->second : lift(vertex->point());
+  };
 
   std::vector<CutFace> faces;
   for (auto f = cdt.finite_faces_begin(); f != cdt.finite_faces_end(); ++f) {
@@ -105,7 +124,7 @@ std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& tria
         face.owners.emplace_back(m, CGAL::orientation(flat[m][0], flat[m][1], flat[m][2]) == CGAL::LEFT_TURN);
     }
     if (face.owners.empty()) continue;
-    face.corners = {lift(p[0]), lift(p[1]), lift(p[2])};
+    face.corners = {corner_at(f->vertex(0)), corner_at(f->vertex(1)), corner_at(f->vertex(2))};
     if (!face.owners.front().second) {  // turn the face so that it looks like its first owner
       std::swap(face.corners[1], face.corners[2]);
       for (auto& owner : face.owners) owner.second = !owner.second;

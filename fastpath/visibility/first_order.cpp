@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "exact/complex/complex.h"
+#include "exact/complex/cut_memory.h"
 #include "exact/threads.h"
 
 namespace clues::fastpath {
@@ -42,8 +43,9 @@ Box outside_of(const Bvh& bvh) {
 FirstOrder by_closure(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options, bool regions) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   const Box outside = outside_of(bvh);
-  const auto make_map = [&](const scene::TriangleMesh& part) {
-    return std::make_shared<const EnginePart>(make_local_map(part, exact_cell, options, &outside));
+  exact::CutMemory memory;
+  const auto make_map = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids) {
+    return std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, options, &outside));
   };
   Closure closure = close_over_visible(bvh, Cell(exact_cell), make_map, kMappedWhole, options.dials);
   const LocalMap& map = static_cast<const EnginePart&>(*closure.map).map();

@@ -93,8 +93,9 @@ class ReferencePart : public fastpath::PartialMap {
 }  // namespace
 
 fastpath::PartialMapMaker reference_parts(const exact::ConvexCell& cell, PartBug bug) {
-  return
-      [&cell, bug](const scene::TriangleMesh& part) { return std::make_shared<const ReferencePart>(part, cell, bug); };
+  return [&cell, bug](const scene::TriangleMesh& part, const std::vector<std::uint32_t>&) {
+    return std::make_shared<const ReferencePart>(part, cell, bug);
+  };
 }
 
 }  // namespace clues::tests

@@ -316,7 +316,7 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
   do {
     ++closer.counts.passes;
     result.part_mesh = closer.part_mesh();
-    result.map = make_map(result.part_mesh);
+    result.map = make_map(result.part_mesh, closer.part());
     result.part = closer.part();
     result.visible.clear();
     for (const std::uint32_t i : result.map->visible()) result.visible.push_back(result.part[i]);

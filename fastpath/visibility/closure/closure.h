@@ -40,8 +40,9 @@ class PartialMap {
   virtual SetLabel label_of_inside(const Corners& triangle, const Box& about) const = 0;
 };
 
-// Makes the map of a part of the scene, for the same cell.
-using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(const scene::TriangleMesh& part)>;
+// Makes the map of a part of the scene, for the same cell. `ids` are those of the part's triangles in the scene, ascending.
+using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(const scene::TriangleMesh& part,
+                                                                        const std::vector<std::uint32_t>& ids)>;
 
 // Cheap figures about how the answer came about.
 struct ClosureCounts {

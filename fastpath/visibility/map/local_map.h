@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "exact/cell/convex_cell.h"
@@ -79,6 +80,16 @@ class LocalMap {
 // the hull of mesh, cell and `outside`.
 LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const LocalMapOptions& options,
                         const Box* outside = nullptr);
+
+// The same of a part of a scene, one of several that are mapped one after the other: `ids` are its triangles' ids in the scene, ascending,
+// and `memory` keeps what is found out about how they meet.
+struct PartOfScene {
+  const scene::TriangleMesh& mesh;
+  std::span<const std::uint32_t> ids;
+  exact::CutMemory& memory;
+};
+LocalMap make_local_map(const PartOfScene& part, const exact::ConvexCell& cell, const LocalMapOptions& options,
+                        const Box* outside);
 
 // The map of a part of a cell, or of all of it, in a complex that was cut for the whole: what lies in the whole cell does not occlude, also where it is
 // outside the part (D3, D21). Lists, and has regions of, the wanted triangles only (one for each triangle of the input).
