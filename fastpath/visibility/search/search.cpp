@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "fastpath/visibility/scene/surface_vertices.h"
 #include "fastpath/visibility/search/sources.h"
 #include "fastpath/visibility/wedges/contacts.h"
 
@@ -19,10 +20,11 @@ class Search::Work {
         options(o),
         counts(c),
         workers(w),
+        is_vertex(surface_vertices(s)),
         contours(contour_edges(s, w)),
         walker(s, set, o.dials.longest_walk),
         contacts(s, workers),
-        sources(s, contours, set, walker, contacts, workers),
+        sources(s, is_vertex, contours, set, walker, contacts, workers),
         edge_wedges(contours.size()),
         is_contour(s.edges.size(), false),
         cuts(s.edges.size()) {}
@@ -128,8 +130,8 @@ class Search::Work {
         return Probe{Probe::Kind::contour, &scene.points[to], {SpotName::Kind::vertex, to}, c.plane, 0, nullptr,
                      is_doubtful(s)};
       };
-      if (s.part.lo == &scene.points[e.a]) contacts.add(contacts.corner(e.a), probe_along(e.b));
-      if (s.part.hi == &scene.points[e.b]) contacts.add(contacts.corner(e.b), probe_along(e.a));
+      if (is_vertex[e.a] && s.part.lo == &scene.points[e.a]) contacts.add(contacts.corner(e.a), probe_along(e.b));
+      if (is_vertex[e.b] && s.part.hi == &scene.points[e.b]) contacts.add(contacts.corner(e.b), probe_along(e.a));
     }
     std::vector<Contact*> lit = contacts.lit();
     for (const Contact* c : lit) {
@@ -380,6 +382,7 @@ class Search::Work {
   const LocalMapOptions& options;
   LocalMapCounts& counts;
   Workers& workers;
+  const std::vector<bool> is_vertex;  // by point
   std::vector<ContourEdge> contours;
   PieceSet set;
   Walker walker;

@@ -10,12 +10,12 @@
 
 namespace clues::fastpath {
 
-Sources::Sources(const LocalScene& scene, const std::vector<ContourEdge>& contours, const PieceSet& pieces,
-                 const Walker& walker, Contacts& contacts, Workers& workers)
+Sources::Sources(const LocalScene& scene, const std::vector<bool>& is_vertex, const std::vector<ContourEdge>& contours,
+                 const PieceSet& pieces, const Walker& walker, Contacts& contacts, Workers& workers)
     : scene_(scene), contours_(contours), pieces_(pieces), walker_(walker), contacts_(contacts), workers_(workers) {
   std::vector<std::vector<OfVertex>> found(scene.points.size());
   workers.for_each(found.size(), [&](std::size_t v, Workers::Worker& worker) {
-    if (!scene.point_pieces[v].empty()) found[v] = beside_vertex(static_cast<std::uint32_t>(v), worker.pool);
+    if (is_vertex[v]) found[v] = beside_vertex(static_cast<std::uint32_t>(v), worker.pool);
   });
   for (auto& list : found) std::move(list.begin(), list.end(), std::back_inserter(of_vertices_));
 }

@@ -42,9 +42,10 @@ class Sources {
     bool separates = false;  // its wedges do nothing else (T10): in doubt it is lit, and nothing is lost by it
   };
 
-  // Keeps references. `pieces` must be empty until the first round.
-  Sources(const LocalScene& scene, const std::vector<ContourEdge>& contours, const PieceSet& pieces,
-          const Walker& walker, Contacts& contacts, Workers& workers);
+  // Keeps references, but for `is_vertex`: which points are vertices of the surface (surface_vertices.h). `pieces` must be empty until the
+  // first round.
+  Sources(const LocalScene& scene, const std::vector<bool>& is_vertex, const std::vector<ContourEdge>& contours,
+          const PieceSet& pieces, const Walker& walker, Contacts& contacts, Workers& workers);
 
   // With the cuts of each edge, ascending from its first end. Nothing is lit; `pieces` must be empty.
   void start_round(const std::vector<std::vector<const ExactPoint*>>& cuts);
