@@ -49,6 +49,6 @@ MUTATIONS = [
     ("star-spreads-never", "reference/local_star.cpp", "  if (turn(inner) == way) return true;", "  if (turn(inner) == way) return false;"),
     ("d3-contact-is-not-visible", "reference/visibility_map.cpp", "    if (!scene.meets_cell(t)) continue;", "    continue;"),
     ("fixpoint-nothing-lit-outright", "reference/fixpoint.cpp", "if (sources_[i].walk.ends_at_cell || sources_[i].walk.unresolved) lit.push_back(i);", "if (sources_[i].walk.unresolved) lit.push_back(i);"),
-    ("d3-border-not-cut", "exact/complex.cpp", "  if (cell && cell->dimension() == 3) {", "  if (cell && cell->dimension() == 4) {"),
-    ("d16-contacts-forgotten", "exact/complex.cpp", "    contacts[i].push_back(contact);\n", ""),
+    ("d3-border-not-cut", "exact/complex.cpp", "    if (cell_) add_border();\n", ""),
+    ("d16-contacts-forgotten", "exact/complex.cpp", "        sheets_[i].contacts.push_back(met[k]);\n", ""),
 ]
