@@ -44,7 +44,7 @@ TEST(SightRays, FindNearlyAllThatIsVisibleInACity) {
     const fastpath::Cell cell(points);
     const auto visible = fastpath::first_order_visibility(bvh, points, {}).visible;
     fastpath::SightRays rays(bvh, cell);
-    const Ids around = without_nothing(rays.around(mesh.triangles.size()));
+    const Ids around = without_nothing(rays.around(mesh.triangles.size(), 0));
     const Ids found = spread(rays, around);
     EXPECT_TRUE(std::includes(visible.begin(), visible.end(), found.begin(), found.end()));
     EXPECT_GE(20 * found.size(), 19 * visible.size());
@@ -61,7 +61,7 @@ TEST(SightRays, AreTheSameForAnyNumberOfThreads) {
     tbb::task_arena arena(threads);
     const auto now = arena.execute([&] {
       fastpath::SightRays rays(bvh, cell);
-      auto ids = rays.around(1000);
+      auto ids = rays.around(1000, 1);
       for (const std::uint32_t t : rays.beside(std::vector<std::uint32_t>{7, 8, 9})) ids.push_back(t);
       for (const std::uint32_t t : rays.towards(std::vector<std::uint32_t>{7, 8, 9})) ids.push_back(t);
       return ids;

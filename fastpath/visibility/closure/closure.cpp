@@ -14,8 +14,9 @@
 namespace clues::fastpath {
 namespace {
 
-// How many rays look for a first guess, at most, and how many triangles whose proof failed are looked at before the map is made anew.
-constexpr std::size_t kRays = 4096, kFailures = 256;
+// How many rays at a time look for a first guess, at most, and how many times, while they find what is new; and how many triangles whose
+// proof failed are looked at before the map is made anew.
+constexpr std::size_t kRays = 4096, kTimes = 6, kFailures = 512;
 
 Box box_of(std::span<const Point> points) {
   Box box{points[0], points[0]};
@@ -171,7 +172,11 @@ void Closer::add_triangles_by_the_cell() {
 
 void Closer::add_seen_by_rays() {
   add_with_neighbours(rays_.beside(part_));
-  add_with_neighbours(rays_.around(std::min(bvh_.mesh().triangles.size(), kRays)));
+  for (std::size_t time = 0; time < kTimes; ++time) {
+    const std::size_t before = part_.size();
+    add_with_neighbours(rays_.around(std::min(bvh_.mesh().triangles.size(), kRays), time));
+    if (part_.size() == before) break;
+  }
 }
 
 // And what is seen next to them, and next to that. Ids that are kNothing are left out.

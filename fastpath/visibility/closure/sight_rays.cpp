@@ -71,12 +71,14 @@ std::vector<std::uint32_t> SightRays::first_hits(std::size_t count, const RayOf&
   return met;
 }
 
-std::vector<std::uint32_t> SightRays::around(std::size_t count) {
+std::vector<std::uint32_t> SightRays::around(std::size_t count, std::size_t time) {
   const double reach = 4 / bvh_.frame().scale;  // to beyond the scene
   return first_hits(count, [&](std::size_t i) {
-    Numbers random(1, i);
+    Numbers random(1, time * count + i);
     const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
-    const double turn = static_cast<double>(i) * std::numbers::pi * (3 - std::sqrt(5.0)), r = std::sqrt(1 - z * z);
+    const double turn = (static_cast<double>(i) + 0.3 * static_cast<double>(time)) * std::numbers::pi *
+                        (3 - std::sqrt(5.0)),
+                 r = std::sqrt(1 - z * z);
     const Point from = point_of_cell(cell_, random);
     return Segment{from,
                    {from[0] + reach * r * std::cos(turn), from[1] + reach * r * std::sin(turn), from[2] + reach * z}};

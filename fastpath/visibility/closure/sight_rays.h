@@ -21,8 +21,8 @@ class SightRays {
   // No triangle is near the cell: so none needs to be asked which part of it is in int V (D3).
   void cell_is_empty() { cell_is_empty_ = true; }
 
-  // First hits of `count` rays spread evenly over all directions.
-  std::vector<std::uint32_t> around(std::size_t count);
+  // First hits of `count` rays spread evenly over all directions, others each time.
+  std::vector<std::uint32_t> around(std::size_t count, std::size_t time);
   // First hits of rays that pass each of the triangles closely, edge by edge.
   std::vector<std::uint32_t> beside(std::span<const std::uint32_t> triangles);
   // First hits on the way to each of the triangles, up to it: kTowards for each, kNothing where nothing is in front.
