@@ -1,7 +1,8 @@
 #include "fastpath/visibility/wedges/apex.h"
 
 #include <algorithm>
-#include <numeric>
+#include <optional>
+#include <tuple>
 
 #include "fastpath/visibility/wedges/star.h"
 
@@ -140,105 +141,136 @@ bool Apex::has_piece_in_plane() const {
                               [&](const LocalArc& arc) { return scene_->cell.lies_in(scene_->planes[arc.piece]); });
 }
 
-std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) const {
-  if (sectors_.empty() || probes.empty()) return {};
-  if (flat_) {
-    std::vector<std::uint32_t> all(sectors_.size());
-    std::iota(all.begin(), all.end(), 0U);
-    return all;
-  }
-  return decide<Integer>([&]<class NT>() { return existing_in<NT>(probes); });
-}
-
+// What is around x, and where it is visible there, in one number type.
 template <class NT>
-std::vector<std::uint32_t> Apex::existing_in(const std::vector<Probe>& probes) const {
+struct Apex::Picture {
   using V = Vec3<NT>;
-  const Star<NT> star(*scene_, on_edge_, id_, x_, arcs_);
-  const LocalCell& cell = scene_->cell;
   struct Lit {
     Beside<NT> beside;
     std::vector<int> face;
     const ExactPoint *to, *lit_end;
     bool doubtful;
   };
-  const V nothing{NT(0), NT(0), NT(0)};
-  std::vector<Lit> lit;
-  for (const Probe& p : probes) {
-    Lit l{{star.to(*p.to), nothing, nothing, p.at}, {}, p.to, p.lit_end, p.doubtful};
-    if (p.plane) {
-      const V n = normal_direction<NT>(*p.plane);
-      l.beside.aside = n;
-      l.beside.off = n;
-      if (p.kind == Probe::Kind::csv) {
-        const V ccw = cross(n, -l.beside.limit);
-        l.beside.aside = p.aside > 0 ? ccw : -ccw;
-      }
-    }
-    l.face = star.face_of(p.plane ? star.moved(l.beside) : l.beside.limit);
-    lit.push_back(std::move(l));
-  }
-  std::vector<V> anticone;
-  for (const ExactPoint& s : cell.vertices) anticone.push_back(direction<NT>(s, *x_));
-  V away = anticone.front();
-  for (std::size_t i = 1; i < anticone.size(); ++i) away = away + anticone[i];
 
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < sectors_.size(); ++i) {
-    const ApexSector& s = sectors_[i];
-    const V n = normal_direction<NT>(*s.plane), middle = balanced_sum<NT>(star.to(*s.ray0), star.to(*s.ray1));
-    // A sector that bounds nothing is left out. Let its plane have V on the side H+, and A(x) on the other; d
-    // be the direction of visible space beside x, strictly in H+, from which the great circle arc to `middle`
-    // meets no arc. Then
-    // 1. The points just off the sector in H+, near x, are in Omega. From x + r d, r small, sight lines go on
-    //    in the directions x + r d - v, v in int V, which are as near as one likes to those of A(x) (D8), so
-    //    also to `middle` on the border of A(x), and reach points that project to the arc from d towards
-    //    `middle`. With v near enough to where the plane touches V they stay in H+ until as near to the
-    //    sector as one likes. What touches x is a cone beside x and meets no such arc if they are near enough
-    //    to the one that was tested (arcs are closed); all else is farther away. From there in the same way
-    //    to all directions of the sector: no arc crosses it (split()), and one that lies along it covers all
-    //    of it, `middle` too, and then the test failed.
-    // 2. So they are farther out, too: from x + r m, m just off the sector in H+, sight lines go on beside
-    //    the plane to the first surface in H+ that touches it. Let y be a point of the valid piece beyond
-    //    that, in general position, with x + t (x - v) = y for a v of the touching edge of V. All such v near
-    //    by, and so all points x' of the plane near x, are behind the same: an edge e in the plane (a vertex
-    //    hides a line only, in the limit). All triangles at e are in the closed H+, or the piece of x would
-    //    end at e (D13); V touches the plane in v; and beside e, in H-, is Omega, for e is on the valid piece
-    //    of x. So y is on the wedge of e in this plane (D10, D11), or on a sector in this plane at an end of
-    //    a lit part of e, nearer to y than x is. If that sector is left out as well, the same holds of it;
-    //    this ends, as there are finitely many edges. So where the two sides of the sector differ in label,
-    //    another valid piece lies there.
-    // 3. At a CSV the edge's end in H- of the piece that crosses it is such a d, if that is strictly in H+ of
-    //    the sector: beside the edge towards that end, all that the face of the probe reaches by `spreads` is
-    //    in Omega (the probe looks back along the piece, so sight lines go on from it towards x, that is, in
-    //    the half plane of edge and probe as near to the edge as one likes; and `spreads` turns about the
-    //    edge). So beside the edge, where `inner` is as seen along the edge, is Omega; and every arc is a
-    //    half plane at the edge, so none is between there and `inner`.
-    bool bounds_nothing = false;
-    for (const Lit& l : lit) {
-      // Visible space strictly in H+ that surely reaches the points just off `middle` in H+.
-      if (!l.doubtful && s.plane->side(*l.to) < 0 && star.free_between(l.beside, middle)) {
-        bounds_nothing = true;
-        break;
+  Picture(const Apex& apex, const std::vector<Probe>& probes)
+      : star(*apex.scene_, apex.on_edge_, apex.id_, apex.x_, apex.arcs_) {
+    for (const Probe& p : probes) {
+      Lit l{{star.to(*p.to), nothing, nothing, p.at}, {}, p.to, p.lit_end, p.doubtful};
+      if (p.plane) {
+        const V n = normal_direction<NT>(*p.plane);
+        l.beside.aside = n;
+        l.beside.off = n;
+        if (p.kind == Probe::Kind::csv) {
+          const V ccw = cross(n, -l.beside.limit);
+          l.beside.aside = p.aside > 0 ? ccw : -ccw;
+        }
       }
+      l.face = star.face_of(p.plane ? star.moved(l.beside) : l.beside.limit);
+      lit.push_back(std::move(l));
     }
-    if (bounds_nothing) continue;
-    const V inner = star.moved({middle, sign_of(NT(dot(n, away))) > 0 ? away : n, nothing, {}});
-    const std::vector<int> face = star.face_of(inner);
-    bool exists = false;
-    for (const Lit& l : lit) {
-      if (l.face != face) continue;
-      const auto along = [&](std::size_t k) {
-        const LocalEdge& e = scene_->edges[id_];
-        return orientation(scene_->points[e.a], scene_->points[e.b], *l.to, cell.vertices[k]) == 0;
-      };
-      if (on_edge_ && !star.spreads(l.beside, inner, anticone, along)) continue;
-      exists = true;
-      // A point of the visible part of a crossed edge reaches whatever its face allows.
-      if (l.lit_end && s.plane->side(*l.lit_end) < 0) bounds_nothing = true;
+    for (const ExactPoint& s : apex.scene_->cell.vertices) anticone.push_back(direction<NT>(s, *apex.x_));
+    away = anticone.front();
+    for (std::size_t i = 1; i < anticone.size(); ++i) away = away + anticone[i];
+  }
+
+  const V nothing{NT(0), NT(0), NT(0)};
+  Star<NT> star;
+  std::vector<Lit> lit;
+  std::vector<V> anticone;
+  V away;
+};
+
+// Made when they are asked for.
+class Apex::Pictures {
+ public:
+  Pictures(const Apex& apex, const std::vector<Probe>& probes) : apex_(apex), probes_(probes) {}
+  // In intervals it may be Unsure, each time.
+  template <class NT>
+  const Picture<NT>& in() {
+    auto& [picture, failed] = std::get<Slot<NT>>(slots_);
+    if (failed) throw Unsure{};
+    if (!picture) {
+      failed = std::is_same_v<NT, Interval>;
+      picture.emplace(apex_, probes_);
+      failed = false;
     }
-    if (exists && !bounds_nothing) found.push_back(i);
+    return *picture;
+  }
+
+ private:
+  template <class NT>
+  struct Slot {
+    std::optional<Picture<NT>> picture;
+    bool failed = false;
+  };
+  const Apex& apex_;
+  const std::vector<Probe>& probes_;
+  std::tuple<Slot<Interval>, Slot<Integer>> slots_;
+};
+
+std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) const {
+  if (sectors_.empty() || probes.empty()) return {};
+  std::vector<std::uint32_t> found;
+  Pictures pictures(*this, probes);
+  for (std::uint32_t i = 0; i < sectors_.size(); ++i) {
+    if (flat_ || decide<Integer>([&]<class NT>() { return exists(sectors_[i], pictures.in<NT>()); }))
+      found.push_back(i);
   }
   return found;
+}
+
+// A sector that bounds nothing is left out. Let its plane have V on the side H+, and A(x) on the other; d
+// be the direction of visible space beside x, strictly in H+, from which the great circle arc to `middle`
+// meets no arc. Then
+// 1. The points just off the sector in H+, near x, are in Omega. From x + r d, r small, sight lines go on
+//    in the directions x + r d - v, v in int V, which are as near as one likes to those of A(x) (D8), so
+//    also to `middle` on the border of A(x), and reach points that project to the arc from d towards
+//    `middle`. With v near enough to where the plane touches V they stay in H+ until as near to the
+//    sector as one likes. What touches x is a cone beside x and meets no such arc if they are near enough
+//    to the one that was tested (arcs are closed); all else is farther away. From there in the same way
+//    to all directions of the sector: no arc crosses it (split()), and one that lies along it covers all
+//    of it, `middle` too, and then the test failed.
+// 2. So they are farther out, too: from x + r m, m just off the sector in H+, sight lines go on beside
+//    the plane to the first surface in H+ that touches it. Let y be a point of the valid piece beyond
+//    that, in general position, with x + t (x - v) = y for a v of the touching edge of V. All such v near
+//    by, and so all points x' of the plane near x, are behind the same: an edge e in the plane (a vertex
+//    hides a line only, in the limit). All triangles at e are in the closed H+, or the piece of x would
+//    end at e (D13); V touches the plane in v; and beside e, in H-, is Omega, for e is on the valid piece
+//    of x. So y is on the wedge of e in this plane (D10, D11), or on a sector in this plane at an end of
+//    a lit part of e, nearer to y than x is. If that sector is left out as well, the same holds of it;
+//    this ends, as there are finitely many edges. So where the two sides of the sector differ in label,
+//    another valid piece lies there.
+// 3. At a CSV the edge's end in H- of the piece that crosses it is such a d, if that is strictly in H+ of
+//    the sector: beside the edge towards that end, all that the face of the probe reaches by `spreads` is
+//    in Omega (the probe looks back along the piece, so sight lines go on from it towards x, that is, in
+//    the half plane of edge and probe as near to the edge as one likes; and `spreads` turns about the
+//    edge). So beside the edge, where `inner` is as seen along the edge, is Omega; and every arc is a
+//    half plane at the edge, so none is between there and `inner`.
+template <class NT>
+bool Apex::exists(const ApexSector& s, const Picture<NT>& around) const {
+  const Star<NT>& star = around.star;
+  const Vec3<NT> n = normal_direction<NT>(*s.plane), middle = balanced_sum<NT>(star.to(*s.ray0), star.to(*s.ray1));
+  // Visible space strictly in H+ that surely reaches the points just off `middle` in H+.
+  if (std::any_of(around.lit.begin(), around.lit.end(), [&](const auto& l) {
+        return !l.doubtful && s.plane->side(*l.to) < 0 && star.free_between(l.beside, middle);
+      }))
+    return false;
+  const Vec3<NT> inner =
+      star.moved({middle, sign_of(NT(dot(n, around.away))) > 0 ? around.away : n, around.nothing, {}});
+  const std::vector<int> face = star.face_of(inner);
+  bool exists = false;
+  for (const auto& l : around.lit) {
+    if (l.face != face) continue;
+    const auto along = [&](std::size_t k) {
+      const LocalEdge& e = scene_->edges[id_];
+      return orientation(scene_->points[e.a], scene_->points[e.b], *l.to, scene_->cell.vertices[k]) == 0;
+    };
+    if (on_edge_ && !star.spreads(l.beside, inner, around.anticone, along)) continue;
+    exists = true;
+    // A point of the visible part of a crossed edge reaches whatever its face allows.
+    if (l.lit_end && s.plane->side(*l.lit_end) < 0) return false;
+  }
+  return exists;
 }
 
 }  // namespace clues::fastpath

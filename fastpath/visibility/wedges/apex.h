@@ -68,7 +68,10 @@ class Apex {
 
  private:
   template <class NT>
-  std::vector<std::uint32_t> existing_in(const std::vector<Probe>& probes) const;
+  struct Picture;
+  class Pictures;
+  template <class NT>
+  bool exists(const ApexSector& sector, const Picture<NT>& around) const;
 
   bool may_meet_cone(const LocalArc& arc) const;  // the directions from x to V; filtered
   void find_sectors(Pool& pool);
