@@ -1,0 +1,132 @@
+// All surface of a scene in one buffer: a place and four bytes a corner. The bytes are the number of the triangle (24 bits)
+// and a tag: the label (labels.js), whether the triangle is listed, and which side it is. One program of the graphics
+// processor draws colours, or triangle numbers (for picking, and to compare images), from the same buffer.
+import * as THREE from 'three';
+import { GLARE, LABELS, NUMBER, rgb } from './labels.js';
+
+const LISTED = 64, BACK = 128;
+export const NO_TAG = 255;  // where there is no surface; no label has the number 63
+
+export class SurfaceBuffer {
+  constructor(corners) {
+    this.places = new Float32Array(9 * corners);
+    this.tags = new Uint8Array(12 * corners);
+    this.count = 0;
+  }
+  push(a, b, c, triangle, label, listed, back) {
+    if (3 * this.count + 3 > this.places.length / 3) this.grow();
+    this.places.set(a, 9 * this.count);
+    this.places.set(b, 9 * this.count + 3);
+    this.places.set(c, 9 * this.count + 6);
+    const tag = label | (listed ? LISTED : 0) | (back ? BACK : 0), at = 12 * this.count++;
+    for (let k = 0; k < 12; k += 4) {
+      this.tags[at + k] = triangle & 255;
+      this.tags[at + k + 1] = (triangle >> 8) & 255;
+      this.tags[at + k + 2] = triangle >> 16;
+      this.tags[at + k + 3] = tag;
+    }
+  }
+  grow() {
+    const larger = (old) => { const made = new old.constructor(2 * old.length + 96); made.set(old); return made; };
+    this.places = larger(this.places);
+    this.tags = larger(this.tags);
+  }
+  geometry() {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(this.places.subarray(0, 9 * this.count), 3));
+    geometry.setAttribute('tag', new THREE.BufferAttribute(this.tags.subarray(0, 12 * this.count), 4));
+    geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1.01);
+    return geometry;
+  }
+}
+
+// The label of a triangle as a whole, of both sides.
+export function wholeSurface(mesh, frame, labelOf, isListed) {
+  const places = frame.locals(mesh.points), count = mesh.triangles.length / 3, buffer = new SurfaceBuffer(count);
+  for (let t = 0; t < count; ++t) {
+    const [a, b, c] = [0, 1, 2].map((k) => 3 * mesh.triangles[3 * t + k]);
+    buffer.push(places.subarray(a, a + 3), places.subarray(b, b + 3), places.subarray(c, c + 3), t, labelOf(t), isListed(t), false);
+  }
+  return buffer.geometry();
+}
+
+export const Draw = { colours: 0, numbers: 1, stand: 2 };
+
+const vertexShader = `
+attribute vec4 tag;
+uniform float onlyListed, alone, mode;
+varying vec3 place;
+varying vec4 bytes;
+flat varying float number;
+void main() {
+  vec4 b = floor(tag * 1.0 + 0.5);
+  number = b.x + 256.0 * b.y + 65536.0 * b.z;
+  bytes = b;
+  place = (modelViewMatrix * vec4(position, 1.0)).xyz;
+  gl_Position = projectionMatrix * vec4(place, 1.0);
+  bool listed = mod(b.w, 128.0) >= 64.0;
+  // Where a hidden surface ends in an edge of a visible one, rounding of depths must not let it shine through. (Pictures of numbers have no such help.)
+  if (mode > 1.5 && !listed) gl_Position.z += 2e-6 * gl_Position.w;
+  if ((onlyListed > 0.5 && !listed) || (alone >= 0.0 && abs(alone - number) > 0.25)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+}`;
+
+const fragmentShader = `
+uniform float mode, glare, shading, hatching, patternSize;
+uniform vec3 palette[LABEL_COUNT];
+uniform float hatched[LABEL_COUNT];
+uniform vec3 glaring;
+varying vec3 place;
+varying vec4 bytes;
+flat varying float number;
+void main() {
+  float tag = floor(bytes.w + 0.5);
+  bool listed = mod(tag, 128.0) >= 64.0;
+  int label = int(mod(tag, 64.0) + 0.5);
+  if (mode > 0.5 && mode < 1.5) {
+    gl_FragColor = vec4(floor(bytes.xyz + 0.5), tag) / 255.0;
+    return;
+  }
+  vec3 colour = palette[label];
+  bool stripes = hatched[label] > 0.5;
+  if (mode > 1.5) {
+    stripes = false;
+    float shift = fract(sin(number * 12.9898) * 43758.5453);
+    colour = mix(vec3(0.42, 0.60, 0.74), vec3(0.66, 0.80, 0.90), shift);
+    if (glare > 0.5 && !listed) { colour = glaring; stripes = true; }
+  }
+  if (shading > 0.5) {
+    vec3 across = cross(dFdx(place), dFdy(place));
+    float size = length(across);
+    vec3 normal = size > 0.0 ? across / size : vec3(0.0, 0.0, 1.0);
+    colour *= 0.62 + 0.38 * abs(dot(normal, normalize(vec3(0.25, 0.45, 0.86))));
+  }
+  if (hatching > 0.5 && stripes) {
+    float stripe = mod(gl_FragCoord.x + gl_FragCoord.y, patternSize);
+    if (stripe < patternSize * 0.28) colour *= 0.72;
+  }
+  gl_FragColor = vec4(colour, 1.0);
+}`;
+
+export function surfaceMaterial(side) {
+  return new THREE.ShaderMaterial({
+    vertexShader,
+    fragmentShader: fragmentShader.replaceAll('LABEL_COUNT', String(LABELS.length)),
+    side,
+    uniforms: {
+      mode: { value: Draw.colours }, glare: { value: 1 }, shading: { value: 1 }, hatching: { value: 1 }, patternSize: { value: 9 },
+      onlyListed: { value: 0 }, alone: { value: -1 },
+      palette: { value: LABELS.map((label) => new THREE.Vector3(...rgb(label.colour))) },
+      hatched: { value: LABELS.map((label) => (label.hatch ? 1 : 0)) },
+      glaring: { value: new THREE.Vector3(...rgb(GLARE)) },
+    },
+  });
+}
+
+// Four bytes of a picture of numbers: what is there, or null.
+export function hitOf(bytes, at = 0) {
+  const tag = bytes[at + 3];
+  if (tag === NO_TAG) return null;
+  return { triangle: bytes[at] + 256 * bytes[at + 1] + 65536 * bytes[at + 2], label: LABELS[tag & 63].id, listed: (tag & LISTED) !== 0, back: (tag & BACK) !== 0 };
+}
+
+export { NUMBER };
