@@ -17,6 +17,7 @@ const style = await esbuild.build({ ...common, entryPoints: [join(here, 'style.c
 // Within a page a script ends at </script>, wherever that stands.
 const within = (text) => text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 const page = readFileSync(join(here, 'page.html'), 'utf8')
+  .replace('LICENCE-OF-THREE', () => readFileSync(join(modules, 'three/LICENSE'), 'utf8').trim().replaceAll('--', '- -'))
   .replace('/*STYLE*/', () => style.outputFiles[0].text.trim())
   .replace('/*SCRIPT*/', () => within(script.outputFiles[0].text.trim()));
 if (page.split('<!--CLUES-DATA-->').length !== 2) throw new Error('page.html has no one place for the data');

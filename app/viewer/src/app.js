@@ -9,7 +9,7 @@ import { dots, hull, lines, loop, release } from './view/marks.js';
 import { regionSurface } from './view/regions.js';
 import { Stage } from './view/stage.js';
 import { compare, nearest, viewpoint } from './view/stand.js';
-import { Draw, surfaceMaterial, wholeSurface } from './view/surface.js';
+import { Draw, Only, surfaceMaterial, wholeSurface } from './view/surface.js';
 import { LAYER_COLOURS } from './view/labels.js';
 
 const MOST_GRAZING = 4;
@@ -284,13 +284,16 @@ export class App {
       this.paint();
     }
     if (id === 'stand') {
-      const u = this.stage.whole.material.uniforms, set = (listed, glare) => () => { u.onlyListed.value = listed; u.glare.value = glare; u.mode.value = Draw.stand; };
-      this.stage.halves = [() => set(this.glare ? 0 : 1, this.glare ? 1 : 0)(), set(0, 0)];
+      // What is not in the list is moved back a little, as far as its slope makes depths uncertain: where it ends in an edge of what is visible it must not shine through.
+      const { material } = this.stage.whole, u = material.uniforms;
+      Object.assign(material, { polygonOffsetFactor: 2, polygonOffsetUnits: 8 });
+      const set = (only, glare) => () => { u.only.value = only; u.glare.value = glare; u.mode.value = Draw.stand; material.polygonOffset = only === Only.others; };
+      this.stage.halves = [[set(Only.listed, 0), () => set(this.glare ? Only.others : Only.listed, 1)()], [set(Only.all, 0)]];
       this.stand(this.viewpoint, true);
     } else {
       this.stage.halves = null;
       this.camera.eye = null;
-      if (this.stage.whole) this.stage.whole.material.uniforms.onlyListed.value = 0;
+      if (this.stage.whole) Object.assign(this.stage.whole.material, { polygonOffset: false }).uniforms.only.value = Only.all;
     }
     this.mark();
     this.uniforms();
@@ -315,11 +318,11 @@ export class App {
     this.stage.draw();
     this.changed('state');
   }
-  compare(width = 0, height = 0) {
+  compare(width = 0, height = 0, most = undefined) {
     const r = this.stage.pictures()[0];
     const { points, triangles } = this.case.scene.mesh;
     this.doubles ??= Float64Array.from(points, (x, i) => (x - this.frame.centre[i % 3]) / this.frame.radius);
-    this.comparison = compare(this.stage, { width: width || Math.round(r.width), height: height || Math.round(r.height), places: this.doubles, triangles, listed: this.listed });
+    this.comparison = compare(this.stage, { width: width || Math.round(r.width), height: height || Math.round(r.height), places: this.doubles, triangles, listed: this.listed, most });
     this.stage.draw();
     return this.comparison;
   }

@@ -7,7 +7,6 @@ import { drawSide } from './ui/side.js';
 import { h } from './ui/dom.js';
 
 const $ = (id) => document.getElementById(id);
-const began = performance.now();
 
 function note(sentences) {
   $('note').hidden = sentences.length === 0;
@@ -18,7 +17,7 @@ function make() {
   let panel = 0, address = 0;
   const app = new App($('canvas'), (what) => {
     if (what === 'drawn') {
-      if (app.case && !document.body.dataset.drawn) document.body.dataset.drawn = String(Math.round(performance.now() - began));
+      if (app.case && !document.body.dataset.drawn) document.body.dataset.drawn = String(Math.round(performance.now()));
       return;
     }
     if (what !== 'camera') { cancelAnimationFrame(panel); panel = requestAnimationFrame(() => drawPanels(app)); }

@@ -1,6 +1,6 @@
 // The canvas: draws when something has changed, one picture or two beside each other, and tells what is under a pixel.
 import * as THREE from 'three';
-import { Draw, hitOf } from './surface.js';
+import { Draw, hitOf, Only } from './surface.js';
 
 THREE.ColorManagement.enabled = false;
 
@@ -19,7 +19,7 @@ export class Stage {
     this.marks = new THREE.Group();
     this.scene.add(this.marks);
     this.background = new THREE.Color('#ffffff');
-    this.halves = null;  // two functions that set the surface up, for two pictures
+    this.halves = null;  // of two pictures the functions that set the surface up, for what is drawn one over the other
     this.camera = null;
     this.asked = false;
     this.frames = [];
@@ -71,9 +71,13 @@ export class Stage {
       this.renderer.clear();
       if (!this.camera) return;
       this.only(this.halves ? this.whole : this.surface);
-      this.halves?.[i]();
       this.marks.traverse((part) => part.material?.resolution?.set(r.width, r.height));
-      this.renderer.render(this.scene, this.camera.get(r.width / r.height));
+      const layers = this.halves?.[i] ?? [() => {}];
+      layers.forEach((setUp, k) => {
+        setUp();
+        this.marks.visible = k + 1 === layers.length;
+        this.renderer.render(this.scene, this.camera.get(r.width / r.height));
+      });
     });
     this.renderer.getContext().finish();
     this.frames.push(performance.now() - begin);
@@ -86,9 +90,9 @@ export class Stage {
   // Triangle numbers and tags in place of colours, of `width` times `height` pixels or one of them; from below.
   numbers(mesh, { width, height, aspect = width / height, listed = false, pixel = null }) {
     const target = new THREE.WebGLRenderTarget(pixel ? 1 : width, pixel ? 1 : height, { minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
-    const uniforms = mesh.material.uniforms, old = { mode: uniforms.mode.value, onlyListed: uniforms.onlyListed.value };
+    const uniforms = mesh.material.uniforms, old = { mode: uniforms.mode.value, only: uniforms.only.value };
     uniforms.mode.value = Draw.numbers;
-    uniforms.onlyListed.value = listed ? 1 : 0;
+    uniforms.only.value = listed ? Only.listed : Only.all;
     const marks = this.marks.visible;
     this.marks.visible = false;
     this.only(mesh);
@@ -105,7 +109,7 @@ export class Stage {
     this.renderer.setRenderTarget(null);
     target.dispose();
     uniforms.mode.value = old.mode;
-    uniforms.onlyListed.value = old.onlyListed;
+    uniforms.only.value = old.only;
     this.marks.visible = marks;
     return bytes;
   }
@@ -116,7 +120,6 @@ export class Stage {
     if (!r) return null;
     const mesh = this.halves ? this.whole : this.surface;
     const pixel = { x: Math.floor(x - r.x), y: Math.floor(y - r.y) };
-    const listed = this.halves ? mesh.material.uniforms.onlyListed.value > 0.5 : false;
-    return hitOf(this.numbers(mesh, { width: r.width, height: r.height, pixel, listed }));
+    return hitOf(this.numbers(mesh, { width: r.width, height: r.height, pixel }));
   }
 }

@@ -42,8 +42,8 @@ export function nearest(locals, triangles, eye) {
   return Math.max(1e-5, Math.min(0.5 * best, 0.5));
 }
 
-// The triangle that a ray meets first, in doubles; -1: none. `corner(t, k)` is a point.
-function firstHit(places, triangles, eye, ray) {
+// The triangle that a ray meets first, in doubles, and of those that it meets at one place one in the list; -1: none.
+function firstHit(places, triangles, listed, eye, ray) {
   let best = -1, nearest = Infinity;
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [0, 1, 2].map((k) => 3 * triangles[t + k]);
@@ -59,19 +59,22 @@ function firstHit(places, triangles, eye, ray) {
     const v = (ray[0] * qx + ray[1] * qy + ray[2] * qz) / det;
     if (!(v >= 0 && u + v <= 1)) continue;
     const d = (vx * qx + vy * qy + vz * qz) / det;
-    if (d > 0 && d < nearest) { nearest = d; best = t / 3; }
+    if (!(d > 0 && d < nearest * (1 + 1e-9))) continue;
+    if (d >= nearest * (1 - 1e-9) && !listed(t / 3)) continue;
+    nearest = Math.min(d, nearest);
+    best = t / 3;
   }
   return best;
 }
 
 // A fifth of a pixel around its middle: what rays in doubles do not find in any of these places was rounding at an edge.
 const AROUND = [[0, 0], [0.1, 0], [-0.1, 0], [0, 0.1], [0, -0.1]];
-const MOST_CAST = 400;
+const MOST_CAST = 400;  // in the panel; tests cast all of them
 
-// The picture of the list beside that of everything, from where the camera stands. `differ`: pixels that differ; `real`: those of them (of the first 400) where rays in
-// doubles meet a triangle first that is not in the list, all around the middle of the pixel. The others are edges: the graphics processor rounds corners to a part of a
-// pixel, and depths.
-export function compare(stage, { width, height, places, triangles, listed }) {
+// The picture of the list beside that of everything, from where the camera stands. `differ`: pixels that differ; `real`: those of them (of the first `most`) where rays in
+// doubles meet a triangle first that is not in the list, all around the middle of the pixel. The others are edges, or surfaces at one place: the graphics processor
+// rounds corners to a part of a pixel, and depths.
+export function compare(stage, { width, height, places, triangles, listed, most = MOST_CAST }) {
   const all = stage.numbers(stage.whole, { width, height }), list = stage.numbers(stage.whole, { width, height, listed: true });
   const camera = stage.camera.get(width / height), eye = stage.camera.place();
   const numberAt = (at) => all[at] + 256 * all[at + 1] + 65536 * all[at + 2];
@@ -80,11 +83,11 @@ export function compare(stage, { width, height, places, triangles, listed }) {
   for (let at = 0; at < all.length; at += 4) {
     if (all[at + 3] !== NO_TAG) { ++surface; seen.add(numberAt(at)); }
     if (all[at] === list[at] && all[at + 1] === list[at + 1] && all[at + 2] === list[at + 2] && all[at + 3] === list[at + 3]) continue;
-    if (++differ > MOST_CAST) continue;
+    if (++differ > most) continue;
     const x = (at / 4) % width, y = Math.floor(at / 4 / width);
     const hits = AROUND.map(([dx, dy]) => {
       const far = new Vector3(((x + 0.5 + dx) / width) * 2 - 1, ((y + 0.5 + dy) / height) * 2 - 1, 0.5).unproject(camera);
-      return firstHit(places, triangles, eye, [far.x - eye[0], far.y - eye[1], far.z - eye[2]]);
+      return firstHit(places, triangles, listed, eye, [far.x - eye[0], far.y - eye[1], far.z - eye[2]]);
     });
     if (hits.every((t) => t >= 0 && !listed(t))) { ++real; missing.add(hits[0]); }
   }

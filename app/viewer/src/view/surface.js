@@ -50,11 +50,12 @@ export function wholeSurface(mesh, frame, labelOf, isListed) {
   return buffer.geometry();
 }
 
+export const Only = { all: 0, listed: 1, others: 2 };
 export const Draw = { colours: 0, numbers: 1, stand: 2 };
 
 const vertexShader = `
 attribute vec4 tag;
-uniform float onlyListed, alone, mode;
+uniform float only, alone;
 varying vec3 place;
 varying vec4 bytes;
 flat varying float number;
@@ -65,9 +66,7 @@ void main() {
   place = (modelViewMatrix * vec4(position, 1.0)).xyz;
   gl_Position = projectionMatrix * vec4(place, 1.0);
   bool listed = mod(b.w, 128.0) >= 64.0;
-  // Where a hidden surface ends in an edge of a visible one, rounding of depths must not let it shine through. (Pictures of numbers have no such help.)
-  if (mode > 1.5 && !listed) gl_Position.z += 2e-6 * gl_Position.w;
-  if ((onlyListed > 0.5 && !listed) || (alone >= 0.0 && abs(alone - number) > 0.25)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if ((only > 0.5 && only < 1.5 && !listed) || (only > 1.5 && listed) || (alone >= 0.0 && abs(alone - number) > 0.25)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
 const fragmentShader = `
@@ -114,7 +113,7 @@ export function surfaceMaterial(side) {
     side,
     uniforms: {
       mode: { value: Draw.colours }, glare: { value: 1 }, shading: { value: 1 }, hatching: { value: 1 }, patternSize: { value: 9 },
-      onlyListed: { value: 0 }, alone: { value: -1 },
+      only: { value: Only.all }, alone: { value: -1 },
       palette: { value: LABELS.map((label) => new THREE.Vector3(...rgb(label.colour))) },
       hatched: { value: LABELS.map((label) => (label.hatch ? 1 : 0)) },
       glaring: { value: new THREE.Vector3(...rgb(GLARE)) },
