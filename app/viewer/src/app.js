@@ -249,7 +249,8 @@ export class App {
     const look = this.camera.angles(this.case.cell.length > 0 ? this.fromCell() : [0.55, 0.83, 0]);
     // From above; unless the cell looks up or down at it, then more as the cell does.
     const pitch = Math.abs(look.pitch) > 0.9 ? Math.sign(look.pitch) * 0.95 : 0.6;
-    this.camera.state = { target: [0, 0, 0], distance: 2.3, yaw: look.yaw + 0.35, pitch, flat: false };
+    const { width, height } = this.stage.size();
+    this.camera.state = { target: [0, 0, 0], distance: 2.3 * Math.max(1, (0.95 * height) / width), yaw: look.yaw + 0.35, pitch, flat: false };
     this.stage.draw();
     this.changed('camera');
   }
@@ -284,16 +285,11 @@ export class App {
       this.paint();
     }
     if (id === 'stand') {
-      // What is not in the list is moved back a little, as far as its slope makes depths uncertain: where it ends in an edge of what is visible it must not shine through.
-      const { material } = this.stage.whole, u = material.uniforms;
-      Object.assign(material, { polygonOffsetFactor: 2, polygonOffsetUnits: 8 });
-      const set = (only, glare) => () => { u.only.value = only; u.glare.value = glare; u.mode.value = Draw.stand; material.polygonOffset = only === Only.others; };
-      this.stage.halves = [[set(Only.listed, 0), () => set(this.glare ? Only.others : Only.listed, 1)()], [set(Only.all, 0)]];
+      this.stage.halves = [{ only: Only.listed, glare: this.glare }, { only: Only.all, glare: false }];
       this.stand(this.viewpoint, true);
     } else {
       this.stage.halves = null;
       this.camera.eye = null;
-      if (this.stage.whole) Object.assign(this.stage.whole.material, { polygonOffset: false }).uniforms.only.value = Only.all;
     }
     this.mark();
     this.uniforms();
@@ -315,6 +311,7 @@ export class App {
   }
   setGlare(on) {
     this.glare = on;
+    if (this.stage.halves) this.stage.halves[0].glare = on;
     this.stage.draw();
     this.changed('state');
   }

@@ -1,5 +1,6 @@
 // The canvas: draws when something has changed, one picture or two beside each other, and tells what is under a pixel.
 import * as THREE from 'three';
+import { Glare } from './glare.js';
 import { Draw, hitOf, Only } from './surface.js';
 
 THREE.ColorManagement.enabled = false;
@@ -19,7 +20,8 @@ export class Stage {
     this.marks = new THREE.Group();
     this.scene.add(this.marks);
     this.background = new THREE.Color('#ffffff');
-    this.halves = null;  // of two pictures the functions that set the surface up, for what is drawn one over the other
+    this.halves = null;  // of two pictures { only, glare }: which triangles, and whether what is lacking is marked
+    this.glare = new Glare();
     this.camera = null;
     this.asked = false;
     this.frames = [];
@@ -62,23 +64,25 @@ export class Stage {
     const now = this.renderer.getSize(new THREE.Vector2());
     if (now.x !== width || now.y !== height) this.renderer.setSize(width, height, false);
     this.renderer.setRenderTarget(null);
-    this.renderer.setScissorTest(true);
     this.pictures().forEach((r, i) => {
-      const lower = height - r.y - r.height;
+      const lower = height - r.y - r.height, half = this.halves?.[i];
+      const numbers = half?.glare ? this.numbersTarget(this.whole, { width: Math.round(r.width * ratio), height: Math.round(r.height * ratio), aspect: r.width / r.height }) : null;
+      this.renderer.setScissorTest(true);
       this.renderer.setViewport(r.x, lower, r.width, r.height);
       this.renderer.setScissor(r.x, lower, r.width, r.height);
       this.renderer.setClearColor(this.background, 1);
       this.renderer.clear();
       if (!this.camera) return;
-      this.only(this.halves ? this.whole : this.surface);
+      this.only(half ? this.whole : this.surface);
+      if (half) this.whole.material.uniforms.only.value = half.only;
       this.marks.traverse((part) => part.material?.resolution?.set(r.width, r.height));
-      const layers = this.halves?.[i] ?? [() => {}];
-      layers.forEach((setUp, k) => {
-        setUp();
-        this.marks.visible = k + 1 === layers.length;
-        this.renderer.render(this.scene, this.camera.get(r.width / r.height));
-      });
+      this.renderer.render(this.scene, this.camera.get(r.width / r.height));
+      if (numbers) {
+        this.glare.draw(this.renderer, numbers, [r.x * ratio, lower * ratio], this.whole.material.uniforms);
+        numbers.dispose();
+      }
     });
+    if (this.halves) this.whole.material.uniforms.only.value = Only.all;
     this.renderer.getContext().finish();
     this.frames.push(performance.now() - begin);
     if (this.frames.length > 200) this.frames.shift();
@@ -87,8 +91,8 @@ export class Stage {
   only(mesh) {
     for (const other of [this.surface, this.whole]) if (other) other.visible = other === mesh;
   }
-  // Triangle numbers and tags in place of colours, of `width` times `height` pixels or one of them; from below.
-  numbers(mesh, { width, height, aspect = width / height, listed = false, pixel = null }) {
+  // Triangle numbers and tags in place of colours, of `width` times `height` pixels or one of them.
+  numbersTarget(mesh, { width, height, aspect = width / height, listed = false, pixel = null }) {
     const target = new THREE.WebGLRenderTarget(pixel ? 1 : width, pixel ? 1 : height, { minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
     const uniforms = mesh.material.uniforms, old = { mode: uniforms.mode.value, only: uniforms.only.value };
     uniforms.mode.value = Draw.numbers;
@@ -103,14 +107,18 @@ export class Stage {
     this.renderer.setClearColor(NOTHING, 1);
     this.renderer.clear();
     this.renderer.render(this.scene, camera);
-    const bytes = new Uint8Array(4 * target.width * target.height);
-    this.renderer.readRenderTargetPixels(target, 0, 0, target.width, target.height, bytes);
     if (pixel) camera.clearViewOffset();
     this.renderer.setRenderTarget(null);
-    target.dispose();
     uniforms.mode.value = old.mode;
     uniforms.only.value = old.only;
     this.marks.visible = marks;
+    return target;
+  }
+  // The same as bytes, from below.
+  numbers(mesh, wanted) {
+    const target = this.numbersTarget(mesh, wanted), bytes = new Uint8Array(4 * target.width * target.height);
+    this.renderer.readRenderTargetPixels(target, 0, 0, target.width, target.height, bytes);
+    target.dispose();
     return bytes;
   }
   // What is at a place of the canvas, in pixels of the page.

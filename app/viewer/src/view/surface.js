@@ -2,7 +2,7 @@
 // and a tag: the label (labels.js), whether the triangle is listed, and which side it is. One program of the graphics
 // processor draws colours, or triangle numbers (for picking, and to compare images), from the same buffer.
 import * as THREE from 'three';
-import { GLARE, LABELS, NUMBER, rgb } from './labels.js';
+import { LABELS, NUMBER, rgb } from './labels.js';
 
 const LISTED = 64, BACK = 128;
 export const NO_TAG = 255;  // where there is no surface; no label has the number 63
@@ -50,7 +50,7 @@ export function wholeSurface(mesh, frame, labelOf, isListed) {
   return buffer.geometry();
 }
 
-export const Only = { all: 0, listed: 1, others: 2 };
+export const Only = { all: 0, listed: 1 };
 export const Draw = { colours: 0, numbers: 1, stand: 2 };
 
 const vertexShader = `
@@ -66,20 +66,18 @@ void main() {
   place = (modelViewMatrix * vec4(position, 1.0)).xyz;
   gl_Position = projectionMatrix * vec4(place, 1.0);
   bool listed = mod(b.w, 128.0) >= 64.0;
-  if ((only > 0.5 && only < 1.5 && !listed) || (only > 1.5 && listed) || (alone >= 0.0 && abs(alone - number) > 0.25)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if ((only > 0.5 && !listed) || (alone >= 0.0 && abs(alone - number) > 0.25)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
 const fragmentShader = `
-uniform float mode, glare, shading, hatching, patternSize;
+uniform float mode, shading, hatching, patternSize;
 uniform vec3 palette[LABEL_COUNT];
 uniform float hatched[LABEL_COUNT];
-uniform vec3 glaring;
 varying vec3 place;
 varying vec4 bytes;
 flat varying float number;
 void main() {
   float tag = floor(bytes.w + 0.5);
-  bool listed = mod(tag, 128.0) >= 64.0;
   int label = int(mod(tag, 64.0) + 0.5);
   if (mode > 0.5 && mode < 1.5) {
     gl_FragColor = vec4(floor(bytes.xyz + 0.5), tag) / 255.0;
@@ -91,7 +89,6 @@ void main() {
     stripes = false;
     float shift = fract(sin(number * 12.9898) * 43758.5453);
     colour = mix(vec3(0.42, 0.60, 0.74), vec3(0.66, 0.80, 0.90), shift);
-    if (glare > 0.5 && !listed) { colour = glaring; stripes = true; }
   }
   if (shading > 0.5) {
     vec3 across = cross(dFdx(place), dFdy(place));
@@ -112,11 +109,10 @@ export function surfaceMaterial(side) {
     fragmentShader: fragmentShader.replaceAll('LABEL_COUNT', String(LABELS.length)),
     side,
     uniforms: {
-      mode: { value: Draw.colours }, glare: { value: 1 }, shading: { value: 1 }, hatching: { value: 1 }, patternSize: { value: 9 },
+      mode: { value: Draw.colours }, shading: { value: 1 }, hatching: { value: 1 }, patternSize: { value: 9 },
       only: { value: Only.all }, alone: { value: -1 },
       palette: { value: LABELS.map((label) => new THREE.Vector3(...rgb(label.colour))) },
       hatched: { value: LABELS.map((label) => (label.hatch ? 1 : 0)) },
-      glaring: { value: new THREE.Vector3(...rgb(GLARE)) },
     },
   });
 }
