@@ -17,7 +17,10 @@ function make() {
   let panel = 0, address = 0;
   const app = new App($('canvas'), (what) => {
     if (what === 'drawn') {
-      if (app.case && !document.body.dataset.drawn) document.body.dataset.drawn = String(Math.round(performance.now()));
+      if (app.case && !document.body.dataset.drawn) {
+        app.stage.wait();
+        document.body.dataset.drawn = String(Math.round(performance.now()));
+      }
       return;
     }
     if (what !== 'camera') { cancelAnimationFrame(panel); panel = requestAnimationFrame(() => drawPanels(app)); }

@@ -9,7 +9,7 @@ export function writeAddress(app) {
   if (app.camera.up !== 'z') words.set('up', app.camera.up);
   if (app.triangle !== null) words.set('tri', app.triangle);
   if (app.alone) words.set('alone', 1);
-  if (app.view === 'stand') words.set('vp', app.viewpoint);
+  if (app.viewpoint > 0) words.set('vp', app.viewpoint);
   if (!app.glare) words.set('glare', 0);
   if (app.colourings()[0] && app.colourBy !== app.colourings()[0].id) words.set('colours', app.colourBy);
   const switched = [...app.switched].map(([id, on]) => (on ? id : `-${id}`));
@@ -30,7 +30,8 @@ export function readAddress(app, hash = location.hash) {
   if (!app.case.scene) return;
   if (whole('tri') !== null) app.select(whole('tri'));
   if (words.get('alone') === '1') app.setAlone(true);
-  if (app.view === 'stand' && whole('vp') !== null) app.stand(Math.min(whole('vp'), 99));
+  if (whole('vp') !== null) app.viewpoint = Math.min(whole('vp'), 99);
+  if (app.view === 'stand') app.stand(app.viewpoint);
   if (words.has('cam')) app.camera.read(words.get('cam'));
   app.stage.draw();
 }

@@ -24,7 +24,6 @@ export class Stage {
     this.glare = new Glare();
     this.camera = null;
     this.asked = false;
-    this.frames = [];
     new ResizeObserver(() => this.draw()).observe(canvas.parentElement);
   }
   show(surface, whole) {
@@ -59,7 +58,7 @@ export class Stage {
     requestAnimationFrame(() => { this.asked = false; this.drawNow(); });
   }
   drawNow() {
-    const begin = performance.now(), { width, height } = this.size(), ratio = Math.min(2, window.devicePixelRatio || 1);
+    const { width, height } = this.size(), ratio = Math.min(2, window.devicePixelRatio || 1);
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
     const now = this.renderer.getSize(new THREE.Vector2());
     if (now.x !== width || now.y !== height) this.renderer.setSize(width, height, false);
@@ -83,10 +82,12 @@ export class Stage {
       }
     });
     if (this.halves) this.whole.material.uniforms.only.value = Only.all;
-    this.renderer.getContext().finish();
-    this.frames.push(performance.now() - begin);
-    if (this.frames.length > 200) this.frames.shift();
     this.onDrawn();
+  }
+  // Until what was asked for is drawn; else a browser only queues it.
+  wait() {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
   }
   only(mesh) {
     for (const other of [this.surface, this.whole]) if (other) other.visible = other === mesh;

@@ -40,13 +40,19 @@ export class SurfaceBuffer {
   }
 }
 
-// The label of a triangle as a whole, of both sides.
+// Whole triangles, of both sides, with one label each. Written for a million of them.
 export function wholeSurface(mesh, frame, labelOf, isListed) {
-  const places = frame.locals(mesh.points), count = mesh.triangles.length / 3, buffer = new SurfaceBuffer(count);
-  for (let t = 0; t < count; ++t) {
-    const [a, b, c] = [0, 1, 2].map((k) => 3 * mesh.triangles[3 * t + k]);
-    buffer.push(places.subarray(a, a + 3), places.subarray(b, b + 3), places.subarray(c, c + 3), t, labelOf(t), isListed(t), false);
+  const locals = frame.locals(mesh.points), { triangles } = mesh, count = triangles.length / 3;
+  const buffer = new SurfaceBuffer(count), { places, tags } = buffer;
+  for (let i = 0; i < triangles.length; ++i) {
+    const from = 3 * triangles[i];
+    places[3 * i] = locals[from];
+    places[3 * i + 1] = locals[from + 1];
+    places[3 * i + 2] = locals[from + 2];
   }
+  const words = new Uint32Array(tags.buffer);
+  for (let t = 0; t < count; ++t) words.fill((t | ((labelOf(t) | (isListed(t) ? LISTED : 0)) << 24)) >>> 0, 3 * t, 3 * t + 3);
+  buffer.count = count;
   return buffer.geometry();
 }
 
