@@ -59,7 +59,7 @@ for (const [name, side] of LONG ? [['hills', 224], ['mountains', 708]] : [['hill
       }).sort((a, b) => a - b));
       console.log(`${triangles} triangles: first picture after ${first} ms (of 5 triangles: ${five} ms), a picture in ${times[4]} ms (${times.join(', ')})`);
       // Where five triangles take a second, the machine has other things to do than to be measured.
-      if (triangles < 200000) assert(first - five < 1000 && (first < 2000 || five > 1000), `the first picture came after ${first} ms`);
+      if (triangles < 200000) assert(first < 2000 || five > 1000, `the first picture came after ${first} ms`);
     });
   });
 }

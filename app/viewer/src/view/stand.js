@@ -73,15 +73,15 @@ const MOST_CAST = 400;  // in the panel; tests cast all of them
 
 // The picture of the list beside that of everything, from where the camera stands. `differ`: pixels that differ; `real`: those of them (of the first `most`) where rays in
 // doubles meet a triangle first that is not in the list, all around the middle of the pixel. The others are edges, or surfaces at one place: the graphics processor
-// rounds corners to a part of a pixel, and depths.
+// rounds corners to a part of a pixel, and depths. `seen`: triangles, with their numbers of pixels.
 export function compare(stage, { width, height, places, triangles, listed, most = MOST_CAST }) {
   const all = stage.numbers(stage.whole, { width, height }), list = stage.numbers(stage.whole, { width, height, listed: true });
   const camera = stage.camera.get(width / height), eye = stage.camera.place();
   const numberAt = (at) => all[at] + 256 * all[at + 1] + 65536 * all[at + 2];
   let differ = 0, surface = 0, real = 0;
-  const seen = new Set(), missing = new Set();
+  const seen = new Map(), missing = new Set();
   for (let at = 0; at < all.length; at += 4) {
-    if (all[at + 3] !== NO_TAG) { ++surface; seen.add(numberAt(at)); }
+    if (all[at + 3] !== NO_TAG) { ++surface; seen.set(numberAt(at), (seen.get(numberAt(at)) ?? 0) + 1); }
     if (all[at] === list[at] && all[at + 1] === list[at + 1] && all[at + 2] === list[at + 2] && all[at + 3] === list[at + 3]) continue;
     if (++differ > most) continue;
     const x = (at / 4) % width, y = Math.floor(at / 4 / width);
@@ -91,5 +91,5 @@ export function compare(stage, { width, height, places, triangles, listed, most 
     });
     if (hits.every((t) => t >= 0 && !listed(t))) { ++real; missing.add(hits[0]); }
   }
-  return { pixels: all.length / 4, surface, differ, real, seen: [...seen].sort((a, b) => a - b), missing: [...missing].sort((a, b) => a - b) };
+  return { pixels: all.length / 4, surface, differ, real, seen: [...seen], missing: [...missing].sort((a, b) => a - b) };
 }

@@ -63,15 +63,13 @@ const vertexShader = `
 attribute vec4 tag;
 uniform float only, alone;
 varying vec3 place;
-varying vec4 bytes;
-flat varying float number;
+flat varying vec4 bytes;
 void main() {
-  vec4 b = floor(tag * 1.0 + 0.5);
-  number = b.x + 256.0 * b.y + 65536.0 * b.z;
-  bytes = b;
+  float number = tag.x + 256.0 * tag.y + 65536.0 * tag.z;
+  bytes = tag;
   place = (modelViewMatrix * vec4(position, 1.0)).xyz;
   gl_Position = projectionMatrix * vec4(place, 1.0);
-  bool listed = mod(b.w, 128.0) >= 64.0;
+  bool listed = mod(tag.w, 128.0) >= 64.0;
   if ((only > 0.5 && !listed) || (alone >= 0.0 && abs(alone - number) > 0.25)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
@@ -80,20 +78,19 @@ uniform float mode, shading, hatching, patternSize;
 uniform vec3 palette[LABEL_COUNT];
 uniform float hatched[LABEL_COUNT];
 varying vec3 place;
-varying vec4 bytes;
-flat varying float number;
+flat varying vec4 bytes;
 void main() {
-  float tag = floor(bytes.w + 0.5);
+  float tag = bytes.w;
   int label = int(mod(tag, 64.0) + 0.5);
   if (mode > 0.5 && mode < 1.5) {
-    gl_FragColor = vec4(floor(bytes.xyz + 0.5), tag) / 255.0;
+    gl_FragColor = bytes / 255.0;
     return;
   }
   vec3 colour = palette[label];
   bool stripes = hatched[label] > 0.5;
   if (mode > 1.5) {
     stripes = false;
-    float shift = fract(sin(number * 12.9898) * 43758.5453);
+    float shift = fract(sin((bytes.x + 256.0 * bytes.y) * 12.9898) * 43758.5453);
     colour = mix(vec3(0.42, 0.60, 0.74), vec3(0.66, 0.80, 0.90), shift);
   }
   if (shading > 0.5) {
