@@ -51,7 +51,7 @@ const look = (page, viewpoints, until = false) => page.evaluate(([count, size, s
       ++sum.pictures;
       for (const key of ['pixels', 'surface', 'differ', 'real']) sum[key] += c[key];
       sum.missing.push(...c.missing);
-      for (const [t, n] of c.seen) seen.set(t, (seen.get(t) ?? 0) + n);
+      for (const [t, n] of c.seen) seen.set(t, Math.max(seen.get(t) ?? 0, n));
     }
   }
   sum.missing = [...new Set(sum.missing)];
@@ -81,7 +81,7 @@ test(`${SCENES} scenes, ${VIEWPOINTS} viewpoints each`, { timeout: 7200000 }, ()
     assert.equal(sound.real, 0, `${c.id}: a list that is sound lacks triangles ${sound.missing}`);
     ++total.scenes;
     for (const key of ['pictures', 'pixels', 'surface', 'differ', 'real']) total[key] += sound[key];
-    // The triangle that covers least of the pictures, if it is more than a few pixels.
+    // The smallest of those that cover more than a few pixels of some picture.
     const [gone] = sound.seen.filter(([t, n]) => n >= 30 && result.visible.includes(t)).sort((a, b) => a[1] - b[1] || a[0] - b[0])[0];
     await page.evaluate((t) => { cluesView.list().data.listed.delete(t); cluesView.paint(); }, gone);
     const other = await look(page, VIEWPOINTS, true);
