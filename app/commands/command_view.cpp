@@ -25,7 +25,7 @@ struct ViewRequest {
 };
 
 // What is replaced must be a page of ours, or a page that was named.
-void require_free(const std::filesystem::path& out, bool named) {
+void require_page(const std::filesystem::path& out, bool named) {
   std::error_code ignored;
   if (named && out.extension() != ".html" && out.extension() != ".htm")
     throw scene::Error(scene::ErrorCode::bad_argument, out.string() + ": browsers want pages named *.html");
@@ -43,7 +43,7 @@ int run_view(const ViewRequest& request) {
   for (const auto& file : request.files) inputs.push_back(&file);
   require_writable_parent(out);
   require_apart({&out_text}, inputs);
-  require_free(out, !request.out.empty());
+  require_page(out, !request.out.empty());
   if (!has_view_page()) view_page("");  // says why
   ViewData data;
   data.add_files({request.files.begin(), request.files.end()});
@@ -59,8 +59,9 @@ int run_view(const ViewRequest& request) {
 void add_view_command(CLI::App& program, int& status) {
   auto* command = program.add_subcommand("view", "A page to look at results, verdicts and findings, in a browser");
   auto request = std::make_shared<ViewRequest>();
-  command->add_option("FILE", request->files,
-                      "Results, judgements, umbrae, conformance reports, folders of findings, scenes");
+  command->add_option(
+      "FILE", request->files,
+      "Results, judgements, umbrae, conformance reports, folders of findings or of `clues fuzz`, scenes");
   command->add_option("-o,--out", request->out, "The page (default: clues-view.html)")->type_name("PAGE.html");
   command->footer(
       "DESCRIPTION\n"

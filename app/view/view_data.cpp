@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -42,6 +43,18 @@ std::string text_of(const json& object, const char* key) {
 }
 
 std::string dumped(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+// The folder itself, or those of a campaign, by name.
+std::vector<fs::path> findings_in(const fs::path& folder) {
+  if (fuzz::holds_a_finding(folder)) return {folder};
+  std::vector<fs::path> findings;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.is_directory() && fuzz::holds_a_finding(entry.path())) findings.push_back(entry.path());
+  if (findings.empty())
+    throw Error(ErrorCode::unsupported, folder.string() + ": is a folder without findings; name the files in it");
+  std::sort(findings.begin(), findings.end());
+  return findings;
+}
 
 }  // namespace
 
@@ -186,11 +199,7 @@ void ViewData::add_files(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) {
     std::error_code error;
     if (fs::is_directory(file, error)) {
-      if (!fuzz::holds_a_finding(file)) {
-        throw Error(ErrorCode::unsupported,
-                    file.string() + ": is a folder, and not that of a finding; name the files in it");
-      }
-      others.push_back(file);
+      for (const fs::path& finding : findings_in(file)) others.push_back(finding);
     } else if (file.extension() == ".json") {
       others.push_back(file);
     } else if (!parts_->read.contains(fs::weakly_canonical(file))) {

@@ -32,6 +32,7 @@ function make() {
 
 function drawPanels(app) {
   const { cases } = app.workspace;
+  document.title = app.case ? `${app.case.title} - clues view` : 'clues view';
   $('welcome').hidden = app.case !== null;
   $('cases').hidden = cases.length < 2;
   $('cases').replaceChildren(...cases.map((c, i) => h('option', { value: i, selected: c === app.case }, c.title)));

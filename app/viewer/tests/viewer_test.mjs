@@ -192,14 +192,13 @@ test('every format of scenes is read in the page as the program reads it', async
   stl.writeUInt32LE(3, 80);
   corners.forEach((p, i) => p.forEach((x, k) => stl.writeFloatLE(x, 84 + 50 * Math.floor(i / 3) + 12 + 12 * (i % 3) + 4 * k)));
   writeFileSync(file('form.stl'), stl);
-  for (const name of ['form.off', 'form.obj', 'form.ply', 'form.stl']) {
-    clues(0, 'view', name, '-o', 'form.html');
-    const take = (page) => page.evaluate(() => { const { points, triangles } = cluesView.case.scene.mesh; return [...triangles].map((c) => [...points.subarray(3 * c, 3 * c + 3)]); });
-    const embedded = await withPage('form.html', take);
-    const here = await withPage('empty.html', async (page) => { await drop(page, dropped(name)); await page.waitForSelector('body[data-drawn]'); return take(page); }, { picture: false });
-    assert.deepEqual(here, embedded, name);
-    assert.deepEqual(here, corners, name);
-  }
+  const names = ['form.off', 'form.obj', 'form.ply', 'form.stl'];
+  clues(0, 'view', ...names, '-o', 'form.html');
+  const take = (page) => page.evaluate(() => Object.fromEntries(cluesView.workspace.scenes.map(({ name, mesh }) => [name, [...mesh.triangles].map((c) => [...mesh.points.subarray(3 * c, 3 * c + 3)])])));
+  const embedded = await withPage('form.html', take);
+  const here = await withPage('empty.html', async (page) => { await drop(page, ...names.map(dropped)); await page.waitForSelector('body[data-drawn]'); return take(page); }, { picture: false });
+  assert.deepEqual(here, embedded);
+  for (const name of names) assert.deepEqual(here[name], corners, name);
 });
 
 test('bad and truncated files give a sentence, and not a blank page', () => withPage('empty.html', async (page) => {
