@@ -70,7 +70,7 @@ def main():
     tree = options.work.resolve() / "tree"
     if not tree.exists():
         shutil.copytree(options.source, tree, ignore=shutil.ignore_patterns("build", ".git"))
-        done = sh(["cmake", "-S", ".", "-B", "build/mutation", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCLUES_BUILD_TESTS=OFF",
+        done = sh(["cmake", "-S", ".", "-B", "build/mutation", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCLUES_BUILD_TESTS=OFF", "-DCLUES_VIEWER=OFF",
                    "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -DNDEBUG"], tree, 300)
         if done.returncode != 0:
             sys.exit(done.stdout)
