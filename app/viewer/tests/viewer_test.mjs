@@ -51,10 +51,10 @@ test('a click on a triangle says how much of it is visible, and the proof', () =
   await settled(page);
   assert.equal((await state(page)).triangle, 4);
   const side = await text(page, '#side');
-  for (const words of ['Triangle 4', 'front: 1 of it is visible', 'back: 0 of it is visible', 'verdict: missing-visible', 'free sight line from (1, 1, 3/2)', 'facet of the umbra']) assert(side.includes(words), words);
+  for (const words of ['Triangle 4', 'front: visible part 1', 'back: visible part 0', 'verdict: missing-visible', 'free sight line from (1, 1, 3/2)', 'facet of the umbra']) assert(side.includes(words), words);
   await page.evaluate(() => cluesView.select(0));
   await settled(page);
-  assert((await text(page, '#side')).includes('back: 1229/1350 (91.04 %) of it is visible'));
+  assert((await text(page, '#side')).includes('back: visible part 1229/1350 (91.04 %)'));
   await page.keyboard.press('Escape');
   assert.equal((await state(page)).triangle, null);
 }));

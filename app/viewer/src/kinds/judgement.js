@@ -1,6 +1,5 @@
 // The verdict of `clues check --json` on a list.
 import { Fields } from '../files/fields.js';
-import { NUMBER } from '../view/labels.js';
 import { chainFact, sightFact } from './sight.js';
 
 const WORDS = ['hidden', 'missing-undecided', 'missing-visible', 'exact', 'first-order', 'loose'];
@@ -58,5 +57,4 @@ export default {
       .map((verdict, triangle) => ({ verdict, name: `triangle ${triangle}`, triangle, sight: sight(part, triangle), bad: verdict === 'missing-visible' }))
       .sort((a, b) => order.indexOf(a.verdict) - order.indexOf(b.verdict) || a.triangle - b.triangle);
   },
-  labels: WORDS.map((word) => NUMBER[word]),
 };

@@ -85,7 +85,7 @@ export default {
     if (!part.data.regions) return [{ text: part.data.listed.has(triangle) ? 'listed as visible' : 'not listed: hidden' }];
     return ['front', 'back'].map((side) => {
       const seen = visiblePart(part.data, triangle, side, corners);
-      return { text: seen === null ? `${side}: no statement` : `${side}: ${seen} of it is visible` };
+      return { text: seen === null ? `${side}: no statement` : `${side}: visible part ${seen}` };
     });
   },
 };

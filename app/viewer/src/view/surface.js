@@ -2,7 +2,7 @@
 // and a tag: the label (labels.js), whether the triangle is listed, and which side it is. One program of the graphics
 // processor draws colours, or triangle numbers (for picking, and to compare images), from the same buffer.
 import * as THREE from 'three';
-import { LABELS, NUMBER, rgb } from './labels.js';
+import { LABELS, rgb } from './labels.js';
 
 const LISTED = 64, BACK = 128;
 export const NO_TAG = 255;  // where there is no surface; no label has the number 63
@@ -126,5 +126,3 @@ export function hitOf(bytes, at = 0) {
   if (tag === NO_TAG) return null;
   return { triangle: bytes[at] + 256 * bytes[at + 1] + 65536 * bytes[at + 2], label: LABELS[tag & 63].id, listed: (tag & LISTED) !== 0, back: (tag & BACK) !== 0 };
 }
-
-export { NUMBER };
