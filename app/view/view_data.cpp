@@ -104,18 +104,33 @@ struct ViewData::Parts {
   void add_conformance(const fs::path& file, json report);
 };
 
+// From what was compared with its hashes, and not from the files once more.
 void ViewData::Parts::add_finding(const fs::path& folder) {
   const auto saved = fuzz::load_finding(folder);
   const std::string base = fs::weakly_canonical(folder).filename().string() + "/";
-  files.push_back({{"path", base + "finding.json"}, {"json", scene::read_json_file(folder / "finding.json")}});
+  const auto& about = saved.finding;
+  files.push_back({{"path", base + "finding.json"},
+                   {"json",
+                    {{"format", "clues-finding/2"},
+                     {"oracle", about.oracle},
+                     {"verdict", about.verdict},
+                     {"explanation", about.explanation},
+                     {"subject", saved.subject},
+                     {"mode", about.where.solid ? "solid" : "sheet"}}}});
   for (const auto& [finding, place] :
        {std::pair{&saved.finding, std::string()}, {&saved.original, std::string("original/")}}) {
     scene::TriangleMesh cell;
     cell.points = finding->where.cell;
+    json witness = json::object();
+    if (finding->triangle) witness["triangle"] = *finding->triangle;
+    if (finding->witness) {
+      witness["side"] = finding->witness->front ? "front" : "back";
+      witness["v"] = finding->witness->v;
+      witness["p"] = finding->witness->p;
+    }
     files.push_back({{"path", base + place + "scene.off"}, {"mesh", mesh_for_page(finding->where.mesh)}});
     files.push_back({{"path", base + place + "cell.obj"}, {"mesh", mesh_for_page(cell)}});
-    files.push_back({{"path", base + place + "witness.json"},
-                     {"json", scene::read_json_file(folder / fs::path(place) / "witness.json")}});
+    files.push_back({{"path", base + place + "witness.json"}, {"json", std::move(witness)}});
   }
 }
 
