@@ -115,6 +115,7 @@ export class App {
       u.patternSize.value = 9 * ratio;
       u.alone.value = this.alone && this.triangle !== null ? this.triangle : -1;
       u.mode.value = this.view === 'stand' ? Draw.stand : Draw.colours;
+      u.solid.value = mesh === this.stage.whole && this.case.parts.some((p) => p.mode === 'solid') ? 1 : 0;
     }
     this.stage.draw();
   }

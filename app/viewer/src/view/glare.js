@@ -12,7 +12,7 @@ uniform float hatching, patternSize;
 bool lacking(vec2 at) {
   vec2 place = clamp(at, vec2(0.5), size - 0.5) / size;
   float tag = floor(texture2D(numbers, place).w * 255.0 + 0.5);
-  return tag < 254.5 && mod(tag, 128.0) < 64.0;
+  return tag < 64.0;  // neither listed, nor nothing, nor in solid mode a back
 }
 void main() {
   vec2 at = gl_FragCoord.xy - corner;

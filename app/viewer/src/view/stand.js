@@ -1,7 +1,7 @@
 // Standing in the cell: viewpoints within it, in a fixed order, and the comparison of the list with everything.
 import { Vector3 } from 'three';
 import { length, middle, minus, pointToTriangle } from '../scene/vectors.js';
-import { NO_TAG } from './surface.js';
+import { BACK, NO_TAG } from './surface.js';
 
 export const VIEWPOINTS = 100;
 const MOST_MEASURED = 200000;
@@ -82,6 +82,7 @@ export function compare(stage, { width, height, places, triangles, listed, most 
   const seen = new Map(), missing = new Set();
   for (let at = 0; at < all.length; at += 4) {
     if (all[at + 3] !== NO_TAG) { ++surface; seen.set(numberAt(at), (seen.get(numberAt(at)) ?? 0) + 1); }
+    if (all[at + 3] >= BACK && all[at + 3] !== NO_TAG) continue;  // in solid mode a back: it blocks, and does not count
     if (all[at] === list[at] && all[at + 1] === list[at + 1] && all[at + 2] === list[at + 2] && all[at + 3] === list[at + 3]) continue;
     if (++differ > most) continue;
     const x = (at / 4) % width, y = Math.floor(at / 4 / width);

@@ -4,7 +4,8 @@
 import * as THREE from 'three';
 import { LABELS, rgb } from './labels.js';
 
-const LISTED = 64, BACK = 128;
+const LISTED = 64;
+export const BACK = 128;
 export const NO_TAG = 255;  // where there is no surface; no label has the number 63
 
 export class SurfaceBuffer {
@@ -74,7 +75,7 @@ void main() {
 }`;
 
 const fragmentShader = `
-uniform float mode, shading, hatching, patternSize;
+uniform float mode, solid, shading, hatching, patternSize;
 uniform vec3 palette[LABEL_COUNT];
 uniform float hatched[LABEL_COUNT];
 varying vec3 place;
@@ -83,7 +84,8 @@ void main() {
   float tag = bytes.w;
   int label = int(mod(tag, 64.0) + 0.5);
   if (mode > 0.5 && mode < 1.5) {
-    gl_FragColor = bytes / 255.0;
+    if (solid > 0.5 && !gl_FrontFacing && tag < 128.0) tag += 128.0;
+    gl_FragColor = vec4(bytes.xyz, tag) / 255.0;
     return;
   }
   vec3 colour = palette[label];
@@ -112,7 +114,7 @@ export function surfaceMaterial(side) {
     fragmentShader: fragmentShader.replaceAll('LABEL_COUNT', String(LABELS.length)),
     side,
     uniforms: {
-      mode: { value: Draw.colours }, shading: { value: 1 }, hatching: { value: 1 }, patternSize: { value: 9 },
+      mode: { value: Draw.colours }, solid: { value: 0 }, shading: { value: 1 }, hatching: { value: 1 }, patternSize: { value: 9 },
       only: { value: Only.all }, alone: { value: -1 },
       palette: { value: LABELS.map((label) => new THREE.Vector3(...rgb(label.colour))) },
       hatched: { value: LABELS.map((label) => (label.hatch ? 1 : 0)) },
