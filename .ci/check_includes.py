@@ -30,7 +30,7 @@ CHAPTERS = {
                  "visibility/refinement"],
     "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "vectors", "conform"],
     "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets"],
-    "app": [".", "demo", "commands"],
+    "app": [".", "view", "demo", "commands"],
 }
 NO_CHAPTERS = {"validate/adapters"}  # to be copied; they include nothing of ours
 MOST_FILES = 22

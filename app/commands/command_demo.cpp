@@ -14,6 +14,8 @@
 #include "app/demo/demo_scene.h"
 #include "app/demo/self_check.h"
 #include "app/progress.h"
+#include "app/view/view_data.h"
+#include "app/view/viewer_page.h"
 #include "scene/files/atomic_file.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
@@ -64,7 +66,7 @@ void print_check(const SelfCheck& check, double seconds) {
       check.loss_is_caught ? "unsound, as it must be" : "NOT CAUGHT", seconds);
 }
 
-bool show(const DemoScene& demo, const DemoRequest& request) {
+bool show(const DemoScene& demo, const DemoRequest& request, ViewData& view) {
   fmt::print("{}: {}\n", demo.name, demo.title);
   std::fflush(stdout);
   ProgressBar bar("clues demo " + demo.name);
@@ -87,7 +89,8 @@ bool show(const DemoScene& demo, const DemoRequest& request) {
 
   const auto stem = fs::path(request.out) / demo.name;
   const auto file = [&](const char* suffix) { return fs::path(stem.string() + suffix); };
-  scene::write_file_atomically(file(".off"), scene::to_off_text(demo.mesh));
+  const std::string off = scene::to_off_text(demo.mesh);
+  scene::write_file_atomically(file(".off"), off);
   scene::write_file_atomically(file(".pvs"), scene::to_pvs_text(map.visible));
   scene::write_file_atomically(file(".ply"), to_ply_text(map));
   scene::write_file_atomically(file(".svg"), to_svg_text(map, demo.title));
@@ -95,7 +98,28 @@ bool show(const DemoScene& demo, const DemoRequest& request) {
   print(fmt::format("  try: clues check {} --cell {} --pvs {}\n\n", scene::shell_word(file(".off").string()),
                     box_spec(demo.cell), scene::shell_word(file(".pvs").string())));
   std::fflush(stdout);
+
+  auto result = reference::to_result(map, {box_spec(demo.cell), demo.cell}, true);
+  result.scene_file = demo.name + ".off";
+  result.scene_sha256 = scene::sha256_of(off);
+  result.scene_triangles = demo.mesh.triangles.size();
+  view.add_scene(result.scene_file, demo.mesh, result.scene_sha256);
+  view.add_result(demo.name + ".clues.json", result);
   return check.passed();
+}
+
+// A build without Node has no page; the demo has its pictures all the same.
+void write_view(const ViewData& view, const fs::path& page) {
+  if (!has_view_page()) {
+    print("no page to look around in: this program was built without Node.js (`clues view`)\n");
+    return;
+  }
+  scene::write_file_atomically(page, view_page(view.text()));
+  print(fmt::format(
+      "To look around in both scenes: open {} in a browser (xdg-open {}).\n"
+      "Blue is seen from the cell, hatched orange is hidden. \"Stand in the cell\" shows what the list draws, beside "
+      "everything.\n",
+      page.string(), scene::shell_word(page.string())));
 }
 
 int run_demo(const DemoRequest& request) {
@@ -107,8 +131,10 @@ int run_demo(const DemoRequest& request) {
   const auto animals = animals_scene(meshes, request.quick ? 40 : 200);
   const auto city = city_scene(request.quick ? 150 : 300, demo_seed);
   make_folder(request.out);
-  const bool animals_passed = show(animals, request);
-  const bool city_passed = show(city, request);
+  ViewData view;
+  const bool animals_passed = show(animals, request, view);
+  const bool city_passed = show(city, request, view);
+  write_view(view, fs::path(request.out) / "view.html");
   if (animals_passed && city_passed) return fine;
   fmt::print(stderr, "clues: error: the demo contradicted itself; please report this\n");
   return oracle_contradiction;
@@ -138,7 +164,8 @@ void add_demo_command(CLI::App& program, int& status) {
       "  independent ways, and writes for each scene\n"
       "    NAME.svg  from above: green is seen, dark red is hidden, grey faces away, blue is the view cell\n"
       "    NAME.ply  the fragments in the same colours, for any 3D viewer\n"
-      "    NAME.off  the scene, and NAME.pvs, the answer: to go on with `clues map` and `clues check`\n\n"
+      "    NAME.off  the scene, and NAME.pvs, the answer: to go on with `clues map` and `clues check`\n"
+      "  and view.html, a page with both scenes to look around in, in a browser (`clues view`).\n\n"
       "EXAMPLES\n"
       "  ./run demo                                              # builds, extracts the meshes, runs this\n"
       "  clues demo --quick --out demo-out --mesh-dir meshes\n\n"

@@ -71,6 +71,7 @@ def main():
     if not tree.exists():
         shutil.copytree(options.source, tree, ignore=shutil.ignore_patterns("build", ".git"))
         done = sh(["cmake", "-S", ".", "-B", "build/mutation", "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCLUES_BUILD_TESTS=OFF", "-DCLUES_UNITY=OFF",
+                   "-DCLUES_VIEWER=OFF",
                    "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -DNDEBUG"], tree, 300)
         if done.returncode != 0:
             sys.exit(done.stdout)

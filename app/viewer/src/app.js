@@ -1,0 +1,341 @@
+// The state of the page, and what changes it. The panels (ui/) and the tests speak to this.
+import * as THREE from 'three';
+import { Workspace } from './files/workspace.js';
+import { Frame } from './scene/frame.js';
+import { along, cross, length, middle, minus, toTriangle } from './scene/vectors.js';
+import { Camera } from './view/camera.js';
+import { NUMBER } from './view/labels.js';
+import { dots, hull, lines, loop, release } from './view/marks.js';
+import { regionSurface } from './view/regions.js';
+import { Stage } from './view/stage.js';
+import { compare, nearest, viewpoint } from './view/stand.js';
+import { Draw, Only, surfaceMaterial, wholeSurface } from './view/surface.js';
+import { LAYER_COLOURS } from './view/labels.js';
+
+const MOST_GRAZING = 4;
+
+export class App {
+  constructor(canvas, changed) {
+    this.workspace = new Workspace();
+    this.camera = new Camera();
+    this.changed = changed;
+    this.stage = new Stage(canvas, () => this.changed('drawn'));
+    this.case = null;
+    this.view = 'map';
+    this.colourBy = 'map';
+    this.layers = [];
+    this.switched = new Map();  // layers that the user switched
+    this.triangle = null;
+    this.alone = false;
+    this.shading = true;
+    this.hatching = true;
+    this.viewpoint = 0;
+    this.glare = true;
+    this.comparison = null;
+    this.dark = false;
+    this.flight = 0;
+  }
+
+  async open(files) {
+    const before = this.case, flaws = await this.workspace.add(files);
+    const again = before && this.workspace.cases.findIndex((c) => c.scene === before.scene && c.parts[0] === before.parts[0]);
+    const cases = this.workspace.cases;
+    const best = cases.findIndex((c) => c.parts.length > 0);
+    if (cases.length > 0) this.choose(again > 0 ? again : Math.max(0, best), before !== null && again === 0);
+    this.changed('files');
+    return flaws;
+  }
+
+  choose(index, keepCamera = false) {
+    const c = this.workspace.cases[index];
+    this.case = c;
+    this.triangle = null;
+    this.alone = false;
+    this.viewpoint = 0;
+    this.comparison = null;
+    this.frame = c.scene ? new Frame(c.scene.mesh, c.cell) : null;
+    this.colourBy = this.regions() || !this.has('label') ? 'map' : this.colourings()[0]?.id ?? 'map';
+    const open = this.views().map((v) => v.id);
+    if (!open.includes(this.view)) this.view = open[0];
+    if (!c.scene) {
+      this.stage.show(null, null);
+      this.stage.camera = null;
+    } else {
+      this.doubles = null;
+      this.locals = this.frame.locals(c.scene.mesh.points);
+      this.whole = null;
+      this.stage.camera = this.camera;
+      this.paint();
+      if (!keepCamera) this.fit();
+    }
+    this.mark();
+    this.setView(this.view);
+  }
+
+  // What the parts of the case can do.
+  able(what) { return this.case ? this.case.parts.filter((p) => p.kind[what]) : []; }
+  has(what) { return this.able(what).length > 0; }
+  regions() { return this.able('regions').map((p) => p.kind.regions(p)).find((r) => r) ?? null; }
+  colourings() {
+    const out = this.able('label').map((p) => ({ id: p.kind.id, name: { result: 'the list', judgement: 'the verdict', finding: 'the finding', conformance: 'the outcome' }[p.kind.id] ?? p.kind.id, part: p }));
+    if (this.regions()) out.unshift({ id: 'map', name: 'the map', part: null });
+    return out;
+  }
+  list() { return this.able('listed')[0] ?? null; }
+  listed = (t) => { const part = this.list(); return part ? part.kind.listed(part, t) : true; };
+  views() {
+    const out = [];
+    if (this.case?.scene) out.push({ id: 'map', name: 'Map' });
+    if (this.case?.scene && this.list() && this.case.cell.length > 0) out.push({ id: 'stand', name: 'Stand in the cell' });
+    if (this.has('rows')) out.push({ id: 'verdicts', name: 'Verdicts' });
+    return out;
+  }
+
+  paint() {
+    const { mesh } = this.case.scene;
+    const old = this.whole;
+    this.whole = new THREE.Mesh(wholeSurface(mesh, this.frame, this.labelOf(), this.listed), surfaceMaterial(THREE.DoubleSide));
+    let coloured = this.whole;
+    const regions = this.regions();
+    if (regions && this.colourBy === 'map') coloured = new THREE.Mesh(regionSurface(mesh, this.frame, regions, this.case.cell, this.listed), surfaceMaterial(THREE.FrontSide));
+    if (old && old !== this.stage.whole) old.geometry.dispose();
+    this.stage.show(coloured, this.whole);
+    this.uniforms();
+  }
+  labelOf() {
+    const chosen = this.colourings().find((c) => c.id === this.colourBy)?.part ?? this.able('label')[0];
+    return chosen ? (t) => NUMBER[chosen.kind.label(chosen, t)] : () => NUMBER.none;
+  }
+  uniforms() {
+    for (const mesh of new Set([this.stage.surface, this.stage.whole])) {
+      if (!mesh) continue;
+      const u = mesh.material.uniforms, ratio = Math.min(2, window.devicePixelRatio || 1);
+      u.shading.value = this.shading ? 1 : 0;
+      u.hatching.value = this.hatching ? 1 : 0;
+      u.patternSize.value = 9 * ratio;
+      u.alone.value = this.alone && this.triangle !== null ? this.triangle : -1;
+      u.mode.value = this.view === 'stand' ? Draw.stand : Draw.colours;
+      u.solid.value = mesh === this.stage.whole && this.case.parts.some((p) => p.mode === 'solid') ? 1 : 0;
+    }
+    this.stage.draw();
+  }
+
+  corners(t) {
+    const { points, triangles } = this.case.scene.mesh;
+    return [0, 1, 2].map((k) => [...points.subarray(3 * triangles[3 * t + k], 3 * triangles[3 * t + k] + 3)]);
+  }
+  facts(t) { return this.able('facts').flatMap((p) => p.kind.facts(p, t, this.corners(t))); }
+
+  // Everything that is drawn besides the surface.
+  mark() {
+    for (const old of [...this.stage.marks.children]) release(old);
+    this.layers = [];
+    if (!this.case?.scene) return;
+    const ink = this.dark ? '#f2f2f2' : '#101014', { frame } = this;
+    if (this.case.cell.length > 0)
+      this.layers.push({ id: 'cell', name: 'view cell', colour: LAYER_COLOURS.cell, on: true, make: () => hull(frame, this.case.cell, LAYER_COLOURS.cell) });
+    for (const part of this.able('layers')) this.layers.push(...part.kind.layers(part, frame));
+    for (const layer of this.layers) {
+      layer.on = this.switched.get(layer.id) ?? layer.on;
+      if (layer.on && this.view !== 'stand') this.stage.marks.add(layer.make(ink));
+    }
+    if (this.triangle !== null) {
+      const corners = this.corners(this.triangle);
+      this.stage.marks.add(lines(frame, loop(corners), ink, 3.5, { over: true }), lines(frame, loop(corners), this.dark ? '#101014' : '#ffffff', 1.2, { over: true }));
+      for (const fact of this.facts(this.triangle)) {
+        for (const l of fact.lines ?? []) this.stage.marks.add(lines(frame, l.pairs, l.colour, l.width, { over: true }));
+        if (fact.ends) this.stage.marks.add(dots(frame, fact.ends, ink, 7));
+      }
+      if (this.view === 'verdicts')
+        for (const t of this.grazing()) this.stage.marks.add(lines(frame, loop(this.corners(t)), '#e69f00', 2.2, { over: true }));
+    }
+    this.stage.draw();
+  }
+  switchLayer(id, on) {
+    this.switched.set(id, on);
+    this.mark();
+    this.changed('state');
+  }
+
+  select(t) {
+    this.triangle = t !== null && t < this.case.scene.mesh.triangles.length / 3 ? t : null;
+    if (this.triangle === null) this.alone = false;
+    this.row = null;
+    this.mark();
+    this.uniforms();
+    this.changed('state');
+  }
+  setAlone(on) {
+    this.alone = on && this.triangle !== null;
+    this.uniforms();
+    this.changed('state');
+  }
+
+  // The triangles that the sight line of the chosen row passes closest, other than the one it ends on.
+  grazing() {
+    const sight = this.row?.sight;
+    if (!sight) return [];
+    const [v, p] = sight.map((x) => this.frame.local(x)), { triangles } = this.case.scene.mesh, best = [];
+    for (let t = 0; t < triangles.length / 3; ++t) {
+      if (t === this.triangle) continue;
+      const found = toTriangle(v, p, [0, 1, 2].map((k) => this.locals.subarray(3 * triangles[3 * t + k], 3 * triangles[3 * t + k] + 3)));
+      if (found.at > 0.001 && found.at < 0.999) best.push({ t, distance: found.distance });
+      if (best.length > 64) { best.sort((a, b) => a.distance - b.distance); best.length = MOST_GRAZING; }
+    }
+    return best.sort((a, b) => a.distance - b.distance).slice(0, MOST_GRAZING).map((g) => g.t);
+  }
+
+  // From the cell along the sight line to the triangle.
+  showRow(row) {
+    if (row.goto) {
+      const at = this.workspace.cases.findIndex((c) => c.scene?.name === row.goto);
+      if (at >= 0 && this.workspace.cases[at] !== this.case) {
+        this.choose(at);
+        this.changed('files');
+        const again = this.able('rows').flatMap((p) => p.kind.rows(p)).find((r) => r.name === row.name);
+        if (again) this.showRow({ ...again, goto: null });
+        return;
+      }
+    }
+    if (row.triangle === null || row.triangle === undefined || !this.case.scene) return;
+    this.triangle = row.triangle;
+    this.row = row;
+    this.mark();
+    this.uniforms();
+    const corners = this.corners(row.triangle).map((p) => this.frame.local(p)), centre = middle(corners);
+    const size = Math.max(...corners.map((p) => length(minus(p, centre)))) || 0.1;
+    if (!row.sight) {
+      this.flyTo({ ...this.camera.state, target: centre, distance: Math.max(4 * size, 0.05) });
+    } else {
+      const [v, p] = row.sight.map((x) => this.frame.local(x)), far = length(minus(p, v)), look = this.camera.angles(minus(p, v));
+      const start = { ...look, target: p, distance: far, flat: false };
+      // A little aside in the end, so that the line is not seen as a point.
+      const end = { ...start, yaw: look.yaw + 0.16, pitch: Math.min(1.5, look.pitch + 0.1), distance: Math.max(Math.min(far * 0.75, Math.max(5 * size, far * 0.25)), 1e-4) };
+      this.flyTo(start, () => this.flyTo(end));
+    }
+    this.changed('state');
+  }
+
+  // Moves the camera; at once for who wants no motion.
+  flyTo(goal, then = () => {}) {
+    const from = { ...this.camera.state, target: [...this.camera.state.target] }, flight = ++this.flight, begin = performance.now();
+    const time = matchMedia('(prefers-reduced-motion: reduce)').matches ? 0 : 700;
+    let turn = goal.yaw - from.yaw;
+    turn -= 2 * Math.PI * Math.round(turn / (2 * Math.PI));
+    const step = () => {
+      if (flight !== this.flight) return;
+      const t = time === 0 ? 1 : Math.min(1, (performance.now() - begin) / time), s = t * t * (3 - 2 * t);
+      this.camera.state = {
+        target: along(from.target, goal.target, s), distance: from.distance * (goal.distance / from.distance) ** s,
+        yaw: from.yaw + turn * s, pitch: from.pitch + (goal.pitch - from.pitch) * s, flat: goal.flat,
+      };
+      this.stage.draw();
+      if (t < 1) requestAnimationFrame(step);
+      else { this.changed('camera'); then(); }
+    };
+    step();
+  }
+  stopFlight() { ++this.flight; }
+
+  // From the cell to the middle of what is listed, or of everything.
+  fromCell() {
+    const cell = this.frame.local(middle(this.case.cell)), count = this.case.scene.mesh.triangles.length / 3, some = [];
+    for (let t = 0; t < count && some.length < 2000; ++t) if (this.listed(t)) some.push(middle(this.corners(t).map((p) => this.frame.local(p))));
+    const v = minus(some.length > 0 ? middle(some) : [0, 0, 0], cell);
+    return length(v) > 1e-6 ? v : [0.55, 0.83, 0];
+  }
+  // All of the scene, from the cell's side.
+  fit() {
+    this.stopFlight();
+    const look = this.camera.angles(this.case.cell.length > 0 ? this.fromCell() : [0.55, 0.83, 0]);
+    // From above; unless the cell looks up or down at it, then more as the cell does.
+    const pitch = Math.abs(look.pitch) > 0.9 ? Math.sign(look.pitch) * 0.95 : 0.6;
+    const { width, height } = this.stage.size();
+    this.camera.state = { target: [0, 0, 0], distance: 2.3 * Math.max(1, (0.95 * height) / width), yaw: look.yaw + 0.35, pitch, flat: false };
+    this.stage.draw();
+    this.changed('camera');
+  }
+  // The chosen triangle from straight before it, without perspective.
+  straight(back = false) {
+    if (this.triangle === null) return;
+    const corners = this.corners(this.triangle).map((p) => this.frame.local(p)), centre = middle(corners);
+    const n = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+    const size = Math.max(...corners.map((p) => length(minus(p, centre)))) || 0.1;
+    this.flyTo({ ...this.camera.angles(back ? n : n.map((x) => -x)), target: centre, distance: size * 2.9, flat: true });
+  }
+  setUp(up) {
+    this.camera.up = up;
+    if (this.case?.scene) this.fit();
+    this.setView(this.view);
+  }
+  setFlat(flat) {
+    this.camera.state.flat = flat;
+    this.stage.draw();
+    this.changed('camera');
+  }
+
+  setView(id) {
+    if (!this.views().some((v) => v.id === id)) return;
+    const before = this.view;
+    this.view = id;
+    this.comparison = null;
+    // The table of verdicts comes with their colours, the map with its own.
+    const fitting = this.colourings().find((c) => (id === 'verdicts') === (c.id !== 'map' && c.id !== 'result'));
+    if (before !== id && id !== 'stand' && fitting && this.case.scene && this.colourBy !== fitting.id) {
+      this.colourBy = fitting.id;
+      this.paint();
+    }
+    if (id === 'stand') {
+      this.stage.halves = [{ only: Only.listed, glare: this.glare }, { only: Only.all, glare: false }];
+      this.stand(this.viewpoint, true);
+    } else {
+      this.stage.halves = null;
+      this.camera.eye = null;
+    }
+    this.mark();
+    this.uniforms();
+    this.changed('state');
+  }
+  // At a viewpoint of the cell; `face`: turned to where most of the scene is.
+  stand(index, face = false) {
+    this.viewpoint = index;
+    const eye = this.frame.local(viewpoint(this.case.cell, index));
+    if (face) {
+      Object.assign(this.camera.state, this.camera.angles(this.fromCell()));
+      this.camera.perspective.fov = 75;
+    }
+    this.camera.eye = eye;
+    this.camera.near = nearest(this.locals, this.case.scene.mesh.triangles, eye);
+    this.comparison = null;
+    this.stage.draw();
+    this.changed('state');
+  }
+  setGlare(on) {
+    this.glare = on;
+    if (this.stage.halves) this.stage.halves[0].glare = on;
+    this.stage.draw();
+    this.changed('state');
+  }
+  compare(width = 0, height = 0, most = undefined) {
+    const r = this.stage.pictures()[0];
+    const { points, triangles } = this.case.scene.mesh;
+    this.doubles ??= Float64Array.from(points, (x, i) => (x - this.frame.centre[i % 3]) / this.frame.radius);
+    this.comparison = compare(this.stage, { width: width || Math.round(r.width), height: height || Math.round(r.height), places: this.doubles, triangles, listed: this.listed, most });
+    this.stage.draw();
+    return this.comparison;
+  }
+  setColours(id) {
+    this.colourBy = id;
+    this.paint();
+    this.mark();
+    this.changed('state');
+  }
+  setTheme(dark) {
+    this.dark = dark;
+    document.documentElement.dataset.theme = dark ? 'dark' : 'light';
+    this.stage.background.set(dark ? '#17181c' : '#f4f5f7');
+    this.mark();
+    this.stage.draw();
+    this.changed('state');
+  }
+}

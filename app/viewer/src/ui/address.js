@@ -1,0 +1,37 @@
+// What is shown, in the fragment of the address: the permalink.
+export function writeAddress(app) {
+  if (!app.case) return;
+  const words = new URLSearchParams();
+  const index = app.workspace.cases.indexOf(app.case);
+  if (index > 0) words.set('case', index);
+  words.set('view', app.view);
+  if (app.case.scene) words.set('cam', app.camera.write());
+  if (app.camera.up !== 'z') words.set('up', app.camera.up);
+  if (app.triangle !== null) words.set('tri', app.triangle);
+  if (app.alone) words.set('alone', 1);
+  if (app.viewpoint > 0) words.set('vp', app.viewpoint);
+  if (!app.glare) words.set('glare', 0);
+  if (app.colourings()[0] && app.colourBy !== app.colourings()[0].id) words.set('colours', app.colourBy);
+  const switched = [...app.switched].map(([id, on]) => (on ? id : `-${id}`));
+  if (switched.length > 0) words.set('layers', switched.join());
+  const text = `#${words.toString().replaceAll('%2C', ',')}`;
+  if (text !== location.hash) history.replaceState(null, '', text);
+}
+
+export function readAddress(app, hash = location.hash) {
+  const words = new URLSearchParams(hash.slice(1)), whole = (name) => (/^\d+$/.test(words.get(name) ?? '') ? Number(words.get(name)) : null);
+  if (app.workspace.cases.length === 0 || [...words].length === 0) return;
+  for (const layer of (words.get('layers') ?? '').split(',').filter((l) => l !== '')) app.switched.set(layer.replace(/^-/, ''), !layer.startsWith('-'));
+  if (words.get('up') === 'y') app.camera.up = 'y';
+  if (words.get('glare') === '0') app.glare = false;
+  app.choose(Math.min(whole('case') ?? 0, app.workspace.cases.length - 1));
+  if (app.colourings().some((c) => c.id === words.get('colours'))) app.setColours(words.get('colours'));
+  app.setView(words.get('view') ?? app.view);
+  if (!app.case.scene) return;
+  if (whole('tri') !== null) app.select(whole('tri'));
+  if (words.get('alone') === '1') app.setAlone(true);
+  if (whole('vp') !== null) app.viewpoint = Math.min(whole('vp'), 99);
+  if (app.view === 'stand') app.stand(app.viewpoint);
+  if (words.has('cam')) app.camera.read(words.get('cam'));
+  app.stage.draw();
+}
