@@ -2,7 +2,7 @@
 # the completion of bash. The man pages are made from `clues COMMAND --help` (target clues_man; help2man).
 find_program(HELP2MAN help2man)
 if(HELP2MAN)
-  set(commands map precision check query verify conform iut lint fuzz replay shrink report demo)
+  set(commands map precision check query level verify conform iut lint fuzz replay shrink report demo)
   set(man ${PROJECT_BINARY_DIR}/man)
   set(pages ${man}/clues.1.gz)
   foreach(command IN LISTS commands)
