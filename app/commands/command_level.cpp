@@ -107,10 +107,10 @@ void add_level_command(CLI::App& program, int& status) {
       "  pvs/CLUSTER.txt (the triangles that the level lists for viewers in a cluster). level.json is written last.\n"
       "  docs/real-levels.md says how to go on.\n\n"
       "EXAMPLES\n"
-      "  clues level oa_dm7.bsp\n"
-      "  clues level oa_dm7.bsp --export oa_dm7\n"
-      "  clues map oa_dm7.bsp --cell oa_dm7/cells/12.out.obj --kernel fast -o 12.pvs\n"
-      "  clues check oa_dm7.bsp --cell oa_dm7/cells/12.in.obj --pvs oa_dm7/pvs/3.txt\n\n"
+      "  clues level level.bsp\n"
+      "  clues level level.bsp --export level\n"
+      "  clues map level.bsp --cell level/cells/0.out.obj --kernel fast -o mine.pvs\n"
+      "  clues check level.bsp --cell level/cells/0.in.obj --pvs level/pvs/0.txt\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input");
   command->callback([request, &status] { status = run_level(*request); });
