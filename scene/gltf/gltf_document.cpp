@@ -28,7 +28,9 @@ std::optional<std::string> from_base64(std::string_view text) {
     for (std::size_t i = 0; i < digits.size(); ++i) table[static_cast<unsigned char>(digits[i])] = static_cast<int>(i);
     return table;
   }();
-  for (int i = 0; i < 2 && text.size() % 4 == 0 && text.ends_with('='); ++i) text.remove_suffix(1);
+  if (text.size() % 4 == 0) {
+    for (int i = 0; i < 2 && text.ends_with('='); ++i) text.remove_suffix(1);
+  }
   if (text.size() % 4 == 1) return std::nullopt;
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3 + 2);

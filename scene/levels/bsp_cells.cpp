@@ -8,7 +8,9 @@
 
 namespace clues::scene {
 
-Polytope bounds_of_level(const BspFile& level) {
+namespace {
+
+std::array<Point, 2> box_of_world(const BspFile& level) {
   const auto& world = level.models[0];
   Point low = world.low, high = world.high;
   for (std::uint32_t f = 0; f < world.faces.count; ++f) {
@@ -20,6 +22,23 @@ Polytope bounds_of_level(const BspFile& level) {
         high[axis] = std::max(high[axis], p[axis]);
       }
     }
+  }
+  return {low, high};
+}
+
+}  // namespace
+
+Polytope bounds_of_level(const BspFile& level) {
+  const auto [low, high] = box_of_world(level);
+  return box_polytope(to_rational(low), to_rational(high));
+}
+
+Polytope bounds_of_brushes(const BspFile& level) {
+  constexpr double around = 65536;  // no level of this family is as large
+  auto [low, high] = box_of_world(level);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    low[axis] -= around;
+    high[axis] += around;
   }
   return box_polytope(to_rational(low), to_rational(high));
 }

@@ -46,7 +46,7 @@ class SceneBuilder {
     out_.first_triangle_of.push_back(out_.face_triangles);
     if (out_.face_triangles == 0)
       fail_in(level_.name, ErrorCode::malformed, "no triangles; a scene needs at least one face that is drawn");
-    const Polytope bounds = bounds_of_level(level_);
+    const Polytope bounds = bounds_of_brushes(level_);
     for (std::uint32_t i = 0; i < world.brushes.count; ++i) add_hull(world.brushes.first + i, bounds);
     out_.scene = builder_.take();
     return std::move(out_);

@@ -149,7 +149,7 @@ TEST(RoundedCells, LieWithinAndAround) {
     for (const auto& h : made.half_spaces) {
       const bool touched = std::any_of(made.polytope->vertices.begin(), made.polytope->vertices.end(),
                                        [&](const RationalPoint& v) { return sgn(h.height(v)) == 0; });
-      if (touched) ASSERT_TRUE(hull_reaches(outer, h.normal, h.offset));
+      ASSERT_TRUE(!touched || hull_reaches(outer, h.normal, h.offset));
     }
     for (std::size_t i = 0; i < inner->size(); ++i) {
       if (scene::to_rational((*inner)[i]) != made.polytope->vertices[i]) ++moved;
