@@ -66,7 +66,7 @@ Made random_polytope(std::mt19937_64& random, int range, bool thirds) {
     if (h.normal == RationalPoint{0, 0, 0}) h.normal[0] = 1;
     const RationalPoint through{number(0, 8), number(0, 8), number(0, 8)};
     h.offset = h.height(through) + h.offset;
-    if (thirds) h.offset += mpq_class(number(-5, 5), 3);
+    if (thirds) h.offset += mpq_class(number(-5, 5)) / 3;
     made.half_spaces.push_back(h);
     if (made.polytope) made.polytope = scene::intersection(*made.polytope, h);
   }
