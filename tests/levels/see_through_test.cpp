@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "exact/sight/witness.h"
 #include "fastpath/visibility/first_order.h"
@@ -28,18 +30,18 @@ FlaggedMesh random_scene(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto number = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
   FlaggedMesh scene;
-  const int triangles = number(5, 9);
+  const int triangles = number(5, 7);
   for (int t = 0; t < triangles; ++t) {
     const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
-    const int depth = number(1, 6), width = 2 + depth;
-    for (int i = 0; i < 3; ++i) {
-      scene.mesh.points.push_back({static_cast<double>(number(-width, width)),
-                                   static_cast<double>(number(-width, width)),
-                                   static_cast<double>(depth + number(0, 2))});
+    const bool large = t % 2 == 0;  // before the small ones
+    const int x = number(-2, 2), y = number(-2, 2), z = large ? number(2, 3) : number(4, 6), size = large ? 7 : 1;
+    for (const auto& [dx, dy] : {std::pair{-size, -size}, std::pair{size, -size}, std::pair{0, size}}) {
+      scene.mesh.points.push_back(
+          {static_cast<double>(x + dx), static_cast<double>(y + dy), static_cast<double>(z + number(0, 1))});
     }
     scene.mesh.triangles.push_back({first, first + 1, first + 2});
     scene.mesh.face_of.push_back(static_cast<std::uint32_t>(t));
-    const int kind = number(0, 4);
+    const int kind = number(0, 5);
     scene.blocks.push_back(kind <= 2 ? 1 : 0);
     scene.counts.push_back(kind != 0 ? 1 : 0);
   }
@@ -117,12 +119,12 @@ void compare(std::uint64_t begin, std::uint64_t end) {
     }
   }
   EXPECT_GT(spoiled, 0U) << "a triangle that is taken for opaque would not be noticed";
-  EXPECT_GT(seen_through, 10U);
+  EXPECT_GT(seen_through, 3U);
   EXPECT_GT(see_through, 0U) << "hidden ones that do not block";
-  EXPECT_GT(hidden, 5U);
+  EXPECT_GT(hidden, 3U);
 }
 
-TEST(SeeThrough, ListsAreTheDefinitionOneTriangleAtATime) { compare(0, 16); }
+TEST(SeeThrough, ListsAreTheDefinitionOneTriangleAtATime) { compare(0, 8); }
 TEST(SeeThroughLong, ListsAreTheDefinitionOneTriangleAtATime) { compare(1000, 1300); }
 
 // A wall behind two panes, and a small pane that only the wall hides.
@@ -175,7 +177,7 @@ TEST(SeeThrough, TheJudgeSeesThroughPanes) {
 }
 
 TEST(SeeThrough, TheJudgeAgreesWithTheDefinition) {
-  for (std::uint64_t seed = 40; seed < 46; ++seed) {
+  for (std::uint64_t seed = 40; seed < 42; ++seed) {
     SCOPED_TRACE(seed);
     const auto scene = random_scene(seed);
     const Ids truth = one_at_a_time(scene);
