@@ -20,7 +20,7 @@ MAY_SEE = {
 }
 # Of each folder, in the order in which a reader meets them; "." is the folder itself.
 CHAPTERS = {
-    "scene": ["messages", "mesh", "formats", "files", "."],
+    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes"],
     "exact": [".", "cell", "complex", "sight"],
     "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
                   "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",
@@ -28,7 +28,7 @@ CHAPTERS = {
     "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
                  "visibility/refinement"],
-    "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "vectors", "conform"],
+    "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "vectors", "conform"],
     "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets"],
     "app": [".", "view", "demo", "commands"],
 }

@@ -12,6 +12,7 @@
 #include "app/umbra_output.h"
 #include "reference/visibility/first_order.h"
 #include "scene/cell_spec.h"
+#include "scene/mesh/flagged_mesh.h"
 #include "scene/mesh/mesh.h"
 
 namespace clues::app {
@@ -60,5 +61,8 @@ std::unique_ptr<CellMapper> exact_mapper(const scene::TriangleMesh& mesh, const 
                                          const MapRequest& request);
 std::unique_ptr<CellMapper> fast_mapper(const scene::TriangleMesh& mesh, const std::string& sha256,
                                         const MapRequest& request);
+// For a scene that is not plain (D22), by either kernel: lists only.
+std::unique_ptr<CellMapper> see_through_mapper(const scene::FlaggedMesh& scene, const std::string& sha256,
+                                               const MapRequest& request);
 
 }  // namespace clues::app

@@ -14,6 +14,7 @@ struct Unfinished : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+void add_level_command(CLI::App& program, int& status);
 void add_map_command(CLI::App& program, int& status);
 void add_precision_command(CLI::App& program, int& status);
 void add_check_command(CLI::App& program, int& status);

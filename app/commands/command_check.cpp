@@ -1,15 +1,19 @@
 // clues check: judges one PVS for one scene and cell (D19, basic form).
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/json_output.h"
 #include "app/progress.h"
 #include "scene/cell_spec.h"
-#include "scene/mesh_io.h"
+#include "scene/messages/error.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_io.h"
 #include "validate/certificates/chain_search.h"
+#include "validate/see_through/judge_layers.h"
 #include "validate/verdicts/judge.h"
 #include "validate/verdicts/judge_report.h"
 #include "validate/visible_set/settle.h"
@@ -23,11 +27,32 @@ struct CheckRequest {
   MethodOptions method;
 };
 
+// Every triangle blocks and counts.
+void judge_plain(validate::Judgement& judgement, validate::Surroundings& around, const scene::TriangleMesh& mesh,
+                 const exact::ConvexCell& cell, const std::vector<std::uint32_t>& pvs,
+                 const reference::Options& options, ProgressBar& bar) {
+  const auto map = reference::first_order_visibility(mesh, cell, options);
+  validate::JudgeOptions judge_options;
+  judge_options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("witnesses", done, total); };
+  judgement = validate::judge_pvs(mesh, map, pvs, judge_options);
+  if (mesh.triangles.size() <= validate::kSettleTriangles) {
+    bar.show("exact visible set", 0, 1);
+    validate::settle(judgement, mesh, cell, options.mode);
+  }
+  judgement.chains = validate::find_chains(mesh, map, validate::undecided(judgement));
+  around.first_order_fractions = validate::first_order_fractions(mesh, map);
+}
+
 int run_check(const CheckRequest& request) {
   auto options = request.method.to_reference();
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.pvs});
-  const auto mesh = scene::read_mesh(request.scene);
+  const auto scene = scene::read_scene(request.scene);
+  const auto& mesh = scene.mesh;
+  if (!scene.is_plain() && request.method.mode == "solid") {
+    throw scene::Error(scene::ErrorCode::unsupported,
+                       request.scene + ": some triangles do not block or do not count; leave out --mode solid");
+  }
   const auto spec = scene::parse_cell(request.cell);
   const auto cell = exact::ConvexCell::from_doubles(spec.points);
   const auto pvs = scene::read_pvs(
@@ -40,18 +65,15 @@ int run_check(const CheckRequest& request) {
     options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
       bar.show(stage, done, total);
     };
-    const auto map = reference::first_order_visibility(mesh, cell, options);
-    validate::JudgeOptions judge_options;
-    judge_options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("witnesses", done, total); };
-    judgement = validate::judge_pvs(mesh, map, pvs, judge_options);
-    if (mesh.triangles.size() <= validate::kSettleTriangles) {
-      bar.show("exact visible set", 0, 1);
-      validate::settle(judgement, mesh, cell, options.mode);
+    if (!scene.is_plain()) {
+      auto found = validate::judge_see_through(scene, cell, pvs, options);
+      judgement = std::move(found.judgement);
+      around.first_order_fractions = std::move(found.first_order_fractions);
+    } else {
+      judge_plain(judgement, around, mesh, cell, pvs, options, bar);
     }
-    judgement.chains = validate::find_chains(mesh, map, validate::undecided(judgement));
     around.counts = validate::count_weights(judgement);
     around.areas = validate::area_weights(judgement, mesh);
-    around.first_order_fractions = validate::first_order_fractions(mesh, map);
   }
   if (request.json.asked()) request.json.write(validate::to_json_text(judgement, around));
   if (!request.json.on_stdout()) print(validate::to_text(judgement, around));
@@ -72,7 +94,7 @@ int run_check(const CheckRequest& request) {
 void add_check_command(CLI::App& program, int& status) {
   auto* command = program.add_subcommand("check", "Judge a potentially visible set: is a visible triangle missing?");
   auto request = std::make_shared<CheckRequest>();
-  command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL")->required();
+  command->add_option("SCENE", request->scene, std::string("The scene: ") + scene::scene_formats)->required();
   command->add_option("--cell", request->cell, "The view cell")->type_name("SPEC")->required();
   command
       ->add_option("--pvs", request->pvs,

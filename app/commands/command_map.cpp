@@ -21,9 +21,9 @@
 #include "exact/threads.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
-#include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_io.h"
 
 namespace clues::app {
 namespace {
@@ -182,12 +182,13 @@ int run_map(MapRequest request) {
   require_apart({&request.out, &request.json.file(), &request.umbra.file, &request.overlap_graph},
                 {&request.scene, &request.cell, &request.cells});
   const std::string sha256 = scene::sha256_of_file(request.scene);
-  const auto mesh = scene::read_mesh(request.scene);
+  const auto scene = scene::read_scene(request.scene);
   if (scene::sha256_of_file(request.scene) != sha256)
     throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
   const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
-  const auto mapper =
-      request.method.kernel == "fast" ? fast_mapper(mesh, sha256, request) : exact_mapper(mesh, sha256, request);
+  const auto mapper = !scene.is_plain()                 ? see_through_mapper(scene, sha256, request)
+                      : request.method.kernel == "fast" ? fast_mapper(scene.mesh, sha256, request)
+                                                        : exact_mapper(scene.mesh, sha256, request);
   const auto mapped = map_cells(*mapper, sha256, cells, request);
 
   if (!request.umbra.file.empty()) scene::write_file_atomically(request.umbra.file, mapped[0].umbra_bytes);
@@ -223,7 +224,7 @@ void put_result(MappedCell& cell, scene::Result result, const MapRequest& reques
 void add_map_command(CLI::App& program, int& status) {
   auto* command = program.add_subcommand("map", "Compute the first-order visibility map of a scene for a view cell");
   auto request = std::make_shared<MapRequest>();
-  command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL")->required();
+  command->add_option("SCENE", request->scene, std::string("The scene: ") + scene::scene_formats)->required();
   command->add_option("--cell", request->cell, "One view cell")->type_name("SPEC");
   command->add_option("--cells", request->cells, "Many view cells: grid:NXxNYxNZ:box:x0,y0,z0,x1,y1,z1")
       ->type_name("SPEC");
@@ -267,6 +268,14 @@ void add_map_command(CLI::App& program, int& status) {
           "finished.\n\n") +
       cell_help +
       "\n  grid:NXxNYxNZ:box:...   (--cells) the box cut into NX*NY*NZ equal boxes\n\n"
+      "SCENES WITH GLASS AND CURVES\n"
+      "  In glTF files and levels some triangles do not block (alphaMode BLEND and MASK, curves), and some do not "
+      "count "
+      "(walls\n"
+      "  behind what is drawn). They are listed as they are seen through one another; of such scenes lists are made "
+      "and "
+      "no maps\n"
+      "  (docs/real-levels.md).\n\n"
       "EXAMPLES\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --map -o town.clues.json\n"

@@ -9,8 +9,8 @@
 #include "app/json_output.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
-#include "scene/mesh_io.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_io.h"
 #include "validate/verdicts/precision.h"
 
 namespace clues::app {
@@ -30,7 +30,7 @@ int run_precision(const PrecisionRequest& request) {
   request.refine.check_retract(refinement);
   for (const std::string* path : {&request.out, &request.json.file(), &request.svg}) require_writable_parent(*path);
   require_apart({&request.out, &request.json.file(), &request.svg}, {&request.scene, &request.cell});
-  const auto mesh = scene::read_mesh(request.scene);
+  const auto mesh = scene::read_plain_scene(request.scene);
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
   reference::Bounds bounds(mesh, cell, options);
   const auto report = validate::refine(bounds, refinement, refine);
@@ -49,7 +49,7 @@ void add_precision_command(CLI::App& program, int& status) {
   auto* command =
       program.add_subcommand("precision", "Say how far from exact the map of a cell is, and what refinement gains");
   auto request = std::make_shared<PrecisionRequest>();
-  command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL")->required();
+  command->add_option("SCENE", request->scene, std::string("The scene: ") + scene::scene_formats)->required();
   command->add_option("--cell", request->cell, "The view cell")->type_name("SPEC")->required();
   request->method.add_to(*command);
   request->refine.add_to(*command);

@@ -13,7 +13,7 @@
 #include "app/json_output.h"
 #include "app/progress.h"
 #include "scene/cell_spec.h"
-#include "scene/mesh_io.h"
+#include "scene/scenes/scene_io.h"
 #include "validate/certificates/point_query.h"
 #include "validate/certificates/points_file.h"
 #include "validate/certificates/segment_query.h"
@@ -163,7 +163,7 @@ int run_query(const QueryRequest& request) {
   auto options = request.method.to_reference();
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.points});
-  const auto mesh = scene::read_mesh(request.scene);
+  const auto mesh = scene::read_plain_scene(request.scene);
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
   const auto points = validate::read_points(request.points);
   std::vector<Asked> all;
@@ -208,7 +208,7 @@ int run_query(const QueryRequest& request) {
 void add_query_command(CLI::App& program, int& status) {
   auto* command = program.add_subcommand("query", "Ask whether single points can be seen from the cell, with a proof");
   auto request = std::make_shared<QueryRequest>();
-  command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL")->required();
+  command->add_option("SCENE", request->scene, std::string("The scene: ") + scene::scene_formats)->required();
   command->add_option("--cell", request->cell, "The view cell")->type_name("SPEC")->required();
   command
       ->add_option(

@@ -11,7 +11,7 @@
 #include "app/common.h"
 #include "exact/complex/complex.h"
 #include "scene/cell_spec.h"
-#include "scene/mesh_io.h"
+#include "scene/scenes/scene_io.h"
 #include "validate/certificates/umbra_certificate.h"
 #include "validate/certificates/umbra_file.h"
 
@@ -24,7 +24,7 @@ struct VerifyRequest {
 };
 
 int run_verify(const VerifyRequest& request) {
-  const auto mesh = scene::read_mesh(request.scene);
+  const auto mesh = scene::read_plain_scene(request.scene);
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
   if (request.solid) exact::require_solid(exact::build_complex(mesh, &cell));  // D4
   const auto facets = validate::read_umbra(request.umbra, mesh.triangles.size()).facets;
@@ -54,7 +54,7 @@ int run_verify(const VerifyRequest& request) {
 void add_verify_command(CLI::App& program, int& status) {
   auto* command = program.add_subcommand("verify", "Verify an umbra: can really nothing in it be seen from the cell?");
   auto request = std::make_shared<VerifyRequest>();
-  command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL")->required();
+  command->add_option("SCENE", request->scene, std::string("The scene: ") + scene::scene_formats)->required();
   command->add_option("--cell", request->cell, "The view cell")->type_name("SPEC")->required();
   command->add_option("--umbra", request->umbra, "The umbra: JSON as `clues map --umbra` writes it")
       ->type_name("FILE")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Makes the seed corpus of the coverage-guided targets: small valid files of every kind, a few broken ones, small scenes of vectors/, and what
-campaigns found. Deterministic. Files that a fuzzer found are added by hand, under names of their own, and stay."""
+campaigns found. Deterministic. (Those of bsp/ and gltf/ are what tests/levels/made_level.cpp and made_gltf.cpp write.) Files that a fuzzer found are added by hand, under names of their own, and stay."""
 import json
 import pathlib
 import sqlite3

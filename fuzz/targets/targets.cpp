@@ -15,7 +15,9 @@
 #include "scene/files/atomic_file.h"
 #include "scene/files/temporary_folder.h"
 #include "scene/formats/readers.h"
+#include "scene/gltf/gltf_reader.h"
 #include "scene/json_reader.h"
+#include "scene/levels/bsp_scene.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/messages/printable.h"
@@ -76,6 +78,48 @@ bool mesh_file(std::string_view bytes) {
     const auto again = scene::read_off(scene::to_off_text(mesh), "again");
     require(same_bits(mesh.points, again.points) && mesh.triangles == again.triangles,
             "a scene survives being written as OFF");
+  });
+}
+
+void check_flagged(const scene::FlaggedMesh& mesh) {
+  check_mesh(mesh.mesh);
+  const auto total = mesh.mesh.triangles.size();
+  for (const auto* flags : {&mesh.blocks, &mesh.counts})
+    require(flags->empty() || flags->size() == total, "every triangle has its flags, or none has");
+  for (std::uint32_t t = 0; t < total; ++t)
+    require(mesh.blocking(t) || mesh.counting(t), "who is there does something");
+  for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+    const auto first = mesh.parts[i].first_triangle;
+    require(first < total && (i == 0 ? first == 0 : mesh.parts[i - 1].first_triangle < first), "parts ascend");
+  }
+}
+
+bool gltf(std::string_view bytes) {
+  return accepted([&] {
+    const auto no_files = [](const std::string& path) -> std::string {
+      throw scene::Error(scene::ErrorCode::file_not_found, path + ": there is none");
+    };
+    check_flagged(scene::read_gltf(bytes, "file", no_files));
+  });
+}
+
+// A level, its cells, and what it was shipped with. Large ones take time and show no more.
+bool bsp(std::string_view bytes) {
+  return accepted([&] {
+    const auto level = scene::parse_bsp(bytes, "file");
+    if (level.nodes.size() > 64 || level.sides.size() > 256 || level.points.size() + level.corners.size() > 4096)
+      return;
+    const auto scene = scene::scene_of_level(level);
+    check_flagged(scene.scene);
+    for (std::uint32_t c = 0; c < std::min(level.visibility.clusters, 4U); ++c) {
+      const auto ids = scene::shipped_set(level, scene, c);
+      require(std::is_sorted(ids.begin(), ids.end()), "a shipped list ascends");
+      for (const auto id : ids) require(scene.scene.counting(id), "a shipped list holds what is drawn");
+    }
+    for (const auto& cell : scene::cells_of_level(level)) {
+      require(cell.inner.empty() || !cell.outer.empty(), "who has an inner cell has an outer one");
+      require(cell.cluster < std::max(level.visibility.clusters, 1U), "a cell has a cluster");
+    }
   });
 }
 
@@ -274,6 +318,8 @@ const std::vector<Target>& all_targets() {
       {"off", "the reader of OFF files", mesh_file<scene::read_off>},
       {"ply", "the reader of PLY files, text and binary", mesh_file<scene::read_ply>},
       {"stl", "the reader of STL files, text and binary", mesh_file<scene::read_stl>},
+      {"gltf", "the reader of glTF files, .gltf and .glb", gltf},
+      {"bsp", "the reader of levels, their cells and shipped lists", bsp},
       {"json", "the reader of JSON", json_text},
       {"cell_and_pvs", "cells of the command line, lists of triangle ids and result files",
        [](std::string_view bytes) {

@@ -139,7 +139,7 @@ TEST(BadInput, NoCommandIsAUsageError) {
   EXPECT_EQ(alone.exit_code, 2);
   EXPECT_EQ(alone.out, "");
   // A line for each command, and at the end what is wrong.
-  for (const char* command : {"map", "precision", "check", "query", "verify", "conform", "iut", "lint", "fuzz",
+  for (const char* command : {"map", "precision", "check", "query", "level", "verify", "conform", "iut", "lint", "fuzz",
                               "replay", "shrink", "report", "demo"}) {
     EXPECT_THAT(alone.err, testing::ContainsRegex("\n  " + std::string(command) + " +[A-Z][^\n]*\n"));
   }

@@ -22,6 +22,7 @@ TEST(Help, EveryCommandHasDescriptionExamplesAndExitCodes) {
                                                     {"precision", "--help"},
                                                     {"check", "--help"},
                                                     {"query", "--help"},
+                                                    {"level", "--help"},
                                                     {"verify", "--help"},
                                                     {"report", "--help"},
                                                     {"demo", "--help"}}) {

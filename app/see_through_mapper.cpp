@@ -1,0 +1,104 @@
+// clues map for scenes in which some triangles do not block or do not count (D22): lists, by either kernel, layer by layer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "app/cell_mapper.h"
+#include "exact/threads.h"
+#include "fastpath/visibility/first_order.h"
+#include "scene/messages/error.h"
+#include "validate/see_through/layers.h"
+
+namespace clues::app {
+namespace {
+
+class SeeThroughMapper : public CellMapper {
+ public:
+  SeeThroughMapper(const scene::FlaggedMesh& scene, std::string sha256, const MapRequest& request)
+      : scene_(scene), sha256_(std::move(sha256)), request_(request) {
+    const auto total = static_cast<std::uint32_t>(scene.mesh.triangles.size());
+    for (std::uint32_t t = 0; t < total; ++t) {
+      blocking_ += scene.blocking(t) ? 1 : 0;
+      counting_ += scene.counting(t) ? 1 : 0;
+    }
+  }
+
+  MappedCell map(const scene::CellSpec& spec, int threads, const reference::Progress& progress) const override {
+    std::uint64_t layers = 0, fallbacks = 0;
+    const auto visible = validate::visible_in_layers(scene_, [&](const scene::TriangleMesh& mesh) {
+      ++layers;
+      return request_.method.kernel == "fast" ? fast(mesh, spec, threads, fallbacks)
+                                              : exactly(mesh, spec, threads, progress, fallbacks);
+    });
+    scene::Result result;
+    result.scene_triangles = scene_.mesh.triangles.size();
+    result.cell = spec.points;
+    result.kernel = request_.method.kernel;
+    result.mode = request_.method.mode;
+    result.visible = visible;
+    result.stats = {{"blocking_triangles", blocking_},
+                    {"conservative_fallbacks", static_cast<std::int64_t>(fallbacks)},
+                    {"counting_triangles", counting_},
+                    {"layers", static_cast<std::int64_t>(layers)}};
+    MappedCell mapped;
+    mapped.name = spec.name;
+    mapped.summary = fmt::format("{:>9}  {:>8}  {:>8}  {:>7}  {:>6}  {:>9}  {}\n", scene_.mesh.triangles.size(),
+                                 blocking_, counting_, visible.size(), layers, fallbacks, spec.name);
+    put_result(mapped, std::move(result), request_, sha256_);
+    return mapped;
+  }
+  const char* table_head() const override {
+    return "triangles  blocking  counting  visible  layers  fallbacks  cell\n";
+  }
+
+ private:
+  static std::vector<std::uint32_t> fast(const scene::TriangleMesh& mesh, const scene::CellSpec& spec, int threads,
+                                         std::uint64_t& fallbacks) {
+    const fastpath::Bvh bvh(mesh);
+    const auto found = exact::by_threads(threads, [&] {
+      return fastpath::first_order_visibility(bvh, spec.points, fastpath::LocalMapOptions{}, false);
+    });
+    fallbacks += found.conservative_fallbacks;
+    return found.visible;
+  }
+  std::vector<std::uint32_t> exactly(const scene::TriangleMesh& mesh, const scene::CellSpec& spec, int threads,
+                                     const reference::Progress& progress, std::uint64_t& fallbacks) const {
+    auto options = request_.method.to_reference();
+    options.threads = threads;
+    options.progress = progress;
+    const auto map = reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(spec.points), options);
+    fallbacks += map.statistics.conservative_fallbacks;
+    return map.visible;
+  }
+
+  const scene::FlaggedMesh& scene_;
+  std::string sha256_;
+  const MapRequest& request_;
+  std::int64_t blocking_ = 0, counting_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<CellMapper> see_through_mapper(const scene::FlaggedMesh& scene, const std::string& sha256,
+                                               const MapRequest& request) {
+  for (const auto& [asked, option] : {std::pair{request.with_map, "--map"},
+                                      {!request.umbra.file.empty(), "--umbra"},
+                                      {!request.overlap_graph.empty(), "--overlap-graph"},
+                                      {request.refinement != validate::Refinement::none, "refinement"},
+                                      {request.method.mode == "solid", "--mode solid"},
+                                      {request.simplify.asked(), "simplification"}}) {
+    if (asked) {
+      throw scene::Error(
+          scene::ErrorCode::unsupported,
+          request.scene +
+              ": some triangles do not block or do not count, and of such scenes only lists are made; leave out " +
+              option);
+    }
+  }
+  if (request.method.kernel == "fast" && request.method.formulation != "plain")
+    throw scene::Error(scene::ErrorCode::unsupported, "--formulation needs exact numbers; use --kernel exact with it");
+  return std::make_unique<SeeThroughMapper>(scene, sha256, request);
+}
+
+}  // namespace clues::app

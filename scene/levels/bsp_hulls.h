@@ -1,0 +1,22 @@
+// The walls behind what is drawn. A structural brush is solid, and so is every triangle with corners in it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "scene/levels/bsp_file.h"
+#include "scene/levels/polytope.h"
+
+namespace clues::scene {
+
+// How far from a side of its brush a drawn triangle may lie and still be taken for a drawing of that side. Compilers move drawn vertices to a
+// grid and stitch faces; a quarter of a unit is the most that was met.
+inline constexpr double side_thickness = 0.5;
+
+// Triangles with double corners in the brush, around it. Where a drawn triangle lies a little inside of a side, the hull is held behind it: no point
+// of a triangle that lies within side_thickness of a side, as a whole, is in the interior of what is returned. Empty where nothing is left.
+std::vector<std::array<Point, 3>> hull_of_brush(const BspFile& level, const BspFile::Brush& brush,
+                                                const Polytope& bounds, const std::vector<std::array<Point, 3>>& drawn);
+
+}  // namespace clues::scene

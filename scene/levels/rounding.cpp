@@ -1,0 +1,149 @@
+#include "scene/levels/rounding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace clues::scene {
+namespace {
+
+// The doubles next to x, from below and from above; both are x where it is one.
+std::array<double, 2> neighbours(const mpq_class& x) {
+  const double cut = x.get_d();  // towards zero
+  const int side = cmp(x, mpq_class(cut));
+  if (side == 0) return {cut, cut};
+  const double infinity = std::numeric_limits<double>::infinity();
+  return side > 0 ? std::array{cut, std::nextafter(cut, infinity)} : std::array{std::nextafter(cut, -infinity), cut};
+}
+
+bool is_double(const RationalPoint& p) {
+  return std::all_of(p.begin(), p.end(), [](const mpq_class& x) { return cmp(x, mpq_class(x.get_d())) == 0; });
+}
+
+std::vector<Point> box_around(const RationalPoint& p) {
+  const std::array sides{neighbours(p[0]), neighbours(p[1]), neighbours(p[2])};
+  std::set<Point> corners;
+  for (std::size_t i = 0; i < 8; ++i) corners.insert({sides[0][i & 1], sides[1][(i >> 1) & 1], sides[2][i >> 2]});
+  return {corners.begin(), corners.end()};
+}
+
+RationalPoint center_of(const Polytope& polytope) {
+  RationalPoint center;
+  for (const auto& v : polytope.vertices) {
+    for (std::size_t axis = 0; axis < 3; ++axis) center[axis] += v[axis];
+  }
+  for (auto& x : center) x /= static_cast<unsigned long>(polytope.vertices.size());
+  return center;
+}
+
+// from + share * (to - from)
+RationalPoint between(const RationalPoint& from, const RationalPoint& to, const mpq_class& share) {
+  RationalPoint p;
+  for (std::size_t axis = 0; axis < 3; ++axis) p[axis] = from[axis] + share * (to[axis] - from[axis]);
+  return p;
+}
+
+mpq_class power_of_half(unsigned exponent) { return {mpz_class(1), mpz_class(1) << exponent}; }
+
+Point nearest_corner(const RationalPoint& p) { return {p[0].get_d(), p[1].get_d(), p[2].get_d()}; }
+
+// The plane through three points and the sign of the others; none where they are collinear.
+std::optional<HalfSpace> plane_through(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) {
+  HalfSpace plane;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
+    plane.normal[axis] = (b[y] - a[y]) * (c[z] - a[z]) - (b[z] - a[z]) * (c[y] - a[y]);
+    plane.offset += plane.normal[axis] * a[axis];
+  }
+  if (sgn(plane.normal[0]) == 0 && sgn(plane.normal[1]) == 0 && sgn(plane.normal[2]) == 0) return std::nullopt;
+  return plane;
+}
+
+// Every half space that is bounded by three of the points and holds all of them holds the polytope's vertices. For points that are
+// not all in one plane: their hull holds the polytope. O(n^4), for the few corners of a cell.
+bool hull_holds(const std::vector<Point>& points, const Polytope& polytope) {
+  std::vector<RationalPoint> corners;
+  for (const auto& p : points) corners.push_back(to_rational(p));
+  const auto holds_all = [](const HalfSpace& plane, const std::vector<RationalPoint>& all) {
+    return std::all_of(all.begin(), all.end(), [&](const RationalPoint& p) { return plane.holds(p); });
+  };
+  bool any = false;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    for (std::size_t j = i + 1; j < corners.size(); ++j) {
+      for (std::size_t k = j + 1; k < corners.size(); ++k) {
+        const auto plane = plane_through(corners[i], corners[j], corners[k]);
+        if (!plane) continue;
+        for (const auto& half_space : {*plane, plane->opposite()}) {
+          if (!holds_all(half_space, corners)) continue;
+          any = true;
+          if (!holds_all(half_space, polytope.vertices)) return false;
+        }
+      }
+    }
+  }
+  return any && !are_coplanar(points);
+}
+
+}  // namespace
+
+bool are_coplanar(const std::vector<Point>& points) {
+  std::vector<RationalPoint> all;
+  for (const auto& p : points) all.push_back(to_rational(p));
+  for (std::size_t j = 1; j < all.size(); ++j) {
+    for (std::size_t k = j + 1; k < all.size(); ++k) {
+      const auto plane = plane_through(all[0], all[j], all[k]);
+      if (!plane) continue;
+      return std::all_of(all.begin(), all.end(), [&](const RationalPoint& p) { return sgn(plane->height(p)) == 0; });
+    }
+  }
+  return true;
+}
+
+std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope) {
+  constexpr unsigned finest = 60;  // of the way to the middle, as a power of 1/2
+  const RationalPoint center = center_of(polytope);
+  std::vector<Point> points;
+  for (const auto& v : polytope.vertices) {
+    std::optional<Point> found;
+    if (is_double(v)) found = nearest_corner(v);
+    for (const auto& corner : found ? std::vector<Point>{} : box_around(v)) {
+      if (!found && polytope.holds(to_rational(corner))) found = corner;
+    }
+    for (unsigned exponent = finest; !found && exponent > 0; --exponent) {
+      const Point p = nearest_corner(between(v, center, power_of_half(exponent)));
+      if (polytope.holds(to_rational(p))) found = p;
+    }
+    if (!found) return std::nullopt;
+    points.push_back(*found);
+  }
+  return points;
+}
+
+std::vector<Point> outer_points(const Polytope& polytope) {
+  constexpr std::size_t most_for_hull = 24;  // beyond, a box around each vertex is cheaper than a proof
+  std::set<Point> exact;
+  for (const auto& v : polytope.vertices) {
+    if (is_double(v)) exact.insert(nearest_corner(v));
+  }
+  if (exact.size() == polytope.vertices.size()) return {exact.begin(), exact.end()};
+  if (polytope.vertices.size() <= most_for_hull) {
+    const RationalPoint center = center_of(polytope);
+    for (const unsigned exponent :
+         {48u, 44u, 40u, 36u}) {  // beyond the vertices, by so much of the way from the middle
+      std::set<Point> moved;
+      for (const auto& v : polytope.vertices) {
+        moved.insert(nearest_corner(between(v, center, mpq_class(-power_of_half(exponent)))));
+      }
+      std::vector<Point> points(moved.begin(), moved.end());
+      if (hull_holds(points, polytope)) return points;
+    }
+  }
+  std::set<Point> corners;
+  for (const auto& v : polytope.vertices) {
+    for (const auto& corner : box_around(v)) corners.insert(corner);
+  }
+  return {corners.begin(), corners.end()};
+}
+
+}  // namespace clues::scene

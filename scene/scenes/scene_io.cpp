@@ -1,0 +1,49 @@
+#include "scene/scenes/scene_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "scene/formats/file_bytes.h"
+#include "scene/gltf/gltf_reader.h"
+#include "scene/levels/bsp_scene.h"
+#include "scene/mesh_io.h"
+#include "scene/messages/error.h"
+
+namespace clues::scene {
+namespace {
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
+}  // namespace
+
+FlaggedMesh read_scene(const std::filesystem::path& path) {
+  const std::string extension = lower_case(path.extension().string()), file = path.string();
+  if (extension == ".bsp") return scene_of_level(parse_bsp(read_file_bytes(path), file)).scene;
+  if (extension != ".gltf" && extension != ".glb") {
+    FlaggedMesh scene;
+    scene.mesh = read_mesh(path);
+    return scene;
+  }
+  auto scene = read_gltf(read_file_bytes(path), file,
+                         [&](const std::string& relative) { return read_file_bytes(path.parent_path() / relative); });
+  if (scene.mesh.triangles.empty())
+    throw Error(ErrorCode::malformed, file + ": no triangles; a scene needs at least one face");
+  return scene;
+}
+
+TriangleMesh read_plain_scene(const std::filesystem::path& path) {
+  auto scene = read_scene(path);
+  if (scene.is_plain()) return std::move(scene.mesh);
+  const auto without = [](const std::vector<std::uint8_t>& flags) { return std::count(flags.begin(), flags.end(), 0); };
+  throw Error(ErrorCode::unsupported, fmt::format("{}: {} triangles do not block and {} do not count (glass, curves, "
+                                                  "hulls); only `clues map` and `clues check` take such scenes",
+                                                  path.string(), without(scene.blocks), without(scene.counts)));
+}
+
+}  // namespace clues::scene

@@ -1,0 +1,138 @@
+// Levels and glTF files on the command line.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "scene/formats/file_bytes.h"
+#include "scene/levels/bsp_scene.h"
+#include "scene/result.h"
+#include "tests/app/program.h"
+#include "tests/levels/made_gltf.h"
+#include "tests/levels/made_level.h"
+
+namespace clues::tests {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(LevelCommand, SaysWhatALevelHolds) {
+  const TestFolder folder;
+  folder.write("made.bsp", two_rooms().bytes());
+  const auto ran = run_clues({"level", "made.bsp", "--json"}, folder.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  EXPECT_EQ(json["format"], "clues-level/1");
+  EXPECT_EQ(json["planar_faces"], 3);
+  EXPECT_EQ(json["opaque_faces"], 2);
+  EXPECT_EQ(json["patches"], 1);
+  EXPECT_EQ(json["hulls"], 2);
+  EXPECT_EQ(json["triangles"], 4 + 2 + 32 + 2 + 24);
+  EXPECT_EQ(json["counting_triangles"], 40);
+  EXPECT_EQ(json["blocking_triangles"], 28);
+  EXPECT_EQ(json["cells"], 2);
+  EXPECT_THAT(run_clues({"level", "made.bsp"}, folder.path()).out, HasSubstr("Bezier patches drawn"));
+}
+
+// From the level to a verdict on what it was shipped with, as docs/real-levels.md says.
+TEST(LevelCommand, LeadsToAVerdictOnTheShippedLists) {
+  const TestFolder folder;
+  folder.write("made.bsp", two_rooms().bytes());
+  ASSERT_EQ(run_clues({"level", "made.bsp", "--export", "out"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(run_clues({"level", "made.bsp", "--export", "out"}, folder.path()).exit_code, 2)
+      << "not over what is there";
+  EXPECT_EQ(read_all(folder.path() / "out/cells.txt"), "# leaf cluster\n0 0\n1 1\n");
+  // Room 0 was shipped without the floor of room 1, which is seen through the glass.
+  const auto judged =
+      run_clues({"check", "made.bsp", "--cell", "out/cells/0.in.obj", "--pvs", "out/pvs/0.txt"}, folder.path());
+  EXPECT_EQ(judged.exit_code, 1) << judged.err;
+  EXPECT_THAT(judged.out, HasSubstr("verdict: unsound"));
+  for (const char* kernel : {"fast", "exact"}) {
+    const auto mapped = run_clues(
+        {"map", "made.bsp", "--cell", "out/cells/0.out.obj", "--kernel", kernel, "-o", "0.pvs"}, folder.path());
+    ASSERT_EQ(mapped.exit_code, 0) << mapped.err;
+    const auto again =
+        run_clues({"check", "made.bsp", "--cell", "out/cells/0.in.obj", "--pvs", "0.pvs"}, folder.path());
+    EXPECT_EQ(again.exit_code, 0) << kernel << again.out << again.err;
+  }
+}
+
+TEST(LevelCommand, WhatTakesEverythingForOpaqueRefusesGlass) {
+  const TestFolder folder;
+  auto glass = one_triangle();
+  glass.add("materials", {{"alphaMode", "BLEND"}});
+  glass.json["meshes"][0]["primitives"][0]["material"] = 0;
+  folder.write("glass.glb", glass.glb());
+  folder.write("plain.gltf", one_triangle().text());
+  const std::string cell = "box:0,0,1,1,1,2";
+  const auto refused = run_clues({"precision", "glass.glb", "--cell", cell}, folder.path());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("1 triangles do not block"));
+  for (const auto& option : std::vector<std::vector<std::string>>{
+           {"--map"}, {"--umbra", "u.json"}, {"--mode", "solid"}, {"--refine", "cell"}}) {
+    std::vector<std::string> words{"map", "glass.glb", "--cell", cell};
+    words.insert(words.end(), option.begin(), option.end());
+    const auto map = run_clues(words, folder.path());
+    EXPECT_EQ(map.exit_code, 2) << option[0];
+    EXPECT_THAT(map.err, HasSubstr("leave out")) << option[0];
+  }
+  EXPECT_EQ(run_clues({"map", "glass.glb", "--cell", cell, "-o", "a.pvs"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(read_all(folder.path() / "a.pvs"), "0\n");
+  EXPECT_EQ(run_clues({"map", "plain.gltf", "--cell", cell, "--map", "-o", "b.clues.json"}, folder.path()).exit_code,
+            0);
+}
+
+TEST(LevelCommand, RefusesWhatIsNoLevelInOneLine) {
+  const TestFolder folder;
+  auto made = two_rooms();
+  made.put_word(nodes_lump, 1, 0);
+  folder.write("bad.bsp", made.bytes());
+  for (const auto& words : std::vector<std::vector<std::string>>{{"level", "bad.bsp", "--export", "out"},
+                                                                 {"map", "bad.bsp", "--cell", "box:0,0,0,1,1,1"}}) {
+    const auto ran = run_clues(words, folder.path());
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("bad.bsp: node 0: the BSP tree reaches it twice"));
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1);
+  }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"bad.bsp"});
+}
+
+// The levels of OpenArena, which nobody here made: Debian's package openarena-081-maps, or what CLUES_LEVELS names.
+TEST(RealLevelsLong, AreAllRead) {
+  const TestFolder folder;
+  const char* given = std::getenv("CLUES_LEVELS");
+  std::filesystem::path levels = given != nullptr ? given : "";
+  if (given == nullptr) {
+    const std::filesystem::path package = "/usr/share/games/openarena/baseoa/pak1-maps.pk3";
+    if (!std::filesystem::exists(package))
+      GTEST_SKIP() << package << " is not there: install openarena-081-maps, or set CLUES_LEVELS";
+    const std::string command =
+        std::string(PYTHON) + " -m zipfile -e " + package.string() + " " + folder.path().string();
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    levels = folder.path() / "maps";
+  }
+  int read = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(levels)) {
+    if (entry.path().extension() != ".bsp") continue;
+    SCOPED_TRACE(entry.path().string());
+    const auto level = scene::parse_bsp(scene::read_file_bytes(entry.path()), entry.path().string());
+    const auto scene = scene::scene_of_level(level);
+    const auto cells = scene::cells_of_level(level);
+    EXPECT_GT(scene.hulls, 10U);
+    EXPECT_GE(cells.size(), level.visibility.clusters);
+    for (const auto& cell : cells) {
+      EXPECT_FALSE(cell.outer.empty());
+      EXPECT_LT(cell.cluster, level.visibility.clusters);
+    }
+    for (std::uint32_t c = 0; c < level.visibility.clusters; c += 97) {
+      for (const auto t : scene::shipped_set(level, scene, c)) EXPECT_TRUE(scene.scene.counting(t));
+    }
+    ++read;
+  }
+  EXPECT_EQ(read, 50);
+}
+
+}  // namespace
+}  // namespace clues::tests
