@@ -20,15 +20,15 @@ MAY_SEE = {
 }
 # Of each folder, in the order in which a reader meets them; "." is the folder itself.
 CHAPTERS = {
-    "scene": ["messages", "mesh", "formats", "files", "."],
-    "exact": [".", "cell", "complex", "sight"],
+    "scene": ["messages", "mesh", "formats", "files", ".", "motion"],
+    "exact": [".", "cell", "complex", "sight", "motion"],
     "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
                   "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",
-                  "visibility/refinement"],
+                  "visibility/refinement", "motion"],
     "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
                  "visibility/refinement"],
-    "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "vectors", "conform"],
+    "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "vectors", "conform", "motion"],
     "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets"],
     "app": [".", "demo", "commands"],
 }
