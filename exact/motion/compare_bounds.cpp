@@ -94,8 +94,8 @@ int compare_edge_bound(const scene::DepthSample& a, const scene::DepthSample& b,
     case EdgeBranch::cone_side: {
       // sin(phi) (kappa y_perp - y_par) against s, times |D|.
       const mpq_class& direction = a.is_direction ? edge.a_square : edge.b_square;
-      return sign_of_sum({root_of(kappa, edge.area), as_root(-edge.p),
-                          root_of(-1, mpq_class(s_squared * direction * cosecant))});
+      return sign_of_sum(
+          {root_of(kappa, edge.area), as_root(-edge.p), root_of(-1, mpq_class(s_squared * direction * cosecant))});
     }
     case EdgeBranch::cone_apex:
       return cmp(a.is_direction ? edge.b_square : edge.a_square, s_squared);
