@@ -27,9 +27,10 @@ CHAPTERS = {
                   "visibility/refinement", "motion"],
     "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
-                 "visibility/refinement"],
+                 "visibility/refinement", "motion"],
     "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "vectors", "conform", "motion"],
-    "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets"],
+    "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets",
+             "motion"],
     "app": [".", "demo", "commands"],
 }
 NO_CHAPTERS = {"validate/adapters"}  # to be copied; they include nothing of ours

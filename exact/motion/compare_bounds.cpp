@@ -3,26 +3,14 @@
 // under phi), or a cone when one end is a direction.
 #include "exact/motion/compare_bounds.h"
 
+#include "exact/motion/rational_vector.h"
+
 namespace clues::exact {
 namespace {
 
-using Vector = std::array<mpq_class, 3>;
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-mpq_class dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-// Not scaled: distances matter here.
-Vector seen(const scene::DepthSample& sample, const ExactViewpoint& v) {
-  const Vector at{mpq_class(sample.at[0]), mpq_class(sample.at[1]), mpq_class(sample.at[2])};
-  return sample.is_direction ? at : minus(at, v);
-}
-
 // What the comparison and the name of the branch both need.
 struct Edge {
-  Vector a, b;
+  RationalVector a, b;
   mpq_class a_square, b_square, p, area;  // area = |a x b|^2
   EdgeBranch branch = EdgeBranch::violated;
 
@@ -57,19 +45,11 @@ struct Edge {
 
 int compare_facing_bound(const scene::DepthSample& a, const scene::DepthSample& b, const scene::DepthSample& c,
                          const ExactViewpoint& v, const mpq_class& s_squared) {
-  const Vector x = seen(a, v), y = seen(b, v), z = seen(c, v);
-  const Vector yz = cross(y, z), zx = cross(z, x), xy = cross(x, y);
-  const mpq_class height = dot(x, yz);
-  if (sgn(height) <= 0) return -sgn(s_squared);
-  Vector gradient{};  // of the determinant, but for its sign
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!a.is_direction) gradient[i] += yz[i];
-    if (!b.is_direction) gradient[i] += zx[i];
-    if (!c.is_direction) gradient[i] += xy[i];
-  }
-  const mpq_class steepness = dot(gradient, gradient);
+  const auto height = affine_determinant({&a, &b, &c}, v);
+  if (sgn(height.value) <= 0) return -sgn(s_squared);
+  const mpq_class steepness = dot(height.gradient, height.gradient);
   if (sgn(steepness) == 0) return 1;
-  return cmp(mpq_class(height * height), mpq_class(s_squared * steepness));
+  return cmp(mpq_class(height.value * height.value), mpq_class(s_squared * steepness));
 }
 
 int compare_edge_bound(const scene::DepthSample& a, const scene::DepthSample& b, const ExactViewpoint& v,
