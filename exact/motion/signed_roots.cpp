@@ -33,6 +33,11 @@ int sign_of_sum(const SignedRoot& a, const SignedRoot& b, const SignedRoot& c) {
 // With X = a + b and Y = c + d of opposite signs, |X| against |Y| is X^2 - Y^2 = A + B, where A = a^2 + b^2 - c^2 - d^2 is a number and
 // B = 2 ab - 2 cd two roots; where these are opposite, A^2 - B^2 is a number and one root, 8 abcd.
 int sign_of_sum(const SignedRoot& a, const SignedRoot& b, const SignedRoot& c, const SignedRoot& d) {
+  for (const auto* root : {&a, &b, &c, &d}) {
+    if (root->sign != 0 || sgn(root->square) == 0) continue;
+    const auto plain = [](const SignedRoot& r) { return r.sign == 0 ? SignedRoot{} : r; };
+    return sign_of_sum(plain(a), plain(b), plain(c), plain(d));
+  }
   const int x = sign_of_sum(a, b);
   const int y = sign_of_sum(c, d);
   if (y == 0 || x == y) return x;

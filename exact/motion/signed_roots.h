@@ -8,7 +8,7 @@
 
 namespace clues::exact {
 
-// sign * sqrt(square); square >= 0, and sign is -1, 0 or 1.
+// sign * sqrt(square); square >= 0, and sign is -1, 0 (then the square does not matter) or 1.
 struct SignedRoot {
   int sign = 0;
   mpz_class square;
