@@ -57,6 +57,11 @@ class Prover {
     return square.inf() > CGAL::square(Interval(radius_)).sup();
   }
 
+  bool in_ball(const scene::MotionPoint& v) const {
+    const Vector away = minus({v[0], v[1], v[2]}, center_);
+    return dot(away, away).sup() <= CGAL::square(radius_).inf();
+  }
+
   // Whether the inequality shows it; `fails` when it fails at the middle already.
   bool shown(const Cube& cube, bool& fails) const {
     return claim_.constraint == scene::MotionConstraint::separation ? separated(cube, fails) : delaunay(cube, fails);
@@ -117,10 +122,18 @@ class Prover {
 
   // Of four points: differences against d, so that small quadrangles do not drown in rounding.
   void prepare_delaunay() {
+    const Row x = rows(center_);
+    for (std::size_t i = 0; i < 4; ++i) nearest_[i] = (length(x[i]) - (moves(i) ? radius_ : Interval(0))).inf();
     if (!all_points_) return;
     for (std::size_t i = 0; i < 3; ++i) e_[i] = minus(at_[i], at_[3]);
     for (std::size_t i = 0; i < 3; ++i) k_[i] = cross(e_[(i + 1) % 3], e_[(i + 2) % 3]);
     volume_ = dot(e_[0], k_[0]);
+  }
+
+  // From the part of a cube that is in the ball.
+  Interval length_in_ball(const Row& x, std::size_t i) const {
+    const Interval l = length(x[i]);
+    return l.inf() < nearest_[i] && nearest_[i] <= l.sup() ? Interval(nearest_[i], l.sup()) : l;
   }
 
   struct Value {
@@ -130,11 +143,11 @@ class Prover {
 
   Value of_four_points(const Vector& v) const {
     const Row x = rows(v);
-    const Interval l_d = length(x[3]);
+    const Interval l_d = length_in_ball(x, 3);
     const Vector u_d = times(Interval(1) / l_d, x[3]);
     Value out{volume_ * l_d, times(-volume_, u_d)};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Interval l = length(x[i]);
+      const Interval l = length_in_ball(x, i);
       const Interval difference = dot(e_[i], plus(x[i], x[3])) / (l + l_d);              // l_i - l_d
       const Vector turn = times(Interval(1) / l, minus(e_[i], times(difference, u_d)));  // u_i - u_d
       const Interval height = -dot(k_[i], x[3]);
@@ -151,7 +164,7 @@ class Prover {
       const std::size_t j = i == 0 ? 1 : 0, k = i <= 1 ? 2 : 1, m = i <= 2 ? 3 : 2;
       const Interval sign = i % 2 == 0 ? -1 : 1;
       const Interval factor = sign * determinant(x, j, k, m);
-      const Interval l = length(x[i]);
+      const Interval l = length_in_ball(x, i);
       out.g += factor * l;
       out.gradient = plus(out.gradient, times(sign * l, slope(x, j, k, m)));
       if (moves(i)) out.gradient = minus(out.gradient, times(factor / l, x[i]));
@@ -162,14 +175,18 @@ class Prover {
   bool delaunay(const Cube& cube, bool& fails) const {
     const Vector middle{cube.middle[0], cube.middle[1], cube.middle[2]};
     const Vector whole = box(cube);
-    for (const auto& row : rows(whole)) {
-      if (dot(row, row).inf() <= 0) return false;  // a sample may be in the cube: no directions to speak of
+    const Row x = rows(whole);
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (length_in_ball(x, i).inf() <= 0) return false;  // a sample may be in the cube: no directions to speak of
     }
     const auto value_at = [&](const Vector& v) { return all_points_ ? of_four_points(v) : of_any_samples(v); };
     const Interval here = value_at(middle).g;
     fails = here.sup() < 0;
     const Vector gradient = value_at(whole).gradient;
     if ((here - sum_of_sizes(gradient) * cube.half).inf() >= 0) return true;
+    for (const auto& part : gradient) {
+      if (!std::isfinite(part.inf()) || !std::isfinite(part.sup())) return false;
+    }
     Vector main, rest;
     for (std::size_t i = 0; i < 3; ++i) {
       main[i] = gradient[i].inf() / 2 + gradient[i].sup() / 2;
@@ -188,12 +205,48 @@ class Prover {
   bool all_points_ = true;
   Interval det_, to_p_, normal_, growth_, sine_, volume_;
   Vector slope_;
+  std::array<double, 4> nearest_{};
   std::array<Vector, 3> e_, k_;
 };
 
+// x * 2^exponent where that is exact; otherwise `exact` becomes false.
+double scaled(double x, int exponent, bool& exact) {
+  const double out = std::ldexp(x, exponent);
+  exact = exact && std::ldexp(out, -exponent) == x;
+  return out;
+}
+
+// The same claim in other units, a power of two times the given ones, so that neither large nor small scenes leave the range of doubles.
+// Directions have units of their own. False where that would round.
+bool to_own_units(BallClaim& claim, double& radius, std::array<scene::DepthSample, 4>& samples, int& exponent) {
+  const auto size_of = [](const scene::MotionPoint& p) {
+    return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  };
+  double size = std::max(size_of(claim.center), radius);
+  for (const auto* sample : claim.samples) {
+    if (sample && !sample->is_direction) size = std::max(size, size_of(sample->at));
+  }
+  exponent = -std::ilogb(size);
+  bool exact = true;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!claim.samples[i]) continue;
+    samples[i] = *claim.samples[i];
+    const int own = samples[i].is_direction ? -std::ilogb(size_of(samples[i].at)) : exponent;
+    for (double& x : samples[i].at) x = scaled(x, own, exact);
+    claim.samples[i] = &samples[i];
+  }
+  for (double& x : claim.center) x = scaled(x, exponent, exact);
+  radius = scaled(radius, exponent, exact);
+  return exact;
+}
+
 }  // namespace
 
-BallProof prove_in_ball(const BallClaim& claim, double radius, std::uint64_t most_cubes) {
+BallProof prove_in_ball(const BallClaim& given, double radius, std::uint64_t most_cubes) {
+  BallClaim claim = given;
+  std::array<scene::DepthSample, 4> samples;
+  int exponent = 0;
+  if (!to_own_units(claim, radius, samples, exponent)) return {};
   const Interval::Protector rounding;
   const Prover prover(claim, radius);
   BallProof out;
@@ -205,9 +258,9 @@ BallProof prove_in_ball(const BallClaim& claim, double radius, std::uint64_t mos
     if (++out.cubes > most_cubes) return out;
     bool fails = false;
     if (prover.shown(cube, fails)) continue;
-    if (fails) {
+    if (fails && prover.in_ball(cube.middle)) {
       out.suspect = true;
-      out.at = cube.middle;
+      for (std::size_t i = 0; i < 3; ++i) out.at[i] = std::ldexp(cube.middle[i], -exponent);
       return out;
     }
     // A little more than half, because middles are rounded: the eight cover the cube.
