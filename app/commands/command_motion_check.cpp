@@ -1,6 +1,7 @@
-// clues motion check, clues motion verify: the judges of motion bounds and of walks (D28 to D30).
+// clues motion check, verify, conform, iut: the judges of motion bounds and of walks (D28 to D30), and the suite's cases put to a program.
 #include <fmt/format.h>
 
+#include <iostream>
 #include <memory>
 #include <string>
 
@@ -11,8 +12,10 @@
 #include "app/progress.h"
 #include "scene/formats/number.h"
 #include "scene/messages/error.h"
+#include "validate/conform/program_subject.h"
 #include "validate/motion/check_walk.h"
 #include "validate/motion/judge_bounds.h"
+#include "validate/motion/motion_conform.h"
 
 namespace clues::app {
 namespace {
@@ -27,6 +30,14 @@ struct BoundsRequest {
 struct WalkRequest {
   std::string walk;
   JsonOutput json;
+};
+
+struct ConformRequest {
+  std::string program, suite = "vectors/motion";
+  JsonOutput json;
+  validate::MotionConformOptions options;
+  int seconds = 10;
+  bool all = false;
 };
 
 scene::MotionPoint parse_viewpoint(const std::string& text) {
@@ -104,6 +115,23 @@ int run_verify(const WalkRequest& request) {
   return report.sound() ? fine : findings;
 }
 
+int run_conform(const ConformRequest& request) {
+  if (!request.json.file().empty()) require_writable_parent(request.json.file());
+  require_outside(request.json.file(), request.suite);
+  auto options = request.options;
+  options.time = std::chrono::seconds(request.seconds);
+  const auto report = validate::conform_motion(validate::read_motion_suite(request.suite),
+                                               validate::split_command(request.program), options);
+  if (report.results.empty()) {
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       request.suite + ": no case matches \"" + options.glob + "\"; nothing was asked");
+  }
+  if (request.json.asked()) request.json.write(validate::to_json_text(report));
+  if (!request.json.on_stdout()) print(validate::to_text(report, request.all));
+  if (report.unsound != 0 || report.failed != 0) return findings;
+  return report.undecided != 0 ? not_everything_ran : fine;
+}
+
 void add_check(CLI::App& motion, int& status) {
   auto* command = motion.add_subcommand("check", "Judge motion bounds, whoever computed them: one claim a triangle");
   auto request = std::make_shared<BoundsRequest>();
@@ -162,11 +190,53 @@ void add_verify(CLI::App& motion, int& status) {
   command->callback([request, &status] { status = run_verify(*request); });
 }
 
+void add_conform(CLI::App& motion, int& status) {
+  auto* command = motion.add_subcommand("conform", "Put the cases about motion bounds to a program");
+  auto request = std::make_shared<ConformRequest>();
+  command->add_option("--impl", request->program, "The program and its arguments, quoted as for the shell")
+      ->type_name("CMD")
+      ->required();
+  command->add_option("--suite", request->suite, "The cases (default: vectors/motion)")->type_name("DIR");
+  command->add_option("--case", request->options.glob, "Only the cases whose id matches (* and ?)")->type_name("GLOB");
+  command->add_option("--time", request->seconds, "Seconds for one answer")->type_name("S")->check(CLI::Range(1, 3600));
+  command->add_flag("-v,--verbose", request->all, "List the cases that are sound, too");
+  request->json.add_to(*command, "The report");
+  command->footer(
+      "DESCRIPTION\n"
+      "  The program reads one line of JSON a case (samples, triangles, thresholds, viewpoint) and answers with one "
+      "line:\n"
+      "  a bound for each triangle. The answers are judged as by `clues motion check`; tightness is what part of the "
+      "known\n"
+      "  sound bound is claimed. docs/motion.md has the lines, and a program in Python that can be copied.\n\n"
+      "EXAMPLES\n"
+      "  clues motion conform --impl 'clues motion iut'\n"
+      "  clues motion conform --impl 'clues motion iut' --case 'edge-*' -v\n\n"
+      "EXIT CODES\n"
+      "  0 all sound   1 a bound is refuted, or an answer is missing   2 bad usage or input   3 a bound stays "
+      "undecided");
+  command->callback([request, &status] { status = run_conform(*request); });
+}
+
+void add_iut(CLI::App& motion, int& status) {
+  auto* command = motion.add_subcommand("iut", "Answer the questions of `clues motion conform` with exact bounds");
+  command->footer(
+      "DESCRIPTION\n"
+      "  Reads questions from standard input, one a line, and answers each with the bounds of the reference.\n\n"
+      "EXAMPLES\n"
+      "  clues motion conform --impl 'clues motion iut'");
+  command->callback([&status] {
+    validate::answer_motion_questions(std::cin, std::cout);
+    status = fine;
+  });
+}
+
 }  // namespace
 
 void add_motion_check(CLI::App& motion, int& status) {
   add_check(motion, status);
   add_verify(motion, status);
+  add_conform(motion, status);
+  add_iut(motion, status);
 }
 
 }  // namespace clues::app
