@@ -114,6 +114,7 @@ int main(int argc, char** argv) {
   app::add_lint_command(program, status);
   app::add_fuzz_commands(program, status);
   app::add_report_command(program, status);
+  app::add_motion_command(program, status);
   app::add_demo_command(program, status);
   if (argc <= 1) return list_commands(program);
   std::vector<std::string> words(argv + 1, argv + argc);

@@ -15,8 +15,8 @@
 //                    For a unit vector w, c = u_k.w, b = w - c u_k, h = b.u_i, a = l_i / l_k:
 //                    l_k mu'' = (1 - (c cos t + h)^2) / a - (1 - c^2)(2 - a cos t) + 2 c a h
 //                             = (1-c^2) ((1-a)^2/a - a (1 - cos t)) + c^2 sin^2 t / a + 2 c h ((a-1)(a+1) + 1 - cos t) / a - h^2 / a
-//                    with |h| <= |b| sin t, 2 |c| |b| <= 1, c^2 + |b|^2 = 1:
-//                    H = ((T^2 + S^2 + S (T (2 + T) + V)) A + (1 + T) V) / (l_k - s),  A = (l_k + s) / (l_i - s) >= 1/a.
+//                    with |h| <= |b| sin t, 2 |c| |b| <= 1, c^2 + |b|^2 = 1; what has 1 - c^2 or c^2 is a mean of its three values, two of one sign:
+//                    H = (max(T^2 A, S^2 A + (1 + T) V) + S (T (2 + T) + V) A) / (l_k - s),  A = (l_k + s) / (l_i - s) >= 1/a.
 //   k a direction:   mu = l_i - u_k.x_i, its gradient u_k - u_i, M = 1.0353 S; mu'' = (1 - (u_i.w)^2) / l_i: H = 1 / (l_i - s).
 //   i a direction:   mu = l_i (1 - cos t) with l_i fixed: M = l_i S / (l_k - s), and u_k'' = -((1-c^2) u_k + 2 c b) / l_k^2: H = l_i (1 + S) / (l_k - s)^2.
 //   two directions:  0.
@@ -57,8 +57,9 @@ double remainder_of(const Term& t, double s) {
   if (t.i_moves && t.k_moves) {
     const double ratio = (t.difference + 1.0353 * sine * s) / lk;
     m = sine * ratio + versine;
-    h = ((ratio * ratio + sine * sine + sine * (ratio * (2 + ratio) + versine)) * ((t.lk * kUp + s) / li) +
-         (1 + ratio) * versine) /
+    const double a = (t.lk * kUp + s) / li;
+    h = (std::max(ratio * ratio * a, sine * sine * a + (1 + ratio) * versine) +
+         sine * (ratio * (2 + ratio) + versine) * a) /
         lk;
   } else if (t.i_moves) {
     m = 1.0353 * sine;
@@ -70,18 +71,20 @@ double remainder_of(const Term& t, double s) {
   return t.gradient * m + 0.5 * (t.cofactor + t.gradient * s) * h;
 }
 
-// `cross`: |x_i x x_k| as computed; the other numbers are rounded up.
-Term term_of(const Row& i, const Row& k, double cross, double cofactor_up, double gradient_up) {
-  Term t{i.moves, k.moves, i.length,    k.length,   cross + kCrossError * (i.length * k.length),
-         0,       0,       cofactor_up, gradient_up};
+// What both directions of a pair have in common.
+struct PairOf {
+  double cross, e, difference;
+};
+
+PairOf pair_of(const Row& i, const Row& k, const Vec& product) {
   const double error = 0x1p-50 * (i.length + k.length);
-  t.difference = std::fabs(i.length - k.length) + error;
+  PairOf p{norm(product) + kCrossError * (i.length * k.length), 0, std::fabs(i.length - k.length) + error};
   if (i.moves && k.moves) {
-    t.e = norm(i.x - k.x) + error;
+    p.e = norm(i.x - k.x) + error;
   } else if (i.moves || k.moves) {
-    t.e = (i.moves ? k.length : i.length) * kUp;
+    p.e = (i.moves ? k.length : i.length) * kUp;
   }
-  return t;
+  return p;
 }
 
 double remainder_of(const std::array<Term, 3>& terms, double s) {
@@ -137,19 +140,23 @@ double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
     if (r->moves) nearest = std::min(nearest, r->length);
   }
 
-  // The base with the least remainder for short ways is taken.
-  const std::array<std::array<const Vec*, 4>, 4> pair{
-      {{nullptr, &ab, &ac, &ad}, {&ab, nullptr, &bc, &bd}, {&ac, &bc, nullptr, &cd}, {&ad, &bd, &cd, nullptr}}};
+  // The base with the least remainder for short ways is taken. pairs: ab ac ad bc bd cd
+  const std::array<PairOf, 6> pairs{pair_of(a, b, ab), pair_of(a, c, ac), pair_of(a, d, ad),
+                                    pair_of(b, c, bc), pair_of(b, d, bd), pair_of(c, d, cd)};
+  constexpr std::array<std::array<std::size_t, 4>, 4> at{{{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
   const double most = std::min(value / slope, 0.5 * nearest), near = std::min(most, 0x1p-5 * nearest);
   std::array<Term, 3> terms{};
   double least = kInfinity;
   for (std::size_t k = 0; k < 4; ++k) {
     std::array<Term, 3> at_k{};
     bool acute = true;
-    for (std::size_t i = 0, at = 0; i < 4; ++i) {
+    for (std::size_t i = 0, n = 0; i < 4; ++i) {
       if (i == k) continue;
-      acute = acute && dot(rows[i]->x, rows[k]->x) > kCrossError * (rows[i]->length * rows[k]->length);
-      at_k[at++] = term_of(*rows[i], *rows[k], norm(*pair[i][k]), cofactor_up[i], gradient_up[i]);
+      const Row &p = *rows[i], &q = *rows[k];
+      const PairOf& pair = pairs[at[i][k]];
+      acute = acute && dot(p.x, q.x) > kCrossError * (p.length * q.length);
+      at_k[n++] = {p.moves, q.moves,         p.length,       q.length,      pair.cross,
+                   pair.e,  pair.difference, cofactor_up[i], gradient_up[i]};
     }
     const double remainder = acute ? remainder_of(at_k, near) : kInfinity;
     if (remainder < least) {
@@ -162,15 +169,13 @@ double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
   const auto root_for = [&](double remainder) {
     return 2 * value / (slope + std::sqrt(slope * slope + 4 * remainder * value));
   };
-  // Where the remainder of short ways ends the way already: its root is too near at most by what shorter ways have less of it.
-  double best = std::min(root_for(least), near), high = best < near ? near : most;
-  double trial = high == near ? std::min(1.2 * best, near) : most;
-  for (int round = 0; round < 12 && high > 1.1 * best; ++round) {
+  const double first = root_for(least);
+  double best = std::min(first, near), trial = std::min(first, most);
+  for (int round = 0; round < 5 && trial > 1.05 * best; ++round) {
     const double root = root_for(remainder_of(terms, trial));
     best = std::max(best, std::min(root, trial));
-    if (root < trial) high = trial;
-    if (root >= high) break;
-    trial = std::sqrt(best * high);
+    if (root >= trial) break;
+    trial = std::sqrt(trial * std::max(best, 0.25 * trial));
   }
   return best * kDown;
 }

@@ -168,6 +168,13 @@ void Walk::bounds_of_changed() {
   }
 }
 
+scene::DepthMesh Walk::mesh_in_places() const {
+  scene::DepthMesh out;
+  out.samples = mesh().samples();
+  for (const Face& f : mesh().faces()) out.triangles.push_back(f.corner);
+  return out;
+}
+
 std::vector<double> Walk::bounds_left() const {
   std::vector<double> left;
   const auto left_of = [&](double key) {

@@ -59,6 +59,8 @@ class Walk {
 
   const SphereMesh& mesh() const { return triangulation_->mesh(); }
   scene::DepthMesh depth_mesh() const { return mesh().to_depth_mesh(); }
+  // The same with places of their own for all frames: samples that are gone are in no triangle, triangles that are gone have corners kNone.
+  scene::DepthMesh mesh_in_places() const;
   // The bound of each triangle of depth_mesh() from where it was computed, less the way since: no violation is nearer to the viewpoint. Infinite where none
   // can be; 0 without bounds.
   std::vector<double> bounds_left() const;
