@@ -110,7 +110,9 @@ std::vector<std::string> flaws_of(const MotionVector& test) {
     if (!(bounds[i] <= test.sound[i])) {
       out.push_back(fmt::format("sound: the reference claims more for triangle {}: {}", i, bounds[i]));
     }
-    if (judged(test, i, test.sound[i]).verdict != BoundVerdict::proved) {
+    // Where the cubes are too few or doubles too coarse for the judge, the proof of the reference (T8, T9) is left.
+    const auto verdict = judged(test, i, test.sound[i]).verdict;
+    if (verdict == BoundVerdict::refuted || (verdict == BoundVerdict::undecided && test.sound[i] > bounds[i])) {
       out.push_back(fmt::format("sound: {} of triangle {} is not proved", test.sound[i], i));
     }
     if (std::isinf(test.unsound[i]) && std::isinf(test.sound[i])) continue;
@@ -127,16 +129,13 @@ void fill_in(MotionVector& test) {
   test.unsound.clear();
   for (std::size_t i = 0; i < test.sound.size(); ++i) {
     const double sound = test.sound[i];
-    // What the judge does not prove is made smaller until it does; what it does not refute, larger.
-    for (int k = 0; k < 20 && judged(test, i, test.sound[i]).verdict != BoundVerdict::proved; ++k) {
-      test.sound[i] *= 1 - std::ldexp(1.0, k - 40);
-    }
     double unsound = infinite;
     if (sound == 0 && judged(test, i, std::numeric_limits<double>::denorm_min()).verdict == BoundVerdict::refuted) {
       unsound = std::numeric_limits<double>::denorm_min();
     }
-    for (int k = -52; k <= 20 && std::isinf(unsound) && std::isfinite(sound); ++k) {
-      const double more = (sound == 0 ? 1 : sound) * (1 + std::ldexp(1.0, k));
+    // Beyond the bound by more and more; where nothing is left of it, from 2^-60 on.
+    for (int k = sound == 0 ? -60 : -52; k <= 20 && std::isinf(unsound) && std::isfinite(sound); ++k) {
+      const double more = sound == 0 ? std::ldexp(1.0, k) : sound * (1 + std::ldexp(1.0, k));
       if (judged(test, i, more).verdict == BoundVerdict::refuted) unsound = more;
     }
     test.unsound.push_back(unsound);

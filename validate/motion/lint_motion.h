@@ -1,5 +1,6 @@
 // `clues lint` of vectors/motion: every expectation is proved anew. Violations by the reference and by the judge's own loop; `exact` by
-// comparison; `sound` must be proved and `unsound` refuted by the judge of bounds; the reference must not claim more than `sound`.
+// comparison; `sound` must be proved by the judge of bounds, or be what the reference proves while the judge cannot tell; `unsound` must be refuted; the
+// reference must not claim more than `sound`.
 #pragma once
 
 #include <cstdint>
