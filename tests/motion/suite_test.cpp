@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -25,8 +26,13 @@ const std::vector<MotionVector>& suite() {
   return cases;
 }
 
-std::vector<double> reference_bounds(const MotionVector& test) {
-  return reference::motion_bounds(test.mesh, test.thresholds, exact::exact_viewpoint(test.viewpoint));
+const std::vector<double>& reference_bounds(const MotionVector& test) {
+  static std::map<std::string, std::vector<double>> known;
+  auto& bounds = known[test.id];
+  if (bounds.empty()) {
+    bounds = reference::motion_bounds(test.mesh, test.thresholds, exact::exact_viewpoint(test.viewpoint));
+  }
+  return bounds;
 }
 
 TEST(MotionSuite, IsProved) {
@@ -93,12 +99,12 @@ TEST(MotionSuite, WrongExpectationsAreFound) {
   test.exact[0].square = "25/63";
   EXPECT_EQ(validate::flaws_of(test).size(), 1U);
   test = find("facing-plane-at-distance-three");
-  test.sound[0] = std::nextafter(3.0, 4.0);
+  test.sound[0] = test.unsound[0];
   EXPECT_FALSE(validate::flaws_of(test).empty());
   test.sound[0] = 2.5;  // the reference claims more
   EXPECT_FALSE(validate::flaws_of(test).empty());
   test = find("facing-plane-at-distance-three");
-  test.unsound[0] = 3;
+  test.unsound[0] = test.sound[0];
   EXPECT_FALSE(validate::flaws_of(test).empty());
   test = find("delaunay-flip");
   test.violated.pop_back();
