@@ -135,6 +135,24 @@ TEST(JudgeOfBounds, RefutesAFacingTestWithEpsilon) {
   EXPECT_EQ(judged(test, {5e-324}).refuted, 1);
 }
 
+// Coordinates and claims at the ends of what doubles can hold: squares overflow, or are 0.
+TEST(JudgeOfBounds, HugeAndTinyNumbers) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  for (const double size : {1e300, 1e-300}) {
+    const fuzz::MotionCase test{
+        {{{{0, 0, 3 * size}}, {{size, 0, 3 * size}}, {{0, size, 3 * size}}, {{2 * size, 2 * size, 3 * size}}},
+         {{0, 1, 2}, {3, 2, 1}}},
+        {0, 0, 0},
+        {2000, 1e-9, true}};
+    const auto bounds = reference_bounds(test);
+    EXPECT_GT(bounds[0], 0);
+    EXPECT_EQ(judged(test, bounds).refuted, 0);
+    for (const double claim : {4 * size, 1.7e308, infinite})
+      EXPECT_EQ(judged(test, {claim, claim}).refuted, 2) << claim;
+    EXPECT_EQ(judged(test, {5e-324, 0}).refuted, 0);
+  }
+}
+
 TEST(JudgeOfBounds, DoesNotDependOnThreads) {
   const fuzz::MotionCase globe{fuzz::globe(2, 0.5, 2), {0.1, 0, 0}, {20, 1e-10, true}};
   auto claims = reference_bounds(globe);

@@ -52,6 +52,12 @@ class Search {
     return {};
   }
 
+  std::optional<ExactViewpoint> confirmed(const Point& w) const {
+    // Far from the range of doubles a search may lead anywhere.
+    if (!std::all_of(w.begin(), w.end(), [](double x) { return std::isfinite(x); })) return {};
+    return confirmed(RationalVector{mpq_class(w[0]), mpq_class(w[1]), mpq_class(w[2])});
+  }
+
   std::optional<ExactViewpoint> descent(const Point& start) const {
     const double size = std::isfinite(q_.radius) ? q_.radius : farthest();
     const double most = size * (1 - 0x1p-30);
@@ -60,7 +66,7 @@ class Search {
     double value = margin(w);
     for (int round = 0; round < 80 && step > size * 0x1p-24; ++round) {
       if (value < 0) {
-        if (auto found = confirmed({mpq_class(w[0]), mpq_class(w[1]), mpq_class(w[2])})) return found;
+        if (auto found = confirmed(w)) return found;
       }
       Point gradient{};
       const double delta = size * 0x1p-20;
@@ -85,7 +91,7 @@ class Search {
         step /= 2;
       }
     }
-    return confirmed({mpq_class(w[0]), mpq_class(w[1]), mpq_class(w[2])});
+    return confirmed(w);
   }
 
   double farthest() const {
@@ -245,15 +251,15 @@ std::optional<exact::ExactViewpoint> find_violation(const BallQuestion& question
                                                     const exact::ExactThresholds& thresholds,
                                                     const std::vector<scene::MotionPoint>& hints) {
   const Search search(question, thresholds);
-  if (auto found = search.confirmed({})) return found;
+  if (auto found = search.confirmed(RationalVector{})) return found;
   if (auto found = search.nearest_known()) return found;
   for (const auto& hint : hints) {
     const auto w = hint - question.center;
-    if (auto found = search.confirmed({mpq_class(w[0]), mpq_class(w[1]), mpq_class(w[2])})) return found;
+    if (auto found = search.confirmed(w)) return found;
     if (auto found = search.descent(w)) return found;
   }
   const double size = std::isfinite(question.radius) ? question.radius : search.farthest();
-  if (auto found = search.descent({})) return found;
+  if (auto found = search.descent(Point{})) return found;
   for (int x = -1; x <= 1; ++x) {
     for (int y = -1; y <= 1; ++y) {
       for (int z = -1; z <= 1; ++z) {
