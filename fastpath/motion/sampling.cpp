@@ -83,12 +83,15 @@ std::optional<DepthSample> Sampler::sample(const MotionPoint& at, const MotionPo
   const Segment segment{at, *end};
   const auto hit = queries_.first_hit(segment);
   if (!hit) return DepthSample{direction, true, false};
-  const Range where = crossing_parameter(segment, bvh_->corners(*hit));
-  const double t = 0.5 * (where.low + where.high);
+  // Where it crosses the plane, as doubles tell it; a triangle that is seen along its plane gives no sample.
+  const Corners corners = bvh_->corners(*hit);
+  const Filtered at_start = orient3d_value(corners[0], corners[1], corners[2], segment.a);
+  const Filtered at_end = orient3d_value(corners[0], corners[1], corners[2], segment.b);
+  const double here = std::fabs(at_start.value), there = std::fabs(at_end.value);
+  if (!at_start.in_range || !at_end.in_range || !(at_start.bound < 0x1p-20 * here)) return std::nullopt;
+  const double t = here / (here + there);
   DepthSample sample;
   for (std::size_t i = 0; i < 3; ++i) sample.at[i] = at[i] + t * ((*end)[i] - at[i]);
-  // A triangle that is seen along its plane has no crossing in doubles: no sample.
-  if (where.high - where.low > 0x1p-20 * where.high) return std::nullopt;
   return sample;
 }
 

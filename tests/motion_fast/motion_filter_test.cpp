@@ -48,7 +48,8 @@ std::array<DepthSample, 4> samples_of(fuzz::Random& random) {
   for (std::size_t k = 0; k < 4; ++k) {
     if (cocircular) {
       s[k].at = {circle[k][0] * angle, circle[k][1] * angle, 1};
-      for (double& x : s[k].at) x *= random.between(1, 4);
+      const double far = random.between(1, 4);
+      for (double& x : s[k].at) x *= far;
       if (random.one_in(4)) s[k].at[0] = std::nextafter(s[k].at[0], 10.0);
     } else {
       const MotionPoint off = direction(random);
