@@ -4,9 +4,15 @@
 // determinant stays, the entry of k becomes 0, and those of the others mu_i = l_i - u_k . x_i = l_i (1 - cos t_i), t_i the angle between i and k:
 //     G = sum over i != k of C_i mu_i,    C_i the cofactors of the last column: linear in the viewpoint, with gradient m_i.
 // C_i is of the order of the square of the angles and so is mu_i, and so are their changes: nothing is left to cancel, where the four
-// l_i of T9 cancel to the second order. For |w| <= s, by Taylor's theorem,
-//     G(v+w) >= G(v) - |g| s - Q(s) s^2,   Q(s) = sum_i ( |m_i| M_i(s) + (|C_i| + |m_i| s) H_i(s) / 2 ),
-// with g the gradient of G at v, and M_i, H_i bounds of the gradient and of the second derivatives of mu_i within s.
+// l_i of T9 cancel to the second order.
+//
+// THE COMMON FACTOR. For any vector q let m'_i = m_i - C_i q, the part of each gradient that is not a change of all C_i by one factor, and |w| <= s, |q| s < 1.
+// C_i(v+w) = C_i (1 + q.w) + m'_i.w, so that G(v+w) / (1 + q.w) has the sign of G and is
+//     F(w) = sum_i C_i mu_i(v+w) + sum_i (m'_i.w) mu_i(v+w) / (1 + q.w),
+// with F(0) = G(v) and the gradient g - G q there. By Taylor's theorem for the first sum, and |mu_i(v+w) - mu_i(v)| <= M_i s for the second,
+//     F(w) >= G - |g - G q| s - Q(s) s^2,   Q(s) = sum_i ( |C_i| H_i(s) / 2 + |m'_i| (M_i(s) + |q| mu_i(v)) / (1 - |q| s) ),
+// with g the gradient of G at v, and M_i, H_i bounds of the gradient and of the second derivatives of mu_i within s. Four samples of one plane have
+// m'_i = 0 for one q: C_i is then the distance of the plane times an area. q is the one that makes sum |m'_i|^2 least.
 //
 // M AND H. Let e = |p_i - p_k| be how fast x_i x x_k can change, N = |x_i x x_k| at v, S = (N + e s) / ((l_i - s)(l_k - s)): the sine of t_i stays at
 // most S, and t_i acute if it is at v and S < 1. Here S <= 1/2, so 1 - cos t_i <= V = 0.536 S^2 and |u_i - u_k| = 2 sin(t_i/2) <= 1.0353 S.
@@ -19,10 +25,11 @@
 //                    H = (max(T^2 A, S^2 A + (1 + T) V) + S (T (2 + T) + V) A) / (l_k - s),  A = (l_k + s) / (l_i - s) >= 1/a.
 //   k a direction:   mu = l_i - u_k.x_i, its gradient u_k - u_i, M = 1.0353 S; mu'' = (1 - (u_i.w)^2) / l_i: H = 1 / (l_i - s).
 //   i a direction:   mu = l_i (1 - cos t) with l_i fixed: M = l_i S / (l_k - s), and u_k'' = -((1-c^2) u_k + 2 c b) / l_k^2: H = l_i (1 + S) / (l_k - s)^2.
-//   two directions:  0.
+//   two directions:  0. mu_i(v) = l_i (1 - cos t_i) <= l_i V in all cases.
 // In S a row that is a direction has its length, N is |x_i x x_k|, and e is the length of the direction: how fast the product changes.
 //
-// THE BOUND. Q grows with s. So for any trial s0 the root r of G - |g| s - Q(s0) s^2 is sound if r <= s0, and s0 is if r > s0. Trials come down from G / |g|.
+// THE BOUND. Q grows with s. So for any trial s0 the root r of G - |g - G q| s - Q(s0) s^2 is sound if r <= s0, and s0 is if r > s0. Trials come down from
+// the root for less.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,12 +49,11 @@ struct Term {
   double li, lk;              // lengths; used below with their errors of 4u (kUp, kDown)
   double cross, e;            // N and how fast it changes, rounded up
   double difference;          // |l_i - l_k|, rounded up
-  double cofactor, gradient;  // |C_i|, |m_i|, rounded up
+  double cofactor, gradient;  // |C_i|, |m'_i|, rounded up
 };
 
-// |m_i| M_i + (|C_i| + |m_i| s) H_i / 2; infinite where the angle may be above 30 degrees, or the viewpoint may reach a sample.
-double remainder_of(const Term& t, double s) {
-  if (!t.i_moves && !t.k_moves) return 0;
+// |C_i| H_i / 2 + |m'_i| (M_i + |q| l_i V) / (1 - |q| s); infinite where the angle may be above 30 degrees, or the viewpoint may reach a sample.
+double remainder_of(const Term& t, double q, double s) {
   const double li = t.li * kDown - (t.i_moves ? s : 0), lk = t.lk * kDown - (t.k_moves ? s : 0);
   if (!(li > 0) || !(lk > 0)) return kInfinity;
   const double sine = (t.cross + t.e * s) / (li * lk);
@@ -64,11 +70,13 @@ double remainder_of(const Term& t, double s) {
   } else if (t.i_moves) {
     m = 1.0353 * sine;
     h = 1 / li;
-  } else {
+  } else if (t.k_moves) {
     m = t.li * sine / lk;
     h = t.li * (1 + sine) / (lk * lk);
   }
-  return t.gradient * m + 0.5 * (t.cofactor + t.gradient * s) * h;
+  const double rest = 1 - q * s;
+  if (!(rest > 0x1p-10)) return kInfinity;
+  return 0.5 * t.cofactor * h + t.gradient * (m + q * (t.li * kUp) * versine) / rest;
 }
 
 // What both directions of a pair have in common.
@@ -87,8 +95,8 @@ PairOf pair_of(const Row& i, const Row& k, const Vec& product) {
   return p;
 }
 
-double remainder_of(const std::array<Term, 3>& terms, double s) {
-  return ((remainder_of(terms[0], s) + remainder_of(terms[1], s)) + remainder_of(terms[2], s)) * kUp;
+double remainder_of(const std::array<Term, 3>& terms, double q, double s) {
+  return ((remainder_of(terms[0], q, s) + remainder_of(terms[1], q, s)) + remainder_of(terms[2], q, s)) * kUp;
 }
 
 }  // namespace
@@ -128,16 +136,39 @@ double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
     g = g + rows[i]->length * m[i];
     if (rows[i]->moves) g = g - (cofactor[i] / rows[i]->length) * rows[i]->x;
   }
-  const double slope = (norm(g) + 0x1p-46 * ((triple[0] + triple[1]) + (triple[2] + triple[3]))) * kUp;
+  double nearest = kInfinity;
+  for (const Row* r : rows) {
+    if (r->moves) nearest = std::min(nearest, r->length);
+  }
+  Vec q;
+  double squares = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    q = q + cofactor[i] * m[i];
+    squares += cofactor[i] * cofactor[i];
+  }
+  q = (squares > 0 ? 1 / squares : 0) * q;
+  // Any q is sound. Where gradients have little in common, or what they have is gone after a short way, none is better.
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec left = m[i] - cofactor[i] * q;
+    before += dot(m[i], m[i]);
+    after += dot(left, left);
+  }
+  if (!(after < 0.1 * before) || !(norm(q) * nearest < 4)) q = {};
+  const double q_up = norm(q) * kUp;
+  // In g - G q: G as computed is wrong by kDelaunayError at most, the product and the difference by 4u of their terms; in m' = m - C q likewise.
+  const double all = (la * lb) * (lc * ld);
+  const double computed = delaunay_value(a, b, c, d);
+  const double slope = (norm(g - computed * q) + 0x1p-46 * ((triple[0] + triple[1]) + (triple[2] + triple[3])) +
+                        q_up * (kDelaunayError * all + 0x1p-50 * std::fabs(computed))) *
+                           kUp +
+                       0x1p-50 * norm(g);
 
   std::array<double, 4> cofactor_up{}, gradient_up{};
   for (std::size_t i = 0; i < 4; ++i) {
     cofactor_up[i] = std::fabs(cofactor[i]) + kDeterminantError * triple[i];
-    gradient_up[i] = norm(m[i]) + 0x1p-49 * twice[i];
-  }
-  double nearest = kInfinity;
-  for (const Row* r : rows) {
-    if (r->moves) nearest = std::min(nearest, r->length);
+    gradient_up[i] = norm(m[i] - cofactor[i] * q) + 0x1p-48 * twice[i] +
+                     q_up * (kDeterminantError * triple[i] + 0x1p-50 * std::fabs(cofactor[i]));
   }
 
   // The base with the least remainder for short ways is taken. pairs: ab ac ad bc bd cd
@@ -152,13 +183,13 @@ double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
     bool acute = true;
     for (std::size_t i = 0, n = 0; i < 4; ++i) {
       if (i == k) continue;
-      const Row &p = *rows[i], &q = *rows[k];
+      const Row &p = *rows[i], &base = *rows[k];
       const PairOf& pair = pairs[at[i][k]];
-      acute = acute && dot(p.x, q.x) > kCrossError * (p.length * q.length);
-      at_k[n++] = {p.moves, q.moves,         p.length,       q.length,      pair.cross,
+      acute = acute && dot(p.x, base.x) > kCrossError * (p.length * base.length);
+      at_k[n++] = {p.moves, base.moves,      p.length,       base.length,   pair.cross,
                    pair.e,  pair.difference, cofactor_up[i], gradient_up[i]};
     }
-    const double remainder = acute ? remainder_of(at_k, near) : kInfinity;
+    const double remainder = acute ? remainder_of(at_k, q_up, near) : kInfinity;
     if (remainder < least) {
       least = remainder;
       terms = at_k;
@@ -172,7 +203,7 @@ double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
   const double first = root_for(least);
   double best = std::min(first, near), trial = std::min(first, most);
   for (int round = 0; round < 5 && trial > 1.05 * best; ++round) {
-    const double root = root_for(remainder_of(terms, trial));
+    const double root = root_for(remainder_of(terms, q_up, trial));
     best = std::max(best, std::min(root, trial));
     if (root >= trial) break;
     trial = std::sqrt(trial * std::max(best, 0.25 * trial));
