@@ -8,6 +8,7 @@
 #include <map>
 #include <vector>
 
+#include "exact/motion/rational_vector.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/motion/motion_cases.h"
 #include "reference/motion/bounds.h"
@@ -339,6 +340,73 @@ TEST(BoundsLong, TenThousandEdgesAgainstTenThousandViewpointsInAll) {
   for (const auto& [branch, count] : branches) std::printf("branch %d: %d\n", static_cast<int>(branch), count);
   std::printf("%llu viewpoints\n", static_cast<unsigned long long>(viewpoints));
 }
+
+// How far from a violation a constraint is, in doubles: only to choose where to look.
+double slack(MotionConstraint constraint, const Samples& samples, const exact::ExactViewpoint& v) {
+  std::array<MotionPoint, 4> u{};
+  for (std::size_t i = 0; i < 4 && samples[i]; ++i) {
+    const auto row = exact::seen(*samples[i], v);
+    const MotionPoint x{row[0].get_d(), row[1].get_d(), row[2].get_d()};
+    const double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    for (std::size_t k = 0; k < 3; ++k) u[i][k] = x[k] / length;
+  }
+  if (constraint == MotionConstraint::delaunay) {
+    for (std::size_t i = 1; i < 4; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) u[i][k] -= u[0][k];
+    }
+    std::swap(u[0], u[3]);
+  }
+  const double det = u[0][0] * (u[1][1] * u[2][2] - u[1][2] * u[2][1]) -
+                     u[0][1] * (u[1][0] * u[2][2] - u[1][2] * u[2][0]) +
+                     u[0][2] * (u[1][0] * u[2][1] - u[1][1] * u[2][0]);
+  return constraint == MotionConstraint::delaunay ? -det : det;
+}
+
+// Half of the viewpoints crowd around the worst of fifty directions.
+void adversarial(MotionConstraint constraint, int bounds, int tries) {
+  fuzz::Random random(31);
+  std::uint64_t viewpoints = 0;
+  int made = 0;
+  for (std::uint64_t n = 0; made < bounds; ++n) {
+    const auto test = fuzz::motion_case(static_cast<fuzz::MotionKind>(n % fuzz::motion_kinds), 32, n);
+    const ExactThresholds thresholds(test.thresholds);
+    const auto v = exact::exact_viewpoint(test.viewpoint);
+    const auto& s = test.mesh.samples;
+    const bool delaunay = constraint == MotionConstraint::delaunay;
+    const double bound = delaunay ? reference::delaunay_bound(s[0], s[1], s[2], s[3], v)
+                                  : reference::separation_bound(s[0], s[1], s[2], v, thresholds);
+    if (bound == 0 || std::isinf(bound)) continue;
+    ++made;
+    Samples samples{&s[2], s.data(), &s[1]};
+    if (delaunay) samples = {s.data(), &s[1], &s[2], &s[3]};
+    const double far = bound * (1 - 0x1p-48);
+    MotionPoint worst = unit(random);
+    for (int k = 0; k < 50; ++k) {
+      const auto other = unit(random);
+      if (slack(constraint, samples, moved(test.viewpoint, other, far)) <
+          slack(constraint, samples, moved(test.viewpoint, worst, far))) {
+        worst = other;
+      }
+    }
+    for (int k = 0; k < tries; ++k) {
+      auto direction = unit(random);
+      if (k % 2 == 0) {
+        double square = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          direction[i] = worst[i] + std::ldexp(direction[i], -(k / 2 % 20));
+          square += direction[i] * direction[i];
+        }
+        for (double& x : direction) x *= (1 - 0x1p-48) / std::sqrt(square);
+      }
+      ASSERT_TRUE(validate::holds_at(constraint, samples, moved(test.viewpoint, direction, far), thresholds)) << n;
+      ++viewpoints;
+    }
+  }
+  std::printf("%llu viewpoints at %d bounds, no violation\n", static_cast<unsigned long long>(viewpoints), made);
+}
+
+TEST(SeparationBoundLong, FiveMillionAdversarialViewpoints) { adversarial(MotionConstraint::separation, 1000, 5000); }
+TEST(DelaunayBoundLong, FiveMillionAdversarialViewpoints) { adversarial(MotionConstraint::delaunay, 1000, 5000); }
 
 TEST(DelaunayBoundLong, TightnessByAngularSize) {
   fuzz::Random random(23);
