@@ -27,14 +27,16 @@ void View::make(std::uint32_t vertex) const {
   if (vertex >= stamps_.size()) {
     stamps_.resize(mesh_->samples().size(), 0);
     rows_.resize(mesh_->samples().size());
-    if (rows_.capacity() < 2 * rows_.size()) rows_.reserve(2 * rows_.size());
   }
   rows_[vertex] = row_of(mesh_->samples()[vertex], at_);
   stamps_[vertex] = now_;
 }
 
 Triangulation::Triangulation(const scene::MotionThresholds& thresholds, const MotionPoint& at)
-    : constraints_(thresholds), mesh_(icosahedral_base()), view_(mesh_) {
+    : constraints_(thresholds),
+      mesh_(icosahedral_base()),
+      view_(mesh_),
+      base_vertices_(static_cast<std::uint32_t>(mesh_.samples().size())) {
   view_.look_from(at);
   for (std::uint32_t f = 0; f < mesh_.faces().size(); ++f) {
     if (face_holds(f)) continue;
@@ -121,6 +123,21 @@ Triangulation::Place Triangulation::locate(const Seen& sample, std::uint32_t fro
     if (next == kNone) return place;
   }
   return {};
+}
+
+std::uint32_t Triangulation::face_towards(const scene::DepthSample& sample) const {
+  const Row row = row_of(sample, view_.at());
+  std::uint32_t nearest = 0;
+  double most = -HUGE_VAL;
+  for (std::uint32_t v = 0; v < base_vertices_; ++v) {
+    const Row& base = view_.row(v);
+    const double cosine = dot(row.x, base.x) / base.length;
+    if (cosine > most) {
+      most = cosine;
+      nearest = v;
+    }
+  }
+  return mesh_.face_of(nearest);
 }
 
 std::uint32_t Triangulation::insert(const scene::DepthSample& sample, std::uint32_t from) {

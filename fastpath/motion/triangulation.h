@@ -60,6 +60,9 @@ class Triangulation {
   // Expected O(1) after location, which is a walk from that face.
   std::uint32_t insert(const scene::DepthSample& sample, std::uint32_t from = kNone);
 
+  // A face at the base vertex whose direction is nearest to that of the sample, as doubles tell: where to begin a walk to it.
+  std::uint32_t face_towards(const scene::DepthSample& sample) const;
+
   // Takes a vertex away, with a triangulation of its star that faces `view`; of the possible triangles those first that face the second
   // view, with short edges. False, and nothing is changed, where none was found (the star does not fit in a half sphere).
   bool remove(std::uint32_t vertex, const View& view, const View& preferred);
@@ -83,6 +86,7 @@ class Triangulation {
   Constraints constraints_;
   SphereMesh mesh_;
   View view_;
+  std::uint32_t base_vertices_;  // the first so many
   SphereMesh::Star star_, inner_star_;
   std::vector<std::uint32_t> stack_;
   std::uint32_t last_ = 0;

@@ -113,7 +113,7 @@ void Walk::refill(FrameReport& report) {
        --tries) {
     const scene::DepthSample sample = removed_.front();
     removed_.pop_front();
-    if (sampler_.sees(at_, sample) && triangulation_->insert(sample) != kNone) {
+    if (sampler_.sees(at_, sample) && triangulation_->insert(sample, triangulation_->face_towards(sample)) != kNone) {
       ++report.inserted;
       ++report.reinserted;
     } else {
