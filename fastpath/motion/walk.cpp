@@ -81,7 +81,7 @@ void Walk::rebuild() {
   }
   note_changes();
   FrameReport ignored;
-  settle(ignored);
+  if (!settle(ignored)) throw scene::Error(scene::ErrorCode::internal, "motion: a new mesh does not hold");
 }
 
 void Walk::note_changes() {
@@ -276,19 +276,20 @@ FrameReport Walk::move_to(const MotionPoint& at) {
     with_bounds ? examine_due(report) : examine_all(report);
     again = !repair_at_old_viewpoint(report);
   }
+  if (!again) {
+    again = !settle(report);
+    if (!again) refill(report);
+    again = again || !settle(report);
+    report.flipped = triangulation_->flips;
+    report.exact = triangulation_->constraints().counts.exact - exact_before;
+  }
   if (again) {
     ++frame_;
     report.rebuilt = true;
-    report.removed = report.reinserted = 0;
+    report.removed = report.flipped = report.reinserted = 0;
     rebuild();
     report.inserted = mesh().vertex_count() - kBaseVertices;
     report.exact = triangulation_->constraints().counts.exact;
-  } else {
-    settle(report);
-    refill(report);
-    settle(report);
-    report.flipped = triangulation_->flips;
-    report.exact = triangulation_->constraints().counts.exact - exact_before;
   }
   bounds_of_changed();
   report.odometer = odometer_;

@@ -78,7 +78,7 @@ class Walk {
   void examine_due(FrameReport& report);
   void examine_all(FrameReport& report);
   bool repair_at_old_viewpoint(FrameReport& report);
-  void settle(FrameReport& report);
+  bool settle(FrameReport& report);
   void refill(FrameReport& report);
   void note_changes();
   bool remove_sample_of(std::uint32_t f, const View& view, FrameReport& report);

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "fastpath/motion/walk.h"
-#include "scene/messages/error.h"
 
 namespace clues::fastpath::motion {
 
@@ -51,8 +50,8 @@ bool Walk::repair_at_old_viewpoint(FrameReport& report) {
 }
 
 // Flips, and removes what flips brought too near. With the Delaunay condition every edge may be flipped; without it, only those
-// between two triangles that are new anyway. Ends, as each round but the last removes a sample.
-void Walk::settle(FrameReport& report) {
+// between two triangles that are new anyway. Ends, as each round but the last removes a sample. False where a star did not fit in a half sphere.
+bool Walk::settle(FrameReport& report) {
   const auto allowed = [this](std::uint32_t f, std::uint32_t g) {
     return delaunay() || (changed_now(f) && changed_now(g));
   };
@@ -69,12 +68,11 @@ void Walk::settle(FrameReport& report) {
     to_test.erase(std::unique(to_test.begin(), to_test.end()), to_test.end());
     for (const std::uint32_t f : to_test) {
       if (!mesh().face(f).alive() || triangulation_->face_holds(f)) continue;
-      if (!remove_sample_of(f, triangulation_->view(), report)) {
-        throw scene::Error(scene::ErrorCode::internal, "motion: a triangle fails that has no sample to remove");
-      }
+      if (!remove_sample_of(f, triangulation_->view(), report)) return false;
       again = true;
     }
   }
+  return true;
 }
 
 bool Walk::is_thin(std::uint32_t f) {
