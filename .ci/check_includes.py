@@ -20,16 +20,18 @@ MAY_SEE = {
 }
 # Of each folder, in the order in which a reader meets them; "." is the folder itself.
 CHAPTERS = {
-    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes"],
-    "exact": [".", "cell", "complex", "sight"],
+    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "motion"],
+    "exact": [".", "cell", "complex", "sight", "motion"],
     "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
                   "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",
-                  "visibility/refinement"],
+                  "visibility/refinement", "motion"],
     "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
-                 "visibility/refinement"],
-    "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "vectors", "conform"],
-    "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets"],
+                 "visibility/refinement", "motion"],
+    "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "vectors", "conform",
+                 "motion"],
+    "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets",
+             "motion"],
     "app": [".", "view", "demo", "commands"],
 }
 NO_CHAPTERS = {"validate/adapters"}  # to be copied; they include nothing of ours

@@ -10,12 +10,16 @@
 namespace clues::app {
 namespace {
 
+// The innermost: `clues motion check` has two words.
 const CLI::App* command_of(const CLI::App& program, const std::vector<std::string>& words) {
-  const auto all = program.get_subcommands({});
-  const auto at = std::find_if(all.begin(), all.end(), [&](const CLI::App* command) {
-    return !words.empty() && words[0] == command->get_name();
-  });
-  return at == all.end() ? nullptr : *at;
+  const CLI::App* command = nullptr;
+  for (const auto& word : words) {
+    const auto all = (command == nullptr ? program : *command).get_subcommands({});
+    const auto at = std::find_if(all.begin(), all.end(), [&](const CLI::App* one) { return word == one->get_name(); });
+    if (at == all.end()) break;
+    command = *at;
+  }
+  return command;
 }
 
 }  // namespace

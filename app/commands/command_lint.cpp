@@ -8,6 +8,7 @@
 #include "app/json_output.h"
 #include "app/progress.h"
 #include "scene/messages/error.h"
+#include "validate/motion/lint_motion.h"
 #include "validate/vectors/lint.h"
 
 namespace clues::app {
@@ -19,6 +20,21 @@ struct LintRequest {
   validate::LintOptions options;
 };
 
+// The cases about motion have a folder, and proofs, of their own.
+int run_lint_of_motion(const LintRequest& request) {
+  const auto report = validate::lint_motion_suite(
+      request.folder, {request.options.glob, request.options.write, request.options.accept});
+  if (request.json.asked()) request.json.write(validate::to_json_text(report));
+  if (!request.json.on_stdout()) print(validate::to_text(report));
+  if (!report.malformed.empty()) return bad_usage;
+  if (!report.findings.empty()) return findings;
+  if (report.selected == 0) {
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       request.folder + ": no case matches \"" + request.options.glob + "\"; nothing was proved");
+  }
+  return fine;
+}
+
 int run_lint(const LintRequest& request) {
   auto options = request.options;
   if (options.accept && !options.write) {
@@ -26,6 +42,7 @@ int run_lint(const LintRequest& request) {
   }
   require_writable_parent(request.json.file());
   require_outside(request.json.file(), request.folder);
+  if (validate::is_motion_suite(request.folder)) return run_lint_of_motion(request);
   if (options.jobs == 0) options.jobs = static_cast<int>(std::thread::hardware_concurrency());
   validate::LintReport report;
   {
@@ -79,9 +96,13 @@ void add_lint_command(CLI::App& program, int& status) {
       "  without the map, by an exhaustive search; inside Omega the search alone is the proof. The point-occlusion\n"
       "  oracle, which shares no algorithm with these, is asked about points of every hidden triangle and about the\n"
       "  end of every witness. The first-order visible set is computed anew. Files must have their canonical form,\n"
-      "  ids must be unique and may not vanish from index.json, and counts must agree.\n\n"
+      "  ids must be unique and may not vanish from index.json, and counts must agree.\n"
+      "  vectors/motion, the cases about motion bounds, is a suite of its own: bounds called sound are proved, those "
+      "called\n"
+      "  unsound refuted (docs/motion.md).\n\n"
       "EXAMPLES\n"
       "  clues lint\n"
+      "  clues lint vectors/motion\n"
       "  clues lint vectors --case 'edge-*' --jobs 2\n"
       "  clues lint my-cases --write\n\n"
       "EXIT CODES\n"

@@ -155,6 +155,8 @@ class Scratch:
     BESIDES = {
         r"README\.md|clues|docs/(?!adding)": ["my_adapter", "library", "answers"],
         r"docs/adding": ["sources"],
+        r"clues lint|clues motion|docs/motion": ["motion_cases"],
+        r"clues motion": ["depth_mesh"],
         r"clues lint": ["cases"],
         r"clues report": ["results"],
         r"clues (replay|shrink)": ["findings"],
@@ -173,6 +175,24 @@ class Scratch:
         shutil.copy(self.folder / "validate/adapters/cpp/clues_adapter.cpp", self.folder)
         shutil.copy(self.folder / "validate/adapters/c/clues_adapter.c", self.folder / "my_library.c")
         self.write("known.json", json.dumps({"format": "clues-expected-failures/1", "cases": []}))
+
+    def motion_cases(self):
+        shutil.copytree(self.source / "vectors" / "motion", self.folder / "vectors" / "motion")
+
+    # An octahedron of samples, seen from the middle and from beside it, with bounds that are sound and a walk that is valid.
+    def depth_mesh(self):
+        samples = [[2, 0, 1.5], [-2, 0, 1.5], [0, 2, 1.5], [0, -2, 1.5], [0, 0, 3.5], [0, 0, -0.5]]
+        triangles = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]
+        thresholds = {"kappa": 10, "sigma": 0.0001}
+        self.write("mesh.json", json.dumps({"format": "clues-depth-mesh/1", "samples": samples, "triangles": triangles}))
+        self.write("bounds.json", json.dumps({"format": "clues-motion-bounds/1", "viewpoint": [0, 0, 1.5],
+                                              "thresholds": thresholds, "bounds": [0.5] * 8}))
+        frames = [{"format": "clues-motion-walk/1"},
+                  {"viewpoint": [0, 0, 1.5], "thresholds": thresholds, "sizes": [6, 8],
+                   "samples": [[i, *at] for i, at in enumerate(samples)],
+                   "triangles": [[i, *t] for i, t in enumerate(triangles)]},
+                  {"viewpoint": [0.25, 0, 1.5]}]
+        self.write("walk.jsonl", "".join(json.dumps(frame) + "\n" for frame in frames))
 
     def cases(self):
         shutil.copytree(self.folder / "vectors", self.folder / "my-cases")

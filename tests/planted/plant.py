@@ -94,6 +94,17 @@ COPIES = {
     # What lies behind the cell blocks too.
     "block_behind_cell": ("validate/sight_window.cpp", [
         ("  if (shadow.way != Shadow::Way::cell) return true;\n", "  return true;\n")]),
+
+    # ---- motion: what a walk in doubles relies on
+
+    # The bin that the odometer was in is not looked at again.
+    "skipped_bin": ("fastpath/calendar.cpp", [
+        ("for (std::uint64_t bin = cursor_; bin <= last; ++bin)",
+         "for (std::uint64_t bin = cursor_ + 1; bin <= last; ++bin)")]),
+    # A bound is rounded up.
+    "bound_rounded_up": ("fastpath/bounds.cpp", [
+        ("return det.speed == 0 ? kInfinity : det.low / det.speed * kDown;",
+         "return det.speed == 0 ? kInfinity : det.low / det.speed * kUp;")]),
 }
 
 

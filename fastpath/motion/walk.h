@@ -1,0 +1,114 @@
+// A depth mesh that follows a viewpoint (A1.7): after each step every triangle satisfies every constraint of D29 at the viewpoint, and, with motion bounds, only
+// triangles that are due were looked at (D30).
+//
+// REPAIR, and why the mesh stays a depth mesh. Before a step all triangles face the old viewpoint; those that fail at the new one are known, as their keys are due. A
+// sample of each is taken out and its star triangulated anew so that it faces the *old* viewpoint, where that can always be done, and the new triangles are
+// tested at the new one; and so on until none fails there. Now every triangle faces both ends of the step. det(a - v, b - v, c - v) is linear in v, so it
+// faces all of the step, and the projection stays one to one (T7), however long the step was and whatever it went through. Only then come flips
+// (between triangles that face the viewpoint they always can be done) and new samples, at the new viewpoint.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "fastpath/motion/bounds.h"
+#include "fastpath/motion/calendar.h"
+#include "fastpath/motion/sampling.h"
+#include "fastpath/motion/triangulation.h"
+
+namespace clues::fastpath::motion {
+
+struct WalkOptions {
+  enum class Bounds : std::uint8_t {
+    sound,           // a triangle is examined when its key is due
+    none,            // all are, in each frame
+    rebuild,         // a new mesh of new samples in each frame
+    sketch_unsound,  // with the separation bound of the sketch, which is not sound (A1.3): for comparison only
+  };
+  scene::MotionThresholds thresholds;
+  Bounds bounds = Bounds::sound;
+  std::uint32_t samples = 11000;  // wanted; at most 2^24
+  std::uint64_t seed = 1;
+  double step = 0;  // the usual step, for the width of bins; 0: that of the first step
+};
+
+struct FrameReport {
+  MotionPoint at{};
+  double odometer = 0;
+  std::uint64_t triangles = 0, samples = 0;  // after the frame; samples without the base
+  std::uint64_t examined = 0;                // triangles that were due
+  std::uint64_t tested = 0;                  // of these: those whose old bound did not cover where the viewpoint is now
+  std::uint64_t removed = 0, flipped = 0;    // samples, edges
+  std::uint64_t inserted = 0, reinserted = 0;  // samples; of these, such as had been removed before
+  std::uint64_t reused = 0;                    // triangles that were there before and stayed as they were
+  std::uint64_t rays = 0, exact = 0;           // sight lines; predicates that doubles left open
+  bool rebuilt = false;                        // everything was made anew
+};
+
+class Walk {
+ public:
+  // Samples the scene from the first viewpoint. The tree must outlive it. Throws scene::Error: bad_argument for options, non_finite for a viewpoint.
+  Walk(const Bvh& bvh, const WalkOptions& options, const MotionPoint& start);
+
+  // Throws scene::Error for a viewpoint that is not finite, or further than 2^90 from the origin. Without bounds O(triangles); with them O(due triangles and repairs).
+  FrameReport move_to(const MotionPoint& at);
+  const FrameReport& first() const { return first_; }
+
+  const SphereMesh& mesh() const { return triangulation_->mesh(); }
+  scene::DepthMesh depth_mesh() const { return mesh().to_depth_mesh(); }
+  // The same with places of their own for all frames: samples that are gone are in no triangle, triangles that are gone have corners kNone.
+  scene::DepthMesh mesh_in_places() const;
+  // The bound of each triangle of depth_mesh() from where it was computed, less the way since: no violation is nearer to the viewpoint. Infinite where none
+  // can be; 0 without bounds.
+  std::vector<double> bounds_left() const;
+
+ private:
+  // Bounds by part: 0 facing, edges and separations of the triangle; 1 + i the Delaunay condition of its edge i, which one of its two triangles keeps.
+  struct Part {
+    std::vector<double> bound, key, x, y, z;
+    void resize(std::size_t n);
+    MotionPoint origin(std::uint32_t f) const { return {x[f], y[f], z[f]}; }
+  };
+
+  void rebuild();
+  bool delaunay() const { return options_.thresholds.delaunay; }
+  void examine_due(FrameReport& report);
+  void examine_all(FrameReport& report);
+  bool repair_at_old_viewpoint(FrameReport& report);
+  bool settle(FrameReport& report);
+  void refill(FrameReport& report);
+  void note_changes();
+  bool remove_sample_of(std::uint32_t f, const View& view, FrameReport& report);
+  std::uint32_t sample_to_remove(std::uint32_t f) const;
+  double part_bound(std::uint32_t f, std::size_t part);
+  bool part_holds(std::uint32_t f, std::size_t part);
+  void set_part(std::uint32_t f, std::size_t part, double bound);
+  void queue(std::uint32_t f);
+  void bounds_of_changed();
+  bool is_thin(std::uint32_t f);
+  bool changed_now(std::uint32_t f) const { return f < changed_in_.size() && changed_in_[f] == frame_; }
+
+  WalkOptions options_;
+  BoundThresholds limits_;
+  Sampler sampler_;
+  std::unique_ptr<Triangulation> triangulation_;
+  std::unique_ptr<View> old_view_;
+  FrameReport first_;
+  MotionPoint at_{};
+  double odometer_ = 0, thin_cosine_ = 0;
+  std::uint32_t frame_ = 1;
+
+  std::optional<Calendar> calendar_;
+  std::array<Part, 4> parts_;
+  std::vector<std::uint32_t> stamps_, changed_in_;
+  std::vector<std::uint32_t> changed_;                 // of this frame, each once
+  std::vector<std::uint32_t> failing_, not_delaunay_;  // due triangles by what failed, and all of them
+  std::vector<std::uint32_t> failed_, touched_, stack_;
+  std::vector<Calendar::Entry> due_;
+  std::deque<DepthSample> removed_;
+};
+
+}  // namespace clues::fastpath::motion

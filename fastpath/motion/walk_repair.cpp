@@ -1,0 +1,124 @@
+// What a frame does to triangles that fail, and to the holes that this leaves.
+#include <algorithm>
+#include <cmath>
+
+#include "fastpath/motion/walk.h"
+
+namespace clues::fastpath::motion {
+
+// What is hidden by something nearer has to go: the sample that is furthest away; a direction before all points. The greater number of two as far.
+std::uint32_t Walk::sample_to_remove(std::uint32_t f) const {
+  std::uint32_t best = kNone;
+  double furthest = 0;
+  for (const std::uint32_t v : mesh().face(f).corner) {
+    const scene::DepthSample& sample = mesh().samples()[v];
+    if (sample.is_base) continue;
+    const double length = sample.is_direction ? HUGE_VAL : triangulation_->view().row(v).length;
+    if (best != kNone && (length < furthest || (length == furthest && v < best))) continue;
+    best = v;
+    furthest = length;
+  }
+  return best;
+}
+
+bool Walk::remove_sample_of(std::uint32_t f, const View& view, FrameReport& report) {
+  const std::uint32_t v = sample_to_remove(f);
+  if (v == kNone) return false;
+  const scene::DepthSample sample = mesh().samples()[v];
+  if (!triangulation_->remove(v, view, triangulation_->view())) return false;
+  ++report.removed;
+  removed_.push_back(sample);
+  if (removed_.size() > options_.samples) removed_.pop_front();
+  note_changes();
+  return true;
+}
+
+// False: so much fails, as after a jump, that a new mesh is less work; or a star did not fit in a half sphere.
+bool Walk::repair_at_old_viewpoint(FrameReport& report) {
+  stack_ = failing_;
+  if (4 * failing_.size() > mesh().face_count()) return false;
+  const std::uint64_t most = mesh().vertex_count() / 4;
+  while (!stack_.empty()) {
+    const std::uint32_t f = stack_.back();
+    stack_.pop_back();
+    if (!mesh().face(f).alive() || triangulation_->face_holds(f)) continue;
+    const std::size_t before = touched_.size();
+    if (report.removed > most || !remove_sample_of(f, *old_view_, report)) return false;
+    stack_.insert(stack_.end(), touched_.begin() + static_cast<std::ptrdiff_t>(before), touched_.end());
+  }
+  return true;
+}
+
+// Flips, and removes what flips brought too near. With the Delaunay condition every edge may be flipped; without it, only those
+// between two triangles that are new anyway. Ends, as each round but the last removes a sample. False where a star did not fit in a half sphere.
+bool Walk::settle(FrameReport& report) {
+  const auto allowed = [this](std::uint32_t f, std::uint32_t g) {
+    return delaunay() || (changed_now(f) && changed_now(g));
+  };
+  for (bool again = true; again;) {
+    again = false;
+    stack_ = touched_;
+    stack_.insert(stack_.end(), not_delaunay_.begin(), not_delaunay_.end());
+    not_delaunay_.clear();
+    triangulation_->legalise(stack_, allowed);
+    note_changes();
+    std::vector<std::uint32_t> to_test;
+    to_test.swap(touched_);
+    std::sort(to_test.begin(), to_test.end());
+    to_test.erase(std::unique(to_test.begin(), to_test.end()), to_test.end());
+    for (const std::uint32_t f : to_test) {
+      if (!mesh().face(f).alive() || triangulation_->face_holds(f)) continue;
+      if (!remove_sample_of(f, triangulation_->view(), report)) return false;
+      again = true;
+    }
+  }
+  return true;
+}
+
+bool Walk::is_thin(std::uint32_t f) {
+  const auto& corner = mesh().face(f).corner;
+  const View& view = triangulation_->view();
+  for (std::size_t i = 0; i < 3; ++i) {
+    view.row(corner[i]);
+    const Row &a = view.row(corner[(i + 1) % 3]), &b = view.row(corner[(i + 2) % 3]);
+    if (dot(a.x, b.x) < thin_cosine_ * (a.length * b.length)) return true;
+  }
+  return false;
+}
+
+// As long as samples are missing: one into each long triangle of those that are new, and then those that were removed, the oldest first, where
+// they are seen again.
+void Walk::refill(FrameReport& report) {
+  const auto missing = [&] { return mesh().vertex_count() < options_.samples + 162ULL; };
+  std::vector<std::uint32_t> thin = changed_;
+  for (std::size_t k = 0; k < thin.size() && missing(); ++k) {
+    const std::uint32_t f = thin[k];
+    if (!mesh().face(f).alive() || !is_thin(f)) continue;
+    Vec middle;
+    for (const std::uint32_t v : mesh().face(f).corner) {
+      const Row& r = triangulation_->view().row(v);
+      middle = middle + (1 / r.length) * r.x;
+    }
+    const auto sample = sampler_.sample(at_, {middle.x, middle.y, middle.z});
+    const std::size_t before = touched_.size();
+    const bool inserted = sample && triangulation_->insert(*sample, f) != kNone;
+    note_changes();
+    if (!inserted) continue;
+    ++report.inserted;
+    thin.insert(thin.end(), touched_.begin() + static_cast<std::ptrdiff_t>(before), touched_.end());
+  }
+  for (std::size_t tries = std::min<std::size_t>(removed_.size(), 2 + report.removed); tries > 0 && missing();
+       --tries) {
+    const scene::DepthSample sample = removed_.front();
+    removed_.pop_front();
+    if (sampler_.sees(at_, sample) && triangulation_->insert(sample, triangulation_->face_towards(sample)) != kNone) {
+      ++report.inserted;
+      ++report.reinserted;
+    } else {
+      removed_.push_back(sample);
+    }
+    note_changes();
+  }
+}
+
+}  // namespace clues::fastpath::motion

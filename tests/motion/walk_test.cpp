@@ -1,0 +1,219 @@
+// Files of meshes, bounds and walks; the validity of meshes (T7), by the reference and by the checker of walks; walks that are wrong.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "fuzz/motion/motion_cases.h"
+#include "reference/motion/mesh.h"
+#include "scene/messages/error.h"
+#include "scene/motion/motion_files.h"
+#include "scene/motion/walk_file.h"
+#include "validate/motion/check_walk.h"
+
+namespace clues {
+namespace {
+
+class MotionFiles : public testing::Test {
+ protected:
+  MotionFiles()
+      : folder_(std::filesystem::temp_directory_path() /
+                ("clues_motion_" + std::to_string(::getpid()) + "_" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    std::filesystem::create_directories(folder_);
+  }
+  ~MotionFiles() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path file(const std::string& text) {
+    const auto path = folder_ / ("file" + std::to_string(++files_));
+    std::ofstream(path) << text;
+    return path;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  int files_ = 0;
+};
+
+bool same(const scene::DepthMesh& a, const scene::DepthMesh& b) {
+  return a.triangles == b.triangles && a.samples.size() == b.samples.size() &&
+         std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), [](const auto& x, const auto& y) {
+           return x.at == y.at && x.is_direction == y.is_direction && x.is_base == y.is_base;
+         });
+}
+
+validate::WalkReport checked(const scene::DepthMesh& mesh, const scene::MotionPoint& viewpoint,
+                             const scene::MotionThresholds& thresholds) {
+  validate::WalkReport report;
+  validate::check_frame({0, viewpoint, thresholds, mesh}, report);
+  return report;
+}
+
+TEST_F(MotionFiles, MeshesAndBoundsComeBackAsTheyWere) {
+  auto mesh = fuzz::globe(3, 0.7, 4, true);
+  mesh.samples[0].at = {0.1, 1e-310, -1e300};
+  EXPECT_TRUE(same(mesh, scene::read_depth_mesh(file(scene::to_json_text(mesh)))));
+  scene::MotionBounds bounds{
+      scene::MotionPoint{0.1, 0.2, 0.3}, {1.5, 1e-17, true}, {0, 0.1, 5e-324, std::numeric_limits<double>::infinity()}};
+  const auto again = scene::read_motion_bounds(file(scene::to_json_text(bounds)));
+  EXPECT_EQ(again.bounds, bounds.bounds);
+  EXPECT_EQ(again.viewpoint, bounds.viewpoint);
+  EXPECT_EQ(again.thresholds.kappa, 1.5);
+  EXPECT_EQ(again.thresholds.sigma, 1e-17);
+  EXPECT_TRUE(again.thresholds.delaunay);
+}
+
+TEST_F(MotionFiles, WalksComeBackAsTheyWereAndSayOnlyWhatChanged) {
+  auto mesh = fuzz::globe(4, 0.5, 5);
+  scene::WalkWriter writer;
+  std::string text = scene::WalkWriter::header();
+  text += writer.frame(mesh, {0, 0, 0}, {20, 1e-9, false});
+  const auto first = text.size();
+  auto second = mesh;
+  second.samples[3].at[0] += 0.125;
+  second.triangles[7] = {scene::no_sample, scene::no_sample, scene::no_sample};
+  text += writer.frame(second, {0.25, 0, 0}, {20, 1e-9, false});
+  EXPECT_LT(text.size() - first, 200U);
+  auto third = second;
+  third.triangles[7] = mesh.triangles[7];
+  third.triangles.pop_back();
+  third.samples.push_back({{1, 2, 3}, true, true});
+  text += writer.frame(third, {0.5, 0, 0}, {10, 1e-9, true});
+  scene::WalkReader reader(file(text));
+  scene::WalkFrame frame;
+  ASSERT_TRUE(reader.next(frame));
+  EXPECT_TRUE(same(frame.mesh, mesh));
+  ASSERT_TRUE(reader.next(frame));
+  second.triangles.erase(second.triangles.begin() + 7);
+  EXPECT_TRUE(same(frame.mesh, second));
+  EXPECT_EQ(frame.viewpoint[0], 0.25);
+  EXPECT_EQ(frame.thresholds.kappa, 20);
+  ASSERT_TRUE(reader.next(frame));
+  EXPECT_TRUE(same(frame.mesh, third));
+  EXPECT_EQ(frame.thresholds.kappa, 10);
+  EXPECT_TRUE(frame.thresholds.delaunay);
+  EXPECT_FALSE(reader.next(frame));
+}
+
+TEST_F(MotionFiles, WhatIsWrongIsSaidWithItsPlace) {
+  const auto message = [&](const auto& read) -> std::string {
+    try {
+      read();
+    } catch (const scene::Error& e) {
+      return e.what();
+    }
+    return "nothing was wrong";
+  };
+  const auto of_mesh = [&](const std::string& text) { return message([&] { scene::read_depth_mesh(file(text)); }); };
+  EXPECT_NE(of_mesh("[]").find("clues-depth-mesh/1"), std::string::npos);
+  const std::string begin = R"({"format":"clues-depth-mesh/1","samples":)";
+  EXPECT_NE(of_mesh(begin + R"([[0,0,1]],"triangles":[[0,1,2]]})").find("there is no sample 1"), std::string::npos);
+  EXPECT_NE(of_mesh(begin + R"([[0,0,1],[1,0,1]],"triangles":[[0,1,1]]})").find("a sample twice"), std::string::npos);
+  EXPECT_NE(of_mesh(begin + R"([[0,0,0,"direction"]],"triangles":[]})").find("length 0"), std::string::npos);
+  EXPECT_NE(of_mesh(begin + R"([[0,0,0,"sky"]],"triangles":[]})").find("base-direction"), std::string::npos);
+  EXPECT_NE(of_mesh(begin + R"([[0,0,1e999]],"triangles":[]})").find("too large"), std::string::npos);
+  EXPECT_NE(of_mesh(begin + R"([],"triangles":[],"more":1})").find("\"more\""), std::string::npos);
+  const auto of_bounds = [&](const std::string& text) {
+    return message([&] { scene::read_motion_bounds(file(text)); });
+  };
+  const std::string bounds = R"({"format":"clues-motion-bounds/1","thresholds":{"kappa":1,"sigma":0},"bounds":)";
+  EXPECT_NE(of_bounds(bounds + "[-1]}").find("bound 0"), std::string::npos);
+  EXPECT_NE(of_bounds(bounds + "[\"1\"]}").find("no number"), std::string::npos);
+  EXPECT_EQ(of_bounds(bounds + "[0, null]}"), "nothing was wrong");
+  const auto of_walk = [&](const std::string& text) { return message([&] { validate::check_walk(file(text)); }); };
+  const std::string header = scene::WalkWriter::header();
+  EXPECT_NE(of_walk("{}").find("first line"), std::string::npos);
+  EXPECT_NE(of_walk(header).find("nothing was checked"), std::string::npos);
+  EXPECT_NE(of_walk(header + R"({"viewpoint":[0,0,0]})").find("thresholds"), std::string::npos);
+  EXPECT_NE(of_walk(header + R"({"viewpoint":[0,0,0],"thresholds":{"kappa":1,"sigma":2}})").find("sigma"),
+            std::string::npos);
+  EXPECT_NE(of_walk(header + R"({"viewpoint":[0,0,0],"thresholds":{"kappa":1,"sigma":0},"samples":[[0,1,2,3]]})")
+                .find("beyond"),
+            std::string::npos);
+  EXPECT_NE(of_walk(header + "nonsense").find(":2: this is not JSON"), std::string::npos);
+  EXPECT_THROW(scene::WalkReader("no such file"), scene::Error);
+}
+
+TEST(DepthMeshes, AGlobeIsOneAndWhatIsBrokenIsNone) {
+  const auto origin = exact::exact_viewpoint({0, 0, 0});
+  const scene::MotionThresholds thresholds{1000, 1e-12, true};
+  for (const bool sky : {false, true}) {
+    const auto mesh = fuzz::globe(5, 0.4, 6, sky);
+    EXPECT_TRUE(reference::depth_mesh_state(mesh, origin).valid());
+    const auto report = checked(mesh, {0, 0, 0}, thresholds);
+    EXPECT_EQ(report.sound(), reference::violations(mesh, thresholds, origin).empty());
+    EXPECT_EQ(report.open_frames + report.overlapping_frames, 0);
+    EXPECT_EQ(report.violated[0], 0);
+    EXPECT_LT(report.by_integers, report.tested / 2);
+    // From outside, everything that is a point faces away or overlaps.
+    EXPECT_GT(reference::depth_mesh_state(mesh, exact::exact_viewpoint({0, 0, -9})).not_facing, 0);
+    EXPECT_FALSE(checked(mesh, {0, 0, -9}, thresholds).sound());
+  }
+  const auto mesh = fuzz::globe(3, 0.4, 7);
+  // A triangle is missing.
+  auto open = mesh;
+  open.triangles.pop_back();
+  EXPECT_EQ(reference::depth_mesh_state(open, origin).open_edges, 3);
+  EXPECT_EQ(checked(open, {0, 0, 0}, thresholds).open_frames, 1);
+  // Two shells: every direction is covered twice, and no triangle tells.
+  auto twice = mesh;
+  const auto offset = static_cast<std::uint32_t>(mesh.samples.size());
+  twice.samples.insert(twice.samples.end(), mesh.samples.begin(), mesh.samples.end());
+  for (const auto& t : mesh.triangles) twice.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+  EXPECT_EQ(reference::depth_mesh_state(twice, origin).degree, 2);
+  EXPECT_EQ(checked(twice, {0, 0, 0}, thresholds).overlapping_frames, 1);
+  // A sample pushed through its neighbours.
+  auto folded = mesh;
+  folded.samples[5].at = {-folded.samples[5].at[0], -folded.samples[5].at[1], -folded.samples[5].at[2]};
+  EXPECT_GT(reference::depth_mesh_state(folded, origin).not_facing, 0);
+  EXPECT_GT(checked(folded, {0, 0, 0}, thresholds).violated[0], 0);
+}
+
+// The reference and the checker name the same violations at viewpoints on a way out of the mesh.
+TEST(DepthMeshes, ReferenceAndCheckerCountTheSameViolations) {
+  const auto mesh = fuzz::globe(4, 0.6, 8);
+  const scene::MotionThresholds thresholds{6, 1e-3, true};
+  int with = 0;
+  for (int n = 0; n <= 20; ++n) {
+    const scene::MotionPoint viewpoint{0.06 * n, 0.03 * n, 0.01 * n};
+    const auto found = reference::violations(mesh, thresholds, exact::exact_viewpoint(viewpoint));
+    const auto report = checked(mesh, viewpoint, thresholds);
+    const auto count = [&](scene::MotionConstraint constraint) {
+      return static_cast<std::uint64_t>(
+          std::count_if(found.begin(), found.end(), [&](const auto& place) { return place.constraint == constraint; }));
+    };
+    EXPECT_EQ(report.violated[0], count(scene::MotionConstraint::facing)) << n;
+    EXPECT_EQ(report.violated[2], count(scene::MotionConstraint::separation)) << n;
+    // Once for an edge, where the list has both triangles.
+    EXPECT_EQ(2 * report.violated[1], count(scene::MotionConstraint::edge_length)) << n;
+    EXPECT_EQ(2 * report.violated[3], count(scene::MotionConstraint::delaunay)) << n;
+    with += found.empty() ? 0 : 1;
+  }
+  EXPECT_GT(with, 5);
+}
+
+// Planted: a walk that skips a bin. The bounds of the reference say when the first triangle has to be looked at; a walk that never does goes
+// wrong in a frame that the checker finds, and in none before the least bound.
+TEST(DepthMeshes, AWalkThatSkipsABinIsCaught) {
+  const auto mesh = fuzz::globe(3, 0.8, 9);
+  const scene::MotionThresholds thresholds{20, 1e-8, false};
+  const auto bounds = reference::motion_bounds(mesh, thresholds, exact::exact_viewpoint({0, 0, 0}));
+  const double least = *std::min_element(bounds.begin(), bounds.end());
+  ASSERT_GT(least, 0);
+  bool caught = false;
+  for (int frame = 0; frame <= 60; ++frame) {
+    const double far = least * frame / 10;
+    const auto report = checked(mesh, {far * 0.6, far * 0.48, far * 0.64}, thresholds);
+    if (frame < 10) {
+      ASSERT_TRUE(report.sound()) << frame;
+    }
+    caught = caught || !report.sound();
+  }
+  EXPECT_TRUE(caught);
+}
+
+}  // namespace
+}  // namespace clues

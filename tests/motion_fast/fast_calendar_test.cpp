@@ -1,0 +1,48 @@
+// The bins against a list that is looked through as a whole.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "fastpath/motion/calendar.h"
+#include "fuzz/generators/random.h"
+
+namespace clues::tests {
+namespace {
+
+using fastpath::motion::Calendar;
+
+TEST(Calendar, GivesWhatIsDueAndNothingElse) {
+  fuzz::Random random(6);
+  for (const double width : {1.0, 0.3, 1e-9}) {
+    Calendar calendar(width);
+    std::vector<double> keys;
+    std::vector<std::uint32_t> waiting;
+    double odometer = 0;
+    for (int frame = 0; frame < 400; ++frame) {
+      for (int k = 0; k < 20; ++k) {
+        // Some at once, some in a few bins, some after rounds of the ring, some never.
+        const double far = random.one_in(10) ? 0 : std::ldexp(width, random.between(-3, 14)) * random.between(1, 9);
+        keys.push_back(random.one_in(30) ? std::numeric_limits<double>::infinity() : odometer + far);
+        waiting.push_back(static_cast<std::uint32_t>(keys.size() - 1));
+        calendar.put({keys.back(), waiting.back(), 0});
+      }
+      if (!random.one_in(7)) odometer += random.one_in(40) ? 5000 * width : width * random.between(1, 30) / 4;
+      std::vector<Calendar::Entry> due;
+      calendar.take_due(odometer, due);
+      std::vector<std::uint32_t> got, expected;
+      for (const auto& entry : due) got.push_back(entry.item);
+      for (const std::uint32_t item : waiting) {
+        if (keys[item] <= odometer) expected.push_back(item);
+      }
+      std::sort(got.begin(), got.end());
+      ASSERT_EQ(got, expected) << frame;
+      std::erase_if(waiting, [&](std::uint32_t item) { return keys[item] <= odometer; });
+    }
+  }
+}
+
+}  // namespace
+}  // namespace clues::tests
