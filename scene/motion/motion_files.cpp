@@ -9,6 +9,7 @@
 
 #include "scene/json_reader.h"
 #include "scene/messages/error.h"
+#include "scene/motion/malformed.h"
 
 namespace clues::scene {
 namespace {
@@ -17,32 +18,28 @@ using Json = nlohmann::json;
 
 constexpr const char* kinds[] = {"point", "direction", "base-point", "base-direction"};
 
-[[noreturn]] void fail(const std::string& where, const std::string& what) {
-  throw Error(ErrorCode::malformed, where + ": " + what);
-}
-
 double finite(const Json& value, const std::string& where) {
-  if (!value.is_number()) fail(where, json_excerpt(value) + " is no number");
+  if (!value.is_number()) throw_malformed(where, json_excerpt(value) + " is no number");
   return value.get<double>();  // the reader has refused what overflows a double
 }
 
 void require_format(const Json& root, const char* format, const std::string& where) {
   if (!root.is_object() || !root.contains("format") || root["format"] != format) {
-    fail(where, fmt::format("this is no {} file: \"format\" must be \"{}\"", format, format));
+    throw_malformed(where, fmt::format("this is no {} file: \"format\" must be \"{}\"", format, format));
   }
 }
 
 void require_keys(const Json& object, std::initializer_list<const char*> required,
                   std::initializer_list<const char*> optional, const std::string& where) {
-  if (!object.is_object()) fail(where, json_excerpt(object) + " is no object");
+  if (!object.is_object()) throw_malformed(where, json_excerpt(object) + " is no object");
   for (const char* key : required) {
-    if (!object.contains(key)) fail(where, fmt::format("the field \"{}\" is missing", key));
+    if (!object.contains(key)) throw_malformed(where, fmt::format("the field \"{}\" is missing", key));
   }
   for (const auto& [key, value] : object.items()) {
     const auto is_key = [&name = key](const char* known) { return name == known; };
     if (std::none_of(required.begin(), required.end(), is_key) &&
         std::none_of(optional.begin(), optional.end(), is_key)) {
-      fail(where, "there is no field \"" + key + "\" in this format");
+      throw_malformed(where, "there is no field \"" + key + "\" in this format");
     }
   }
 }
@@ -50,27 +47,27 @@ void require_keys(const Json& object, std::initializer_list<const char*> require
 }  // namespace
 
 MotionPoint motion_point_of(const Json& value, const std::string& where) {
-  if (!value.is_array() || value.size() != 3) fail(where, json_excerpt(value) + " is no point [x, y, z]");
+  if (!value.is_array() || value.size() != 3) throw_malformed(where, json_excerpt(value) + " is no point [x, y, z]");
   return {finite(value[0], where), finite(value[1], where), finite(value[2], where)};
 }
 
 DepthSample sample_of(const Json& value, const std::string& where) {
   if (!value.is_array() || (value.size() != 3 && value.size() != 4)) {
-    fail(where, json_excerpt(value) + " is no sample [x, y, z] or [x, y, z, KIND]");
+    throw_malformed(where, json_excerpt(value) + " is no sample [x, y, z] or [x, y, z, KIND]");
   }
   DepthSample sample;
   for (std::size_t i = 0; i < 3; ++i) sample.at[i] = finite(value[i], where);
   if (value.size() == 4) {
     const auto kind = std::find_if(std::begin(kinds), std::end(kinds), [&](const char* k) { return value[3] == k; });
     if (kind == std::end(kinds)) {
-      fail(where,
-           json_excerpt(value[3]) + " is no kind of sample; there are point, direction, base-point and base-direction");
+      throw_malformed(where, json_excerpt(value[3]) +
+                                 " is no kind of sample; there are point, direction, base-point and base-direction");
     }
     const auto number = kind - std::begin(kinds);
     sample.is_direction = number % 2 == 1;
     sample.is_base = number >= 2;
   }
-  if (sample.is_direction && sample.at == MotionPoint{}) fail(where, "a direction of length 0");
+  if (sample.is_direction && sample.at == MotionPoint{}) throw_malformed(where, "a direction of length 0");
   return sample;
 }
 
@@ -79,18 +76,19 @@ MotionThresholds thresholds_of(const Json& value, const std::string& where) {
   MotionThresholds thresholds;
   thresholds.kappa = finite(value["kappa"], where + " (kappa)");
   thresholds.sigma = finite(value["sigma"], where + " (sigma)");
-  if (!(thresholds.sigma >= 0 && thresholds.sigma <= 1)) fail(where, "sigma is the square of a sine: from 0 to 1");
+  if (!(thresholds.sigma >= 0 && thresholds.sigma <= 1))
+    throw_malformed(where, "sigma is the square of a sine: from 0 to 1");
   thresholds.delaunay = false;
   if (value.contains("delaunay")) {
-    if (!value["delaunay"].is_boolean()) fail(where, "\"delaunay\" must be true or false");
+    if (!value["delaunay"].is_boolean()) throw_malformed(where, "\"delaunay\" must be true or false");
     thresholds.delaunay = value["delaunay"].get<bool>();
   }
   return thresholds;
 }
 
 DepthMesh depth_mesh_of(const Json& samples, const Json& triangles, const std::string& where) {
-  if (!samples.is_array()) fail(where, "\"samples\" must be a list");
-  if (!triangles.is_array()) fail(where, "\"triangles\" must be a list");
+  if (!samples.is_array()) throw_malformed(where, "\"samples\" must be a list");
+  if (!triangles.is_array()) throw_malformed(where, "\"triangles\" must be a list");
   DepthMesh mesh;
   mesh.samples.reserve(samples.size());
   for (const auto& sample : samples) {
@@ -99,10 +97,12 @@ DepthMesh depth_mesh_of(const Json& samples, const Json& triangles, const std::s
   mesh.triangles.reserve(triangles.size());
   for (const auto& triangle : triangles) {
     const auto place = fmt::format("{}: triangle {}", where, mesh.triangles.size());
-    if (!triangle.is_array() || triangle.size() != 3) fail(place, json_excerpt(triangle) + " is no triangle [a, b, c]");
+    if (!triangle.is_array() || triangle.size() != 3)
+      throw_malformed(place, json_excerpt(triangle) + " is no triangle [a, b, c]");
     std::array<std::uint32_t, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i) {
-      if (!triangle[i].is_number_unsigned()) fail(place, json_excerpt(triangle[i]) + " is no number of a sample");
+      if (!triangle[i].is_number_unsigned())
+        throw_malformed(place, json_excerpt(triangle[i]) + " is no number of a sample");
       const auto index = triangle[i].get<std::uint64_t>();
       if (index >= mesh.samples.size()) {
         throw Error(ErrorCode::index_out_of_range,
@@ -111,7 +111,7 @@ DepthMesh depth_mesh_of(const Json& samples, const Json& triangles, const std::s
       corners[i] = static_cast<std::uint32_t>(index);
     }
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
-      fail(place, "it has a sample twice");
+      throw_malformed(place, "it has a sample twice");
     }
     mesh.triangles.push_back(corners);
   }
@@ -121,7 +121,8 @@ DepthMesh depth_mesh_of(const Json& samples, const Json& triangles, const std::s
 double bound_of(const Json& value, const std::string& where) {
   if (value.is_null()) return std::numeric_limits<double>::infinity();
   const double bound = finite(value, where);
-  if (!(bound >= 0)) fail(where, json_excerpt(value) + " is no distance; a bound is 0, more, or null for none");
+  if (!(bound >= 0))
+    throw_malformed(where, json_excerpt(value) + " is no distance; a bound is 0, more, or null for none");
   return bound;
 }
 
@@ -168,7 +169,7 @@ MotionBounds read_motion_bounds(const std::filesystem::path& path) {
   MotionBounds bounds;
   if (root.contains("viewpoint")) bounds.viewpoint = motion_point_of(root["viewpoint"], where + ": viewpoint");
   bounds.thresholds = thresholds_of(root["thresholds"], where + ": thresholds");
-  if (!root["bounds"].is_array()) fail(where, "\"bounds\" must be a list");
+  if (!root["bounds"].is_array()) throw_malformed(where, "\"bounds\" must be a list");
   bounds.bounds.reserve(root["bounds"].size());
   for (const auto& bound : root["bounds"]) {
     bounds.bounds.push_back(bound_of(bound, fmt::format("{}: bound {}", where, bounds.bounds.size())));

@@ -8,6 +8,7 @@
 
 #include "scene/json_reader.h"
 #include "scene/messages/error.h"
+#include "scene/motion/malformed.h"
 #include "scene/motion/motion_files.h"
 
 namespace clues::scene {
@@ -26,23 +27,19 @@ bool same(const MotionThresholds& a, const MotionThresholds& b) {
   return a.kappa == b.kappa && a.sigma == b.sigma && a.delaunay == b.delaunay;
 }
 
-[[noreturn]] void fail(const std::string& where, const std::string& what) {
-  throw Error(ErrorCode::malformed, where + ": " + what);
-}
-
 // whole_number, with the place.
 std::uint64_t number_in(const Json& value, const std::string& where, const char* what, std::uint64_t most) {
   try {
     return whole_number(value, what, most);
   } catch (const JsonError& e) {
-    fail(where, e.what());
+    throw_malformed(where, e.what());
   }
 }
 
 void apply_samples(const Json& list, std::vector<DepthSample>& samples, const std::string& where) {
-  if (!list.is_array()) fail(where, "\"samples\" must be a list");
+  if (!list.is_array()) throw_malformed(where, "\"samples\" must be a list");
   for (const auto& item : list) {
-    if (!item.is_array() || item.empty()) fail(where, json_excerpt(item) + " is no sample [I, x, y, z]");
+    if (!item.is_array() || item.empty()) throw_malformed(where, json_excerpt(item) + " is no sample [I, x, y, z]");
     const auto index = number_in(item[0], where, "the number of a sample", most_places);
     if (index >= samples.size()) {
       throw Error(ErrorCode::index_out_of_range,
@@ -55,10 +52,10 @@ void apply_samples(const Json& list, std::vector<DepthSample>& samples, const st
 }
 
 void apply_triangles(const Json& list, DepthMesh& mesh, const std::string& where) {
-  if (!list.is_array()) fail(where, "\"triangles\" must be a list");
+  if (!list.is_array()) throw_malformed(where, "\"triangles\" must be a list");
   for (const auto& item : list) {
     if (!item.is_array() || (item.size() != 1 && item.size() != 4)) {
-      fail(where, json_excerpt(item) + " is no triangle [I, a, b, c], and no free place [I]");
+      throw_malformed(where, json_excerpt(item) + " is no triangle [I, a, b, c], and no free place [I]");
     }
     const auto index = number_in(item[0], where, "the number of a triangle", most_places);
     if (index >= mesh.triangles.size()) {
@@ -113,7 +110,8 @@ WalkReader::WalkReader(const std::filesystem::path& path) : file_(path.string())
   line_ = 1;
   const auto root = parse_json(text, file_);
   if (!root.is_object() || root.size() != 1 || !root.contains("format") || root["format"] != format_name) {
-    fail(file_ + ":1", fmt::format("this is no walk; the first line must be {{\"format\": \"{}\"}}", format_name));
+    throw_malformed(file_ + ":1",
+                    fmt::format("this is no walk; the first line must be {{\"format\": \"{}\"}}", format_name));
   }
 }
 
@@ -128,19 +126,19 @@ bool WalkReader::next(WalkFrame& frame) {
   try {
     root = parse_json_text(text);
   } catch (const JsonError& e) {
-    fail(where, e.what());
+    throw_malformed(where, e.what());
   }
-  if (!root.is_object()) fail(where, json_excerpt(root) + " is no frame");
+  if (!root.is_object()) throw_malformed(where, json_excerpt(root) + " is no frame");
   for (const auto& [key, value] : root.items()) {
     if (key != "sizes" && key != "samples" && key != "triangles" && key != "thresholds" && key != "viewpoint") {
-      fail(where, "there is no field \"" + key + "\" in this format");
+      throw_malformed(where, "there is no field \"" + key + "\" in this format");
     }
   }
-  if (!root.contains("viewpoint")) fail(where, "the field \"viewpoint\" is missing");
-  if (frames_ == 0 && !root.contains("thresholds")) fail(where, "the first frame must have \"thresholds\"");
+  if (!root.contains("viewpoint")) throw_malformed(where, "the field \"viewpoint\" is missing");
+  if (frames_ == 0 && !root.contains("thresholds")) throw_malformed(where, "the first frame must have \"thresholds\"");
   if (root.contains("sizes")) {
     const auto& sizes = root["sizes"];
-    if (!sizes.is_array() || sizes.size() != 2) fail(where, "\"sizes\" must be [SAMPLES, TRIANGLES]");
+    if (!sizes.is_array() || sizes.size() != 2) throw_malformed(where, "\"sizes\" must be [SAMPLES, TRIANGLES]");
     const auto samples = number_in(sizes[0], where, "the number of samples", most_places);
     const auto triangles = number_in(sizes[1], where, "the number of triangles", most_places);
     mesh_.samples.resize(samples);
@@ -163,7 +161,8 @@ bool WalkReader::next(WalkFrame& frame) {
                     fmt::format("{}: triangle {} names sample {} of {}", where, i, corner, mesh_.samples.size()));
       }
     }
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) fail(where, fmt::format("triangle {} has a sample twice", i));
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+      throw_malformed(where, fmt::format("triangle {} has a sample twice", i));
     frame.mesh.triangles.push_back(t);
   }
   return true;

@@ -5,6 +5,7 @@
 //     middle gradient g and what is left of it, G(c) + g.(center - c) - |g| radius - h |rest|_1 in the part of the cube that is in the ball.
 // Near the point where the ball touches the violation it is the second of each that ends the halving.
 #include "validate/motion/ball_proof.h"
+#include "validate/motion/interval_vector.h"
 
 #include <CGAL/Interval_nt.h>
 
@@ -15,14 +16,9 @@
 namespace clues::validate {
 namespace {
 
-using Interval = CGAL::Interval_nt<false>;
-using Vector = std::array<Interval, 3>;
+using Vector = IntervalVector;
 using Row = std::array<Vector, 4>;
 
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Interval dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Vector plus(const Vector& a, const Vector& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Vector times(const Interval& f, const Vector& a) { return {f * a[0], f * a[1], f * a[2]}; }

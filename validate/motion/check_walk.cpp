@@ -9,22 +9,17 @@
 #include <optional>
 
 #include "scene/messages/error.h"
+#include "validate/motion/interval_vector.h"
 #include "validate/motion/mesh_places.h"
 
 namespace clues::validate {
 namespace {
 
-using Interval = CGAL::Interval_nt<false>;
-using Vector = std::array<Interval, 3>;
+using Vector = IntervalVector;
 using scene::ConstraintPlace;
 using scene::MotionConstraint;
 
 constexpr std::size_t most_findings = 100;
-
-Vector cross(const Vector& a, const Vector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Interval dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // Of the same direction: what a double cannot hold is cut down, by one power of two, and rounded to both sides.
 Vector enclosed(const exact::SightRow& row) {
