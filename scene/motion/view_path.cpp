@@ -36,6 +36,7 @@ std::vector<double> numbers_of(const std::string& spec, std::string_view text) {
     const ParsedNumber parsed = parse_number(word);
     if (parsed.kind == NumberKind::non_finite) fail_spec(spec, fmt::format("{} is not finite", excerpt(word)));
     if (parsed.kind == NumberKind::not_a_number) fail_spec(spec, fmt::format("{} is no number", excerpt(word)));
+    if (std::fabs(parsed.value) > 0x1p90) fail_spec(spec, fmt::format("{} is beyond 2^90", excerpt(word)));
     numbers.push_back(parsed.value);
   }
   return numbers;
