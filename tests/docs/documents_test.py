@@ -242,8 +242,15 @@ def help_texts(clues):
     def asked(*words):
         return subprocess.run([clues, *words, "--help"], capture_output=True, text=True, check=True).stdout
     texts = {"": asked()}
-    for name in re.findall(r"^  ([a-z]+) ", texts[""].split("Subcommands:")[1].split("EXAMPLES")[0], re.MULTILINE):
+
+    def subcommands_of(text):
+        listed = text.split("Subcommands:")[1].split("EXAMPLES")[0].split("DESCRIPTION")[0] if "Subcommands:" in text else ""
+        return re.findall(r"^  ([a-z]+) ", listed, re.MULTILINE)
+
+    for name in subcommands_of(texts[""]):
         texts[name] = asked(name)
+        for second in subcommands_of(texts[name]):
+            texts[f"{name} {second}"] = asked(name, second)
     return texts
 
 

@@ -78,6 +78,9 @@ def unknown_names(pieces, help_of):
             if command not in help_of:
                 yield f"clues {command}"
                 continue
+            second = re.match(r" ([a-z]+)", rest)
+            if second and f"{command} {second[1]}" in help_of:  # a subcommand of it
+                command = f"{command} {second[1]}"
             for option in re.findall(r"(?<![\w-])--[a-z][a-z-]*", rest):
                 if not re.search(re.escape(option) + r"(?![\w-])", help_of[command]):
                     yield f"clues {command} {option}"
