@@ -10,8 +10,6 @@
 namespace clues::fastpath::motion {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // How fast a x b changes with the viewpoint, at most: a and b lose w each, so a x b changes by (a - b) x w, and by b x w or a x w where only
 // one of them moves. The difference of two rows has an error of 2u (la + lb), its norm one of 4u.
 double speed_of_cross(const Row& a, const Row& b) {

@@ -7,12 +7,14 @@
 // factor kDown = 1 - 2^-40 makes up for 2^13 of these.
 #pragma once
 
+#include <limits>
+
 #include "fastpath/motion/row.h"
 #include "scene/motion/depth_mesh.h"
 
 namespace clues::fastpath::motion {
 
-inline constexpr double kDown = 1 - 0x1p-40, kUp = 1 + 0x1p-40;
+inline constexpr double kDown = 1 - 0x1p-40, kUp = 1 + 0x1p-40, kInfinity = std::numeric_limits<double>::infinity();
 
 // Thresholds as the bounds need them.
 struct BoundThresholds {

@@ -41,8 +41,6 @@
 namespace clues::fastpath::motion {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 // One i of the sum, as seen from the base k.
 struct Term {
   bool i_moves, k_moves;

@@ -11,7 +11,6 @@
 namespace clues::fastpath::motion {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t kBaseVertices = 162;
 
 double sum_up(double a, double b) { return std::nextafter(a + b, kInfinity); }
