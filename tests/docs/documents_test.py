@@ -230,6 +230,8 @@ def check_block(block, scratch):
         for pattern, shorter in SHORTER:
             text = re.sub(pattern, shorter, text)
         code = next((code for pattern, code in EXIT_CODES if re.match(pattern, command.text)), 0)
+        if "clues view" in command.text and not scratch.has_page:  # built without Node.js: it has to say so
+            code = 2
         begin = time.monotonic()
         ran = examples.run(text, scratch.folder, scratch.environment)
         if "-v" in sys.argv:
@@ -267,6 +269,8 @@ def sources_of(source, texts):
 
 def check_all(clues, source, only):
     texts = help_texts(clues)
+    with tempfile.TemporaryDirectory(prefix="clues-documents-") as folder:
+        viewed = subprocess.run([clues, "view", "-o", pathlib.Path(folder) / "page.html"], capture_output=True, text=True, check=False)
     for name, text, blocks in sources_of(source, texts):
         if only and not name.startswith(tuple(only)):
             continue
@@ -278,6 +282,7 @@ def check_all(clues, source, only):
             continue
         with tempfile.TemporaryDirectory(prefix="clues-documents-") as folder:
             scratch = Scratch(folder, clues, source)
+            scratch.has_page = viewed.returncode == 0
             scratch.prepare(name)
             for block in blocks:
                 yield from check_block(block, scratch)
