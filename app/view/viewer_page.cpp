@@ -34,10 +34,10 @@ std::string_view embedded() {
 }
 
 // JSON whose text cannot end the script element that it stands in: "<" is only found within texts.
-std::string within_script(const std::string& json) {
+std::string within_script(const std::string& text) {
   std::string out;
-  out.reserve(json.size() + json.size() / 64);
-  for (const char c : json) {
+  out.reserve(text.size() + text.size() / 64);
+  for (const char c : text) {
     if (c == '<') {
       out += "\\u003c";
     } else {
