@@ -206,6 +206,8 @@ void link_to(const char* target, const std::string& path) { EXPECT_EQ(symlink(ta
 class BadDoorTest : public testing::TestWithParam<BadDoor> {};
 
 TEST_P(BadDoorTest, IsRefusedAtOnce) {
+  if (GetParam().name == std::string("LinkToTheTerminal") && access("/dev/pts/ptmx", F_OK) != 0)
+    GTEST_SKIP() << "there are no terminals in here (/dev/pts is not mounted)";
   for (const std::string name : {"a.pvs", "a.clues.json", "a.obj"}) {
     const SceneFolder folder;
     const auto path = folder.file(name);
