@@ -10,20 +10,23 @@
 #include "scene/messages/error.h"
 
 namespace clues::scene {
-namespace {
 
-std::string lower_case(std::string text) {
+std::string lower_case_extension(const std::filesystem::path& path) {
+  std::string text = path.extension().string();
   std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return text;
 }
 
-}  // namespace
+void require_triangles(const TriangleMesh& mesh, const std::filesystem::path& path) {
+  if (mesh.triangles.empty())
+    throw Error(ErrorCode::malformed, path.string() + ": no triangles; a scene needs at least one face");
+}
 
 TriangleMesh read_mesh_or_points(const std::filesystem::path& path) {
   const auto file = path.string();
   const auto bytes = read_file_bytes(path);
-  const auto extension = lower_case(path.extension().string());
+  const auto extension = lower_case_extension(path);
   const bool known = extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl";
   if (!known) {
     throw Error(ErrorCode::unsupported,
@@ -38,9 +41,7 @@ TriangleMesh read_mesh_or_points(const std::filesystem::path& path) {
 
 TriangleMesh read_mesh(const std::filesystem::path& path) {
   auto mesh = read_mesh_or_points(path);
-  if (mesh.triangles.empty()) {
-    throw Error(ErrorCode::malformed, path.string() + ": no triangles; a scene needs at least one face");
-  }
+  require_triangles(mesh, path);
   return mesh;
 }
 

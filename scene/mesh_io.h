@@ -16,6 +16,11 @@ namespace clues::scene {
 // A file with zero triangles is malformed ("no triangles"). O(size of the file).
 TriangleMesh read_mesh(const std::filesystem::path& path);
 
+// What chooses a reader: ".obj" of "TOWN.OBJ".
+std::string lower_case_extension(const std::filesystem::path& path);
+// Throws the error of a file with zero triangles.
+void require_triangles(const TriangleMesh& mesh, const std::filesystem::path& path);
+
 // The mesh as the text of an OFF file; read_mesh gets every double back, bit for bit. A mesh without triangles is a point list (a cell).
 std::string to_off_text(const TriangleMesh& mesh);
 

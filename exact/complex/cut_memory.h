@@ -22,7 +22,7 @@ class CutMemory {
     const auto it = contacts_.find({a, b});
     return it == contacts_.end() ? nullptr : &it->second;
   }
-  void keep(Name a, Name b, const Contact& contact) { contacts_.emplace(std::pair{a, b}, contact); }
+  void keep(Name a, Name b, const Contact& contact) { contacts_.try_emplace(std::pair{a, b}, contact); }
 
   // Everything that a cut depends on: the sheets of the plane, and for each the sheets that it meets.
   using Situation = std::vector<std::vector<Name>>;
@@ -30,7 +30,7 @@ class CutMemory {
     const auto it = cuts_.find(situation);
     return it == cuts_.end() ? nullptr : &it->second;
   }
-  void keep(const Situation& situation, const std::vector<CutFace>& faces) { cuts_.emplace(situation, faces); }
+  void keep(const Situation& situation, const std::vector<CutFace>& faces) { cuts_.try_emplace(situation, faces); }
 
  private:
   std::map<std::pair<Name, Name>, Contact> contacts_;

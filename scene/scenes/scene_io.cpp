@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "scene/formats/file_bytes.h"
@@ -12,18 +11,9 @@
 #include "scene/messages/error.h"
 
 namespace clues::scene {
-namespace {
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return text;
-}
-
-}  // namespace
 
 FlaggedMesh read_scene(const std::filesystem::path& path) {
-  const std::string extension = lower_case(path.extension().string()), file = path.string();
+  const std::string extension = lower_case_extension(path), file = path.string();
   if (extension == ".bsp") return scene_of_level(parse_bsp(read_file_bytes(path), file)).scene;
   if (extension != ".gltf" && extension != ".glb") {
     FlaggedMesh scene;
@@ -32,8 +22,7 @@ FlaggedMesh read_scene(const std::filesystem::path& path) {
   }
   auto scene = read_gltf(read_file_bytes(path), file,
                          [&](const std::string& relative) { return read_file_bytes(path.parent_path() / relative); });
-  if (scene.mesh.triangles.empty())
-    throw Error(ErrorCode::malformed, file + ": no triangles; a scene needs at least one face");
+  require_triangles(scene.mesh, path);
   return scene;
 }
 
