@@ -51,6 +51,8 @@ std::vector<Row> rows_of(const scene::BspFile& level, const scene::LevelScene& s
           {"moving_faces", "faces of what moves, left out", scene.moving},
           {"brushes", "brushes", level.brushes.size()},
           {"hulls", "  structural ones with a hull that blocks", scene.hulls},
+          {"hull_sides", "    sides of these", scene.hull_sides},
+          {"covered_sides", "    covered by drawings and by other hulls, left out", scene.covered_sides},
           {"thin_brushes", "  structural ones of which nothing is left", scene.thin_brushes},
           {"triangles", "triangles", total},
           {"counting_triangles", "  that count", counting},

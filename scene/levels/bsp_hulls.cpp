@@ -72,9 +72,8 @@ bool meets_box(const std::array<Point, 3>& t, const std::array<Point, 2>& box) {
 
 }  // namespace
 
-std::vector<std::array<Point, 3>> hull_of_brush(const BspFile& level, const BspFile::Brush& brush,
-                                                const Polytope& bounds,
-                                                const std::vector<std::array<Point, 3>>& drawn) {
+Hull hull_of_brush(const BspFile& level, const BspFile::Brush& brush, const Polytope& bounds,
+                   const std::vector<std::array<Point, 3>>& drawn) {
   auto solid = solid_of(level, brush, bounds, {});
   if (!solid) return {};
   const auto box = rough_box(*solid);
@@ -91,11 +90,10 @@ std::vector<std::array<Point, 3>> hull_of_brush(const BspFile& level, const BspF
   if (!solid) return {};
   const auto corners = inner_vertices(*solid);
   if (!corners) return {};
-  std::vector<std::array<Point, 3>> hull;
+  Hull hull;
   for (const auto& face : solid->faces) {
-    for (std::size_t i = 1; i + 1 < face.vertices.size(); ++i) {
-      hull.push_back({(*corners)[face.vertices[0]], (*corners)[face.vertices[i]], (*corners)[face.vertices[i + 1]]});
-    }
+    auto& polygon = hull.emplace_back();
+    for (const auto vertex : face.vertices) polygon.push_back((*corners)[vertex]);
   }
   return hull;
 }

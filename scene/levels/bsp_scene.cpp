@@ -8,6 +8,7 @@
 
 #include "scene/formats/place.h"
 #include "scene/levels/bsp_bounds.h"
+#include "scene/levels/bsp_covered.h"
 #include "scene/levels/bsp_flags.h"
 #include "scene/levels/bsp_hulls.h"
 #include "scene/levels/bsp_patch.h"
@@ -47,7 +48,8 @@ class SceneBuilder {
     if (out_.face_triangles == 0)
       fail_in(level_.name, ErrorCode::malformed, "no triangles; a scene needs at least one face that is drawn");
     const Polytope bounds = bounds_of_brushes(level_);
-    for (std::uint32_t i = 0; i < world.brushes.count; ++i) add_hull(world.brushes.first + i, bounds);
+    for (std::uint32_t i = 0; i < world.brushes.count; ++i) find_hull(world.brushes.first + i, bounds);
+    add_hulls();
     out_.scene = builder_.take();
     return std::move(out_);
   }
@@ -71,25 +73,45 @@ class SceneBuilder {
     for (const auto& corners : triangles_of_face(level_, face)) {
       builder_.add(corners, index, {blocks, true});
       drawn_.push_back(corners);
+      if (blocks) opaque_.push_back(corners);
     }
   }
 
-  void add_hull(std::uint32_t index, const Polytope& bounds) {
+  void find_hull(std::uint32_t index, const Polytope& bounds) {
     const auto& brush = level_.brushes[index];
-    const auto& shader = level_.shaders[brush.shader];
-    if (!is_structural(shader)) return;
-    const auto hull = hull_of_brush(level_, brush, bounds, drawn_);
+    if (!is_structural(level_.shaders[brush.shader])) return;
+    Hull hull = hull_of_brush(level_, brush, bounds, drawn_);
     ++(hull.empty() ? out_.thin_brushes : out_.hulls);
     if (hull.empty()) return;
-    builder_.begin_part(fmt::format("brush {} ({})", index, shader.name));
-    for (const auto& corners : hull) {
-      builder_.add(corners, static_cast<std::uint32_t>(level_.faces.size()) + index, {true, false});
+    brushes_.push_back(index);
+    hulls_.push_back(std::move(hull));
+  }
+
+  void add_hulls() {
+    const auto covered = covered_faces(hulls_, opaque_);
+    for (std::size_t i = 0; i < hulls_.size(); ++i) {
+      const auto index = brushes_[i];
+      builder_.begin_part(fmt::format("brush {} ({})", index, level_.shaders[level_.brushes[index].shader].name));
+      for (std::size_t k = 0; k < hulls_[i].size(); ++k) {
+        ++out_.hull_sides;
+        if (covered[i][k]) {
+          ++out_.covered_sides;
+          continue;
+        }
+        const auto& face = hulls_[i][k];
+        for (std::size_t c = 1; c + 1 < face.size(); ++c) {
+          builder_.add({face[0], face[c], face[c + 1]}, static_cast<std::uint32_t>(level_.faces.size()) + index,
+                       {true, false});
+        }
+      }
     }
   }
 
   const BspFile& level_;
   FlaggedMeshBuilder builder_;
-  std::vector<Corners> drawn_;
+  std::vector<Corners> drawn_, opaque_;
+  std::vector<std::uint32_t> brushes_;  // with a hull
+  std::vector<Hull> hulls_;             // of these
   LevelScene out_;
 };
 

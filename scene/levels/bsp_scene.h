@@ -26,8 +26,9 @@ struct LevelScene {
                 meshes = 0;  // drawn faces of the world; opaque: the planar ones that block
   std::uint32_t billboards = 0, undrawn = 0, moving = 0;  // faces that are left out, the last with their model
   std::uint32_t face_triangles = 0;
-  std::uint32_t hulls = 0;         // structural brushes with a hull
-  std::uint32_t thin_brushes = 0;  // structural brushes that were left out: nothing is left of them
+  std::uint32_t hulls = 0;                          // structural brushes with a hull
+  std::uint32_t hull_sides = 0, covered_sides = 0;  // of the hulls; the covered ones are left out (bsp_covered.h)
+  std::uint32_t thin_brushes = 0;                   // structural brushes that were left out: nothing is left of them
 };
 
 // Throws Error malformed where nothing is drawn.
