@@ -1,4 +1,4 @@
-// clues map for scenes in which some triangles do not block or do not count (D22): lists, by either kernel, layer by layer.
+// clues map for scenes in which some triangles do not block or do not count (D22): lists, by the fast kernel, or by the exact one layer by layer.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 #include "app/cell_mapper.h"
 #include "exact/threads.h"
-#include "fastpath/visibility/first_order.h"
+#include "fastpath/visibility/see_through.h"
 #include "scene/messages/error.h"
 #include "validate/see_through/layers.h"
 
@@ -22,15 +22,25 @@ class SeeThroughMapper : public CellMapper {
       blocking_ += scene.blocking(t) ? 1 : 0;
       counting_ += scene.counting(t) ? 1 : 0;
     }
+    if (request.method.kernel == "fast") fast_ = std::make_unique<fastpath::SeeThroughScene>(scene);
   }
 
   MappedCell map(const scene::CellSpec& spec, int threads, const reference::Progress& progress) const override {
-    std::uint64_t layers = 0, fallbacks = 0;
-    const auto visible = validate::visible_in_layers(scene_, [&](const scene::TriangleMesh& mesh) {
-      ++layers;
-      return request_.method.kernel == "fast" ? fast(mesh, spec, threads, fallbacks)
-                                              : exactly(mesh, spec, threads, progress, fallbacks);
-    });
+    std::vector<std::uint32_t> visible;
+    std::uint64_t fallbacks = 0;
+    if (request_.method.kernel == "fast") {
+      const auto found = exact::by_threads(
+          threads, [&] { return fastpath::visible_through(*fast_, spec.points, fastpath::LocalMapOptions{}); });
+      for (const auto t : found.blocking) {
+        if (scene_.counting(t)) visible.push_back(t);
+      }
+      visible.insert(visible.end(), found.passing.begin(), found.passing.end());
+      std::sort(visible.begin(), visible.end());
+      fallbacks = found.conservative_fallbacks;
+    } else {
+      visible = validate::visible_in_layers(
+          scene_, [&](const scene::TriangleMesh& mesh) { return exactly(mesh, spec, threads, progress, fallbacks); });
+    }
     scene::Result result;
     result.scene_triangles = scene_.mesh.triangles.size();
     result.cell = spec.points;
@@ -39,29 +49,17 @@ class SeeThroughMapper : public CellMapper {
     result.visible = visible;
     result.stats = {{"blocking_triangles", blocking_},
                     {"conservative_fallbacks", static_cast<std::int64_t>(fallbacks)},
-                    {"counting_triangles", counting_},
-                    {"layers", static_cast<std::int64_t>(layers)}};
+                    {"counting_triangles", counting_}};
     MappedCell mapped;
     mapped.name = spec.name;
-    mapped.summary = fmt::format("{:>9}  {:>8}  {:>8}  {:>7}  {:>6}  {:>9}  {}\n", scene_.mesh.triangles.size(),
-                                 blocking_, counting_, visible.size(), layers, fallbacks, spec.name);
+    mapped.summary = fmt::format("{:>9}  {:>8}  {:>8}  {:>7}  {:>9}  {}\n", scene_.mesh.triangles.size(), blocking_,
+                                 counting_, visible.size(), fallbacks, spec.name);
     put_result(mapped, std::move(result), request_, sha256_);
     return mapped;
   }
-  const char* table_head() const override {
-    return "triangles  blocking  counting  visible  layers  fallbacks  cell\n";
-  }
+  const char* table_head() const override { return "triangles  blocking  counting  visible  fallbacks  cell\n"; }
 
  private:
-  static std::vector<std::uint32_t> fast(const scene::TriangleMesh& mesh, const scene::CellSpec& spec, int threads,
-                                         std::uint64_t& fallbacks) {
-    const fastpath::Bvh bvh(mesh);
-    const auto found = exact::by_threads(threads, [&] {
-      return fastpath::first_order_visibility(bvh, spec.points, fastpath::LocalMapOptions{}, false);
-    });
-    fallbacks += found.conservative_fallbacks;
-    return found.visible;
-  }
   std::vector<std::uint32_t> exactly(const scene::TriangleMesh& mesh, const scene::CellSpec& spec, int threads,
                                      const reference::Progress& progress, std::uint64_t& fallbacks) const {
     auto options = request_.method.to_reference();
@@ -75,6 +73,7 @@ class SeeThroughMapper : public CellMapper {
   const scene::FlaggedMesh& scene_;
   std::string sha256_;
   const MapRequest& request_;
+  std::unique_ptr<fastpath::SeeThroughScene> fast_;
   std::int64_t blocking_ = 0, counting_ = 0;
 };
 

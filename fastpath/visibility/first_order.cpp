@@ -6,58 +6,23 @@
 #include <utility>
 
 #include "exact/complex/complex.h"
-#include "exact/complex/cut_memory.h"
 #include "exact/threads.h"
+#include "fastpath/visibility/engine_part.h"
 
 namespace clues::fastpath {
 namespace {
 
-class EnginePart : public PartialMap {
- public:
-  explicit EnginePart(LocalMap map) : map_(std::move(map)) {}
-
-  // What light meets, on either side: the closure asks for that in solid mode too.
-  std::vector<std::uint32_t> visible() const override { return map_.lit(); }
-  SetLabel label(const Box& box) const override { return map_.label(box); }
-  SetLabel label_of_inside(const Corners& triangle, const Box& about) const override {
-    return map_.label_of_inside(triangle, about);
-  }
-
-  const LocalMap& map() const { return map_; }
-
- private:
-  LocalMap map_;
-};
-
-// The box of the scene, widened by far more than what boxes and points of the closure may be off.
-Box outside_of(const Bvh& bvh) {
-  const LocalFrame& frame = bvh.frame();
-  Box box;
-  for (std::size_t i = 0; i < 3; ++i) {
-    box.low[i] = frame.center[i] - 2 / frame.scale;
-    box.high[i] = frame.center[i] + 2 / frame.scale;
-  }
-  return box;
-}
-
 FirstOrder by_closure(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options, bool regions) {
-  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
-  const Box outside = outside_of(bvh);
-  exact::CutMemory memory;
-  const auto make_map = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids) {
-    return std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, options, &outside));
-  };
-  Closure closure = close_over_visible(bvh, Cell(exact_cell), make_map, kMappedWhole, options.dials);
-  const LocalMap& map = static_cast<const EnginePart&>(*closure.map).map();
-
+  ClosedScene closed = close_by_engine(bvh, cell, options, outside_of(bvh));
+  const LocalMap& map = closed.map();
   FirstOrder result;
-  for (const std::uint32_t t : map.visible()) result.visible.push_back(closure.part[t]);
+  for (const std::uint32_t t : map.visible()) result.visible.push_back(closed.closure.part[t]);
   if (regions) result.regions = map.regions();
-  for (LocalRegion& region : result.regions) region.triangle = closure.part[region.triangle];
+  for (LocalRegion& region : result.regions) region.triangle = closed.closure.part[region.triangle];
   result.counts = map.counts();
-  result.closure = closure.counts;
-  result.conservative_fallbacks = map.counts().conservative_fallbacks + map.conservative_labels();
-  result.part = std::move(closure.part);
+  result.closure = closed.closure.counts;
+  result.conservative_fallbacks = closed.fallbacks();
+  result.part = std::move(closed.closure.part);
   return result;
 }
 

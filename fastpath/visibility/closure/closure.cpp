@@ -100,6 +100,86 @@ class LitTriangles {
   exact::BoxTree tree_;
 };
 
+// Proofs that triangles lie outside Omega(K).
+class Darkness {
+ public:
+  Darkness(const PartialMap& map, LitTriangles lit) : map_(map), lit_(std::move(lit)) {}
+
+  // The triangles of the tree for which there is none, but for those that are skipped; no more levels of the tree are opened once there are `enough`.
+  template <class Skip>
+  std::vector<std::uint32_t> not_proved(const Bvh& tree, const Skip& skip, std::size_t enough,
+                                        ClosureCounts& counts) const;
+
+ private:
+  bool dark(const Box& box) const { return !lit_.may_touch(box) && map_.label(box) == SetLabel::hidden; }
+  bool dark(const Corners& t) const;
+
+  const PartialMap& map_;
+  LitTriangles lit_;
+};
+
+// The inside of a triangle, by a place about one of its points.
+bool Darkness::dark(const Corners& t) const {
+  if (lit_.may_meet_inside(t)) return false;
+  for (const std::array<double, 3>& weight :
+       {std::array{0.3125, 0.375, 0.3125}, {0.25, 0.25, 0.5}, {0.5, 0.1875, 0.3125}}) {
+    const Box about = about_inside(t, weight);
+    if (lit_.may_touch(about)) continue;
+    const SetLabel label = map_.label_of_inside(t, about);
+    if (label != SetLabel::elsewhere) return label == SetLabel::hidden;
+  }
+  return false;
+}
+
+template <class Skip>
+std::vector<std::uint32_t> Darkness::not_proved(const Bvh& tree, const Skip& skip, std::size_t enough,
+                                                ClosureCounts& counts) const {
+  counts.boxes_dark = counts.boxes_opened = counts.triangles_dark = 0;
+  std::vector<std::uint32_t> failed, level;
+  if (!tree.nodes().empty()) level.push_back(0);
+  // One level of the tree after the other, each in parallel, answers in order: the same for any number of threads.
+  while (!level.empty() && failed.size() < enough) {
+    struct Answer {
+      std::vector<std::uint32_t> open, failed;
+      std::uint64_t boxes_dark = 0, triangles_dark = 0;
+    };
+    std::vector<Answer> answers(level.size());
+    tbb::parallel_for(std::size_t{0}, level.size(), [&](std::size_t i) {
+      const BoxLanes& node = tree.nodes()[level[i]];
+      Answer& answer = answers[i];
+      for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane) {
+        const std::uint32_t child = node.child[lane];
+        if (child == BoxLanes::kEmpty) continue;
+        if (dark(child_box(tree.frame(), node, lane))) {
+          ++answer.boxes_dark;
+        } else if ((child & BoxLanes::kLeaf) == 0) {
+          answer.open.push_back(child);
+        } else {
+          const TriangleBlock& block = tree.blocks()[child & ~BoxLanes::kLeaf];
+          for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint32_t t = block.id[k];
+            if (skip(t) || (k > 0 && t == block.id[0])) continue;
+            if (dark(tree.corners(t))) {
+              ++answer.triangles_dark;
+            } else {
+              answer.failed.push_back(t);
+            }
+          }
+        }
+      }
+    });
+    counts.boxes_opened += level.size();
+    level.clear();
+    for (const Answer& a : answers) {
+      level.insert(level.end(), a.open.begin(), a.open.end());
+      failed.insert(failed.end(), a.failed.begin(), a.failed.end());
+      counts.boxes_dark += a.boxes_dark;
+      counts.triangles_dark += a.triangles_dark;
+    }
+  }
+  return failed;
+}
+
 class Closer {
  public:
   Closer(const Bvh& bvh, const Cell& cell, const exact::Dials& dials)
@@ -130,8 +210,6 @@ class Closer {
   ClosureCounts counts;
 
  private:
-  bool dark(const Box& box, const PartialMap& map, const LitTriangles& lit) const;
-  bool dark(const Corners& t, const PartialMap& map, const LitTriangles& lit) const;
   void add_with_neighbours(std::vector<std::uint32_t> seen);
   // Adds what sight lines to the triangles meet first; else the triangles themselves.
   void add_front_of(const std::vector<std::uint32_t>& triangles);
@@ -213,23 +291,6 @@ scene::TriangleMesh Closer::part_mesh() {
   return mesh;
 }
 
-bool Closer::dark(const Box& box, const PartialMap& map, const LitTriangles& lit) const {
-  return !lit.may_touch(box) && map.label(box) == SetLabel::hidden;
-}
-
-// The inside of a triangle, by a place about one of its points.
-bool Closer::dark(const Corners& t, const PartialMap& map, const LitTriangles& lit) const {
-  if (lit.may_meet_inside(t)) return false;
-  for (const std::array<double, 3>& weight :
-       {std::array{0.3125, 0.375, 0.3125}, {0.25, 0.25, 0.5}, {0.5, 0.1875, 0.3125}}) {
-    const Box about = about_inside(t, weight);
-    if (lit.may_touch(about)) continue;
-    const SetLabel label = map.label_of_inside(t, about);
-    if (label != SetLabel::elsewhere) return label == SetLabel::hidden;
-  }
-  return false;
-}
-
 void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
   const std::vector<std::uint32_t> met = rays_.towards(triangles);
   std::vector<std::uint32_t> seen;
@@ -244,50 +305,9 @@ void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
 }
 
 bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible) {
-  const LitTriangles lit(bvh_, visible);
-  counts.boxes_dark = counts.boxes_opened = counts.triangles_dark = 0;
-  std::vector<std::uint32_t> failed;
-  // One level of the tree after the other, each in parallel, answers in order: the same for any number of threads.
-  std::vector<std::uint32_t> level{0};
-  while (!level.empty() && failed.size() < failures_) {
-    struct Answer {
-      std::vector<std::uint32_t> open, failed;
-      std::uint64_t boxes_dark = 0, triangles_dark = 0;
-    };
-    std::vector<Answer> answers(level.size());
-    tbb::parallel_for(std::size_t{0}, level.size(), [&](std::size_t i) {
-      const BoxLanes& node = bvh_.nodes()[level[i]];
-      Answer& answer = answers[i];
-      for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane) {
-        const std::uint32_t child = node.child[lane];
-        if (child == BoxLanes::kEmpty) continue;
-        if (dark(child_box(bvh_.frame(), node, lane), map, lit)) {
-          ++answer.boxes_dark;
-        } else if ((child & BoxLanes::kLeaf) == 0) {
-          answer.open.push_back(child);
-        } else {
-          const TriangleBlock& block = bvh_.blocks()[child & ~BoxLanes::kLeaf];
-          for (std::size_t k = 0; k < 4; ++k) {
-            const std::uint32_t t = block.id[k];
-            if (in_part_[t] != 0 || (k > 0 && t == block.id[0])) continue;
-            if (dark(bvh_.corners(t), map, lit)) {
-              ++answer.triangles_dark;
-            } else {
-              answer.failed.push_back(t);
-            }
-          }
-        }
-      }
-    });
-    counts.boxes_opened += level.size();
-    level.clear();
-    for (const Answer& a : answers) {
-      level.insert(level.end(), a.open.begin(), a.open.end());
-      failed.insert(failed.end(), a.failed.begin(), a.failed.end());
-      counts.boxes_dark += a.boxes_dark;
-      counts.triangles_dark += a.triangles_dark;
-    }
-  }
+  const Darkness darkness(map, LitTriangles(bvh_, visible));
+  std::vector<std::uint32_t> failed = darkness.not_proved(
+      bvh_, [&](std::uint32_t t) { return in_part_[t] != 0; }, failures_, counts);
   if (failures_ < kFailures) failed.resize(std::min(failed.size(), failures_));
   add_front_of(failed);
   return !failed.empty();
@@ -306,8 +326,17 @@ Box about_inside(const Corners& t, const std::array<double, 3>& weight) {
   return box;
 }
 
+std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene) {
+  const Darkness darkness(*closure.map, LitTriangles(scene, closure.visible));
+  ClosureCounts uncounted;
+  auto left = darkness.not_proved(
+      others, [](std::uint32_t) { return false; }, others.mesh().triangles.size(), uncounted);
+  std::sort(left.begin(), left.end());
+  return left;
+}
+
 Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map, std::size_t whole,
-                           const exact::Dials& dials) {
+                           const exact::Dials& dials, std::span<const std::uint32_t> guess) {
   using FirstGuess = exact::Dials::FirstGuess;
   Closer closer(bvh, cell, dials);
   const bool small = dials.first_guess == FirstGuess::seen && bvh.mesh().triangles.size() <= whole;
@@ -315,6 +344,7 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
     closer.add_all();
   } else if (!bvh.nodes().empty()) {
     closer.add_triangles_by_the_cell();
+    for (const auto t : guess) closer.add(t);
     if (dials.first_guess == FirstGuess::seen) closer.add_seen_by_rays();
   }
   Closure result;

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "exact/dials.h"
@@ -69,9 +70,16 @@ Box about_inside(const Corners& t, const std::array<double, 3>& weight);
 
 inline constexpr std::size_t kMappedWhole = 64;
 
+// Triangles that stop no light (D22), as a tree of their own: those that are not proved to lie outside Omega of the scene that was closed, ids of the
+// tree's mesh, ascending. All that the closure's proofs use of a triangle outside K is that it is one; whether it would stop light, were it lit, does not matter to them.
+// `scene` is the tree that was closed; the map has to answer for places all over `others` (make_map, `outside`).
+std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene);
+
 // Deterministic for any number of threads of the current arena. Scenes of up to `whole` triangles are mapped as they are, unless the first guess is on a dial.
+// `guess`: triangles that are mapped from the start, for instance what a neighbour sees; whatever it is, the answer is a closed one.
 // O(passes * (map of K + boxes next to lit space)).
 Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map,
-                           std::size_t whole = kMappedWhole, const exact::Dials& dials = {});
+                           std::size_t whole = kMappedWhole, const exact::Dials& dials = {},
+                           std::span<const std::uint32_t> guess = {});
 
 }  // namespace clues::fastpath

@@ -1,0 +1,52 @@
+#include "fastpath/visibility/engine_part.h"
+
+#include <memory>
+#include <utility>
+
+#include "exact/complex/cut_memory.h"
+
+namespace clues::fastpath {
+namespace {
+
+class EnginePart : public PartialMap {
+ public:
+  explicit EnginePart(LocalMap map) : map_(std::move(map)) {}
+
+  // What light meets, on either side: the closure asks for that in solid mode too.
+  std::vector<std::uint32_t> visible() const override { return map_.lit(); }
+  SetLabel label(const Box& box) const override { return map_.label(box); }
+  SetLabel label_of_inside(const Corners& triangle, const Box& about) const override {
+    return map_.label_of_inside(triangle, about);
+  }
+
+  const LocalMap& map() const { return map_; }
+
+ private:
+  LocalMap map_;
+};
+
+}  // namespace
+
+const LocalMap& ClosedScene::map() const { return static_cast<const EnginePart&>(*closure.map).map(); }
+
+Box outside_of(const Bvh& bvh) {
+  const LocalFrame& frame = bvh.frame();
+  Box box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.low[i] = frame.center[i] - 2 / frame.scale;
+    box.high[i] = frame.center[i] + 2 / frame.scale;
+  }
+  return box;
+}
+
+ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
+                            const Box& outside, std::span<const std::uint32_t> guess) {
+  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
+  exact::CutMemory memory;
+  const auto make_map = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids) {
+    return std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, options, &outside));
+  };
+  return {close_over_visible(bvh, Cell(exact_cell), make_map, kMappedWhole, options.dials, guess)};
+}
+
+}  // namespace clues::fastpath

@@ -1,0 +1,27 @@
+// The closure (closure.h) with the engine (local_map.h) as the maker of its maps.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fastpath/queries/bvh.h"
+#include "fastpath/visibility/closure/closure.h"
+#include "fastpath/visibility/map/local_map.h"
+
+namespace clues::fastpath {
+
+struct ClosedScene {
+  Closure closure;
+
+  const LocalMap& map() const;
+  std::uint64_t fallbacks() const { return map().counts().conservative_fallbacks + map().conservative_labels(); }
+};
+
+// The box of the scene, widened by far more than what boxes and points of the closure may be off.
+Box outside_of(const Bvh& bvh);
+
+// `outside`: all places that the map will be asked about.
+ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
+                            const Box& outside, std::span<const std::uint32_t> guess = {});
+
+}  // namespace clues::fastpath

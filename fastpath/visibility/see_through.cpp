@@ -1,0 +1,105 @@
+#include "fastpath/visibility/see_through.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "exact/cell/standard_range.h"
+#include "exact/sight/scene_query.h"
+#include "exact/threads.h"
+#include "fastpath/visibility/engine_part.h"
+
+namespace clues::fastpath {
+namespace {
+
+std::vector<std::uint32_t> ids_that(const scene::FlaggedMesh& scene, bool block) {
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    if (block ? scene.blocking(t) : !scene.blocking(t) && scene.counting(t)) ids.push_back(t);
+  }
+  return ids;
+}
+
+Box hull_of(const Box& a, const Box& b) {
+  Box box = a;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.low[i] = std::min(a.low[i], b.low[i]);
+    box.high[i] = std::max(a.high[i], b.high[i]);
+  }
+  return box;
+}
+
+bool boxes_overlap(const Corners& t, const std::vector<Point>& cell) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto by_axis = [i](const Point& a, const Point& b) { return a[i] < b[i]; };
+    const auto [low, high] = std::minmax_element(cell.begin(), cell.end(), by_axis);
+    const auto [t_low, t_high] = std::minmax_element(t.begin(), t.end(), by_axis);
+    if ((*t_high)[i] < (*low)[i] || (*high)[i] < (*t_low)[i]) return false;
+  }
+  return true;
+}
+
+// Those of T that meet the cell, which no proof has to be asked about (D3).
+std::vector<std::uint32_t> meeting_the_cell(const Bvh& passing, const std::vector<Point>& points) {
+  std::vector<std::uint32_t> met;
+  const auto cell = exact::ConvexCell::from_doubles(points);
+  for (std::uint32_t t = 0; t < passing.mesh().triangles.size(); ++t) {
+    const Corners c = passing.corners(t);
+    const auto exactly = [](const Point& p) { return exact::Point3(p[0], p[1], p[2]); };
+    if (boxes_overlap(c, points) && exact::meets_cell({exactly(c[0]), exactly(c[1]), exactly(c[2])}, cell))
+      met.push_back(t);
+  }
+  return met;
+}
+
+SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Point>& cell,
+                             const LocalMapOptions& options, std::span<const std::uint32_t> guess) {
+  std::vector<std::uint32_t> guessed;
+  for (const auto t : guess) {
+    if (const auto at = scene.find_blocking(t)) guessed.push_back(*at);
+  }
+  const ClosedScene closed = close_by_engine(
+      scene.blocking(), cell, options, hull_of(outside_of(scene.blocking()), outside_of(scene.passing())), guessed);
+  SeeThroughList list;
+  for (const auto t : closed.map().visible()) list.blocking.push_back(scene.blocking_id(closed.closure.part[t]));
+  auto passing = not_proved_dark(scene.passing(), closed.closure, scene.blocking());
+  const auto met = meeting_the_cell(scene.passing(), cell);
+  std::vector<std::uint32_t> all;
+  std::set_union(passing.begin(), passing.end(), met.begin(), met.end(), std::back_inserter(all));
+  for (const auto t : all) list.passing.push_back(scene.passing_id(t));
+  list.mapped = closed.closure.part.size();
+  list.passes = closed.closure.counts.passes;
+  list.walks = closed.map().counts().walks;
+  list.conservative_fallbacks = closed.fallbacks();
+  return list;
+}
+
+}  // namespace
+
+SeeThroughScene::SeeThroughScene(scene::FlaggedMesh scene)
+    : scene_(std::move(scene)),
+      blocking_ids_(ids_that(scene_, true)),
+      passing_ids_(ids_that(scene_, false)),
+      blocking_(scene::part_of(scene_.mesh, blocking_ids_)),
+      passing_(scene::part_of(scene_.mesh, passing_ids_)),
+      blocking_tree_(blocking_),
+      passing_tree_(passing_) {}
+
+std::optional<std::uint32_t> SeeThroughScene::find_blocking(std::uint32_t id) const {
+  const auto at = std::lower_bound(blocking_ids_.begin(), blocking_ids_.end(), id);
+  if (at == blocking_ids_.end() || *at != id) return std::nullopt;
+  return static_cast<std::uint32_t>(at - blocking_ids_.begin());
+}
+
+SeeThroughList visible_through(const SeeThroughScene& scene, const std::vector<Point>& cell,
+                               const LocalMapOptions& options, std::span<const std::uint32_t> guess) {
+  return exact::by_dialed_threads(options.dials.threads, [&] {
+    const exact::StandardRange range(scene.scene().mesh, cell);
+    if (!range.moves()) return list_in_range(scene, cell, options, guess);
+    scene::FlaggedMesh moved = scene.scene();
+    moved.mesh = range.moved_in(moved.mesh);
+    return list_in_range(SeeThroughScene(std::move(moved)), range.moved_in(cell), options, guess);
+  });
+}
+
+}  // namespace clues::fastpath
