@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fuzz/findings/finding.h"
+#include "scene/stores/database.h"
 
 namespace clues::fuzz {
 
@@ -40,10 +41,7 @@ class Store {
   void contradict(const std::string& text);
 
  private:
-  void require_tables_only() const;
-
-  struct Database;
-  std::unique_ptr<Database> db_;
+  std::unique_ptr<scene::Database> db_;
 };
 
 }  // namespace clues::fuzz
