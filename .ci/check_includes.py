@@ -20,7 +20,7 @@ MAY_SEE = {
 }
 # Of each folder, in the order in which a reader meets them; "." is the folder itself.
 CHAPTERS = {
-    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "motion"],
+    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "stores", "bakes", "motion"],
     "exact": [".", "cell", "complex", "sight", "motion"],
     "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
                   "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",
@@ -28,11 +28,11 @@ CHAPTERS = {
     "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
                  "visibility/refinement", "motion"],
-    "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "vectors", "conform",
+    "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "cells", "vectors", "conform",
                  "motion"],
     "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets",
              "motion"],
-    "app": [".", "view", "demo", "commands"],
+    "app": [".", "view", "engine", "bake", "demo", "commands"],
 }
 NO_CHAPTERS = {"validate/adapters"}  # to be copied; they include nothing of ours
 MOST_FILES = 22

@@ -16,6 +16,7 @@ struct Unfinished : std::runtime_error {
 
 void add_level_command(CLI::App& program, int& status);
 void add_map_command(CLI::App& program, int& status);
+void add_bake_command(CLI::App& program, int& status);
 void add_precision_command(CLI::App& program, int& status);
 void add_check_command(CLI::App& program, int& status);
 void add_query_command(CLI::App& program, int& status);

@@ -105,6 +105,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   int status = app::fine;
   app::add_map_command(program, status);
+  app::add_bake_command(program, status);
   app::add_precision_command(program, status);
   app::add_check_command(program, status);
   app::add_query_command(program, status);

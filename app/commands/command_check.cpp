@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/commands/check_cells.h"
 #include "app/common.h"
 #include "app/json_output.h"
 #include "app/progress.h"
@@ -22,7 +23,8 @@ namespace clues::app {
 namespace {
 
 struct CheckRequest {
-  std::string scene, cell, pvs;
+  std::string scene, cell, pvs, bake;
+  bool all_cells = false;
   JsonOutput json;
   MethodOptions method;
 };
@@ -44,6 +46,19 @@ void judge_plain(validate::Judgement& judgement, validate::Surroundings& around,
 }
 
 int run_check(const CheckRequest& request) {
+  if (request.all_cells) {
+    if (!request.cell.empty() || !request.pvs.empty())
+      throw scene::Error(scene::ErrorCode::bad_argument,
+                         "--all-cells judges lists of many cells; leave out --cell and --pvs");
+    if (request.method.mode == "solid" || request.method.formulation != "plain")
+      throw scene::Error(scene::ErrorCode::unsupported, "--all-cells: leave out --mode and --formulation");
+    return check_all_cells({request.scene, request.bake, request.method.threads, request.json});
+  }
+  if (!request.bake.empty())
+    throw scene::Error(scene::ErrorCode::bad_argument, "--bake names the lists of many cells; it needs --all-cells");
+  if (request.cell.empty() || request.pvs.empty())
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       "give --cell and --pvs, or --all-cells (see `clues check --help`)");
   auto options = request.method.to_reference();
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.pvs});
@@ -95,12 +110,14 @@ void add_check_command(CLI::App& program, int& status) {
   auto* command = program.add_subcommand("check", "Judge a potentially visible set: is a visible triangle missing?");
   auto request = std::make_shared<CheckRequest>();
   command->add_option("SCENE", request->scene, std::string("The scene: ") + scene::scene_formats)->required();
-  command->add_option("--cell", request->cell, "The view cell")->type_name("SPEC")->required();
+  command->add_option("--cell", request->cell, "The view cell")->type_name("SPEC");
   command
       ->add_option("--pvs", request->pvs,
                    "The PVS: one triangle id a line with # comments, or a *.json result of clues")
-      ->type_name("FILE")
-      ->required();
+      ->type_name("FILE");
+  command->add_flag("--all-cells", request->all_cells,
+                    "Judge the lists of all cells: those that a level was shipped with, or those of --bake");
+  command->add_option("--bake", request->bake, "With --all-cells: a store of clues bake")->type_name("FILE.bake");
   request->method.add_to(*command);
   request->json.add_to(*command, "The judgement");
   command->footer(
@@ -118,12 +135,22 @@ void add_check_command(CLI::App& program, int& status) {
           "  Qo and Qu are the over- and underestimate of Bittner et al. (2005): triangles (or area) listed and "
           "hidden, and\n"
           "  visible and missing, over visible ones; from the lowest to the highest value that the undecided "
-          "allow.\n\n") +
+          "allow.\n\n"
+          "ALL CELLS\n"
+          "  The fast kernel says what may be seen from each cell; what is missing of that is looked for by sight "
+          "lines that "
+          "are\n"
+          "  decided exactly. A hole is one with a confirmed sight line from the inner cell of a leaf "
+          "(docs/real-levels.md); "
+          "what has\n"
+          "  none is undecided. A table, and the longest sight lines; --json has all of them.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs town.clues.json --json\n"
-      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt --json judgement.json\n\n"
+      "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt --json judgement.json\n"
+      "  clues check level.bsp --all-cells --json level.json\n"
+      "  clues check town.obj --all-cells --bake town.bake\n\n"
       "EXIT CODES\n"
       "  0 sound   1 unsound   2 bad usage or input   3 undecided   4 an oracle contradicted itself");
   command->callback([request, &status] { status = run_check(*request); });

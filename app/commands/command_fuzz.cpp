@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/interrupt.h"
 #include "app/progress.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/generators.h"
@@ -26,20 +27,6 @@ namespace {
 
 using scene::Error;
 using scene::ErrorCode;
-
-// The only way a signal handler has to tell.
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void on_interrupt(int) { interrupted.store(true); }
-
-void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = on_interrupt;
-  action.sa_flags = SA_RESETHAND;  // a second Ctrl-C ends the program at once; the store is safe all the same
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
 
 struct FuzzRequest {
   fuzz::CampaignOptions options;
@@ -69,8 +56,7 @@ int run_fuzz(FuzzRequest& request) {
     bar.show(fmt::format("{} ({:.1f}/s)", stage, static_cast<double>(done - first) / std::max(seconds, 0.001)), done,
              total);
   };
-  catch_interrupts();
-  options.stop = &interrupted;
+  options.stop = &catch_interrupts();
   const auto summary = fuzz::run_campaign(options, *subject);
   bar.clear();
   print(to_text(summary, options.out));

@@ -38,7 +38,8 @@ bool counts_for_nothing(const fs::path& path) {
     const auto waiting = std::distance(fs::directory_iterator(path.parent_path()), fs::directory_iterator());
     return !fs::exists(path.parent_path() / "commit") || waiting == 1;
   }
-  return scene::is_temporary_name(name) || name == ".clues-lock" || name.ends_with(".sqlite-journal");
+  return scene::is_temporary_name(name) || name == ".clues-lock" || name.ends_with("-journal") ||
+         name.find(".bake.finishing") != std::string::npos;
 }
 
 }  // namespace
@@ -51,6 +52,8 @@ const std::vector<Scenario>& scenarios() {
       {"map_cells", ":", "map scene.off --cells $GRID -o d", "clues map scene.off --cells $GRID -o d --resume", true},
       {"map_resume", "cells scene.off d && rm d/cell-1-0-0.clues.json", "map scene.off --cells $GRID -o d --resume",
        "clues map scene.off --cells $GRID -o d --resume", true},
+      {"bake", ":", "bake scene.off --cells $GRID -o b.bake --group 2",
+       "clues bake scene.off --cells $GRID -o b.bake --group 2", true},
       {"precision", "echo old > p.json", "precision scene.off --cell $CELL --max-depth 0 -o p.json", ":"},
       {"conform", "answers a && rm -r cases && echo old > c.json",
        "conform --results a --suite $SUITE --case $CASE --json c.json", ":", false,
@@ -185,7 +188,7 @@ std::string Stage::flaw_of(const fs::path& folder, bool done) const {
     const bool known = before != old_.end() || after != new_.end();
     const bool is_old = before != old_.end() && before->second == bytes,
                is_new = after != new_.end() && after->second == bytes;
-    if (known && !is_old && !is_new && !name.ends_with(".sqlite")) {
+    if (known && !is_old && !is_new && !name.ends_with(".sqlite") && !name.ends_with(".bake")) {
       const bool third = scenario_.also_right != nullptr && sh(folder, place_, scenario_.also_right) == 0;
       return third ? "" : name + " is neither old nor new";
     }

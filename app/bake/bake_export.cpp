@@ -1,0 +1,201 @@
+#include "app/bake/bake_export.h"
+
+#include <CGAL/number_utils.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "app/common.h"
+#include "app/engine/clues_pvs.h"
+#include "exact/cell/convex_cell.h"
+#include "scene/files/atomic_file.h"
+#include "scene/messages/error.h"
+#include "scene/messages/printable.h"
+#include "scene/result.h"
+
+namespace clues::app {
+namespace {
+
+namespace fs = std::filesystem;
+using scene::Point;
+
+using Plane = std::array<double, 4>;
+
+// n x <= d for every point of the cell, as a reader computes it: d is the largest value at the cell's points, widened by more than what two sums of three
+// products may be off, 4 units of 2^-53 of the largest terms each.
+Plane plane_around(const Point& normal, const std::vector<Point>& cell) {
+  double highest = -std::numeric_limits<double>::infinity();
+  Point terms{};
+  for (const auto& p : cell) {
+    double height = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      height += normal[i] * p[i];
+      terms[i] = std::max(terms[i], std::fabs(normal[i] * p[i]));
+    }
+    highest = std::max(highest, height);
+  }
+  return {normal[0], normal[1], normal[2], highest + 0x1p-48 * (terms[0] + terms[1] + terms[2])};
+}
+
+// The box of the cell, and its facets where it is no box.
+std::vector<Plane> planes_around(const std::vector<Point>& points) {
+  std::vector<Plane> planes;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Point normal{};
+    normal[axis] = 1;
+    planes.push_back(plane_around(normal, points));
+    normal[axis] = -1;
+    planes.push_back(plane_around(normal, points));
+  }
+  const auto cell = exact::ConvexCell::from_doubles(points);
+  for (const auto& facet : cell.facets()) {
+    const auto direction = facet.plane.orthogonal_vector();
+    Point normal{CGAL::to_double(direction.x()), CGAL::to_double(direction.y()), CGAL::to_double(direction.z())};
+    const double size = std::max({std::fabs(normal[0]), std::fabs(normal[1]), std::fabs(normal[2])});
+    for (double& x : normal) x /= size;
+    if (std::count(normal.begin(), normal.end(), 0.0) < 2) planes.push_back(plane_around(normal, points));
+  }
+  return planes;
+}
+
+struct Voxels {
+  std::array<std::uint32_t, 3> grid{};
+  Point low{}, per_unit{};
+  std::vector<std::vector<std::uint32_t>> cells;
+
+  // As the header computes it. Both operations are monotone, so what lies between two points is in a voxel between theirs.
+  std::uint32_t at(std::size_t axis, double x) const {
+    const double voxel = std::floor((x - low[axis]) * per_unit[axis]);
+    return static_cast<std::uint32_t>(std::clamp(voxel, 0.0, static_cast<double>(grid[axis] - 1)));
+  }
+};
+
+Voxels voxels_over(const std::vector<scene::BakePlace>& cells) {
+  Voxels v;
+  Point low = cells[0].points[0], high = low;
+  for (const auto& cell : cells) {
+    for (const auto& p : cell.points) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        low[i] = std::min(low[i], p[i]);
+        high[i] = std::max(high[i], p[i]);
+      }
+    }
+  }
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, high[i] - low[i]);
+  const double most = std::min(128.0, std::ceil(4 * std::cbrt(static_cast<double>(cells.size()))));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double size = high[i] - low[i];
+    v.grid[i] = size > 0 ? static_cast<std::uint32_t>(std::max(1.0, std::ceil(most * size / longest))) : 1;
+    v.low[i] = low[i];
+    // So that the highest point is in the last voxel.
+    v.per_unit[i] = size > 0 ? static_cast<double>(v.grid[i]) / size * (1 - 0x1p-40) : 1;
+  }
+  v.cells.resize(std::size_t{v.grid[0]} * v.grid[1] * v.grid[2]);
+  for (std::uint32_t c = 0; c < cells.size(); ++c) {
+    std::array<std::uint32_t, 3> first{}, last{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto by_axis = [i](const Point& a, const Point& b) { return a[i] < b[i]; };
+      const auto [lowest, highest] = std::minmax_element(cells[c].points.begin(), cells[c].points.end(), by_axis);
+      first[i] = v.at(i, (*lowest)[i]);
+      last[i] = v.at(i, (*highest)[i]);
+    }
+    for (auto z = first[2]; z <= last[2]; ++z) {
+      for (auto y = first[1]; y <= last[1]; ++y) {
+        for (auto x = first[0]; x <= last[0]; ++x)
+          v.cells[(std::size_t{z} * v.grid[1] + y) * v.grid[0] + x].push_back(c);
+      }
+    }
+  }
+  return v;
+}
+
+template <class T>
+std::uint64_t append(std::string& file, const std::vector<T>& values) {
+  file.resize((file.size() + 7) / 8 * 8);
+  const auto offset = file.size();
+  file.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  return offset;
+}
+
+std::string points_text(const std::vector<Point>& points) {
+  std::string text;
+  for (const auto& p : points) text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
+  return text;
+}
+
+}  // namespace
+
+std::string engine_file(const scene::FinishedBake& bake) {
+  const auto& cells = bake.plan().cells;
+  const auto voxels = voxels_over(cells);
+  clues_pvs header{};
+  std::memcpy(header.magic, "CLUESPVS", 8);
+  header.version = 1;
+  header.triangles = bake.plan().triangles;
+  header.cells = static_cast<std::uint32_t>(cells.size());
+  for (std::size_t i = 0; i < 3; ++i) {
+    header.grid[i] = voxels.grid[i];
+    header.low[i] = voxels.low[i];
+    header.per_unit[i] = voxels.per_unit[i];
+  }
+  std::vector<std::uint32_t> voxel_starts{0}, voxel_cells, plane_starts{0}, lists;
+  std::vector<Plane> planes;
+  std::vector<std::uint64_t> list_starts{0};
+  for (const auto& there : voxels.cells) {
+    voxel_cells.insert(voxel_cells.end(), there.begin(), there.end());
+    voxel_starts.push_back(static_cast<std::uint32_t>(voxel_cells.size()));
+  }
+  for (std::uint32_t c = 0; c < cells.size(); ++c) {
+    const auto around = planes_around(cells[c].points);
+    planes.insert(planes.end(), around.begin(), around.end());
+    plane_starts.push_back(static_cast<std::uint32_t>(planes.size()));
+    const auto list = bake.cell(c).list;
+    lists.insert(lists.end(), list.begin(), list.end());
+    list_starts.push_back(lists.size());
+  }
+  if (std::max(voxel_cells.size(), planes.size()) > std::numeric_limits<std::uint32_t>::max())
+    throw scene::Error(scene::ErrorCode::unsupported, "too many cells for one flat file; bake parts of the scene");
+  std::string file(sizeof header, '\0');
+  header.voxel_starts = append(file, voxel_starts);
+  header.voxel_cells = append(file, voxel_cells);
+  header.plane_starts = append(file, plane_starts);
+  header.planes = append(file, planes);
+  header.list_starts = append(file, list_starts);
+  header.lists = append(file, lists);
+  header.bytes = file.size();
+  std::memcpy(file.data(), &header, sizeof header);
+  return file;
+}
+
+void export_bake(const fs::path& folder, const scene::FinishedBake& bake, const scene::FlaggedMesh& scene) {
+  make_folder(folder);
+  if (!fs::is_empty(folder)) {
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       folder.string() + ": is not empty; name a new folder, or remove what is in this one");
+  }
+  make_folder(folder / "pvs");
+  make_folder(folder / "cells");
+  std::string list = "# number name cluster (-1: none)\n";
+  for (std::uint32_t c = 0; c < bake.plan().cells.size(); ++c) {
+    const auto& cell = bake.plan().cells[c];
+    list += fmt::format("{} {} {}\n", c, scene::printable(cell.name), cell.group);
+    scene::write_file_atomically(folder / "cells" / fmt::format("{}.obj", c), points_text(cell.points));
+    scene::write_file_atomically(folder / "pvs" / fmt::format("{}.txt", c), scene::to_pvs_text(bake.cell(c).list));
+  }
+  if (!scene.parts.empty()) {
+    std::string parts = "# first triangle, name\n";
+    for (const auto& part : scene.parts)
+      parts += fmt::format("{} {}\n", part.first_triangle, scene::printable(part.name));
+    scene::write_file_atomically(folder / "parts.txt", parts);
+  }
+  scene::write_file_atomically(folder / "engine.cluespvs", engine_file(bake));
+  scene::write_file_atomically(folder / "cells.txt", list);
+}
+
+}  // namespace clues::app

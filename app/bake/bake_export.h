@@ -1,0 +1,18 @@
+// A finished bake as files: plain lists, and one flat file for engines (app/engine/clues_pvs.h).
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "scene/bakes/bake_store.h"
+#include "scene/mesh/flagged_mesh.h"
+
+namespace clues::app {
+
+// Throws Error unsupported where the lists have more than 2^32 entries in a cell's voxel, or a cell has no more than a plane.
+std::string engine_file(const scene::FinishedBake& bake);
+
+// cells.txt (number, name, cluster), pvs/NUMBER.txt, parts.txt (first triangle and name) where parts have names, engine.cluespvs. The folder must be new or empty.
+void export_bake(const std::filesystem::path& folder, const scene::FinishedBake& bake, const scene::FlaggedMesh& scene);
+
+}  // namespace clues::app

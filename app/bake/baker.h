@@ -1,0 +1,50 @@
+// Maps all cells of a bake, whatever of it is not in its store yet.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "scene/bakes/bake_store.h"
+#include "scene/mesh/flagged_mesh.h"
+
+namespace clues::app {
+
+// What one cell sees in a scene: ids of the scene, ascending, of triangles that count and of those that only block.
+struct CellList {
+  std::vector<std::uint32_t> visible;
+  std::int64_t fallbacks = 0, mapped = 0, passes = 0;
+};
+
+// A scene that was made ready for many cells.
+class CellLister {
+ public:
+  CellLister() = default;
+  CellLister(const CellLister&) = delete;
+  CellLister& operator=(const CellLister&) = delete;
+  virtual ~CellLister() = default;
+  // By one thread. `guess`: ids that are likely among the answer, for speed. Several threads may ask at once.
+  virtual CellList list(const std::vector<scene::Point>& cell, std::span<const std::uint32_t> guess) const = 0;
+};
+using ListerMaker = std::function<std::unique_ptr<CellLister>(scene::FlaggedMesh scene)>;
+
+ListerMaker fast_lister();
+ListerMaker exact_lister();
+
+// Called after each commit with how many cells are done.
+using BakeProgress = std::function<void(std::uint64_t cells)>;
+
+// A share of the work: of the cells and groups of cells that are mapped in the scene, those whose number leaves `index` when divided by `count`.
+struct BakeShard {
+  std::uint32_t index = 0, count = 1;
+};
+
+// `plan` is what the store was made with. Once `stop` is set, what is begun is finished and nothing else is begun. Lists do not depend on the number of threads, nor on what was there already. Throws what kernels and the store throw; what was
+// committed stays.
+void bake(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, scene::BakeStore& store,
+          const ListerMaker& make_lister, BakeShard shard, const std::atomic<bool>& stop, const BakeProgress& progress);
+
+}  // namespace clues::app

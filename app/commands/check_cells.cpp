@@ -1,0 +1,216 @@
+// D23: accused is with the inner cell only.
+#include "app/commands/check_cells.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/progress.h"
+#include "exact/threads.h"
+#include "scene/bakes/bake_store.h"
+#include "scene/formats/file_bytes.h"
+#include "scene/levels/bsp_scene.h"
+#include "scene/mesh_io.h"
+#include "scene/messages/error.h"
+#include "scene/result.h"
+#include "scene/scenes/scene_io.h"
+#include "validate/cells/judge_cell.h"
+#include "validate/verdicts/judge_report.h"
+
+namespace clues::app {
+namespace {
+
+using scene::Error;
+using scene::ErrorCode;
+using Ids = std::vector<std::uint32_t>;
+
+constexpr std::size_t shown_holes = 10;
+
+struct JudgedCell {
+  std::string name;
+  std::int64_t group = -1;
+  std::vector<scene::Point> points;  // W_in
+  Ids list;
+  validate::CellJudgement judgement;
+};
+
+struct Asked {
+  std::vector<JudgedCell> cells;
+  std::uint64_t slivers = 0;  // without an inner cell
+};
+
+Asked shipped_with(const CheckCellsRequest& request) {
+  if (scene::lower_case_extension(request.scene) != ".bsp")
+    throw Error(ErrorCode::bad_argument,
+                request.scene + ": no level (.bsp), so no lists were shipped with it; name those to judge with --bake");
+  const auto level = scene::parse_bsp(scene::read_file_bytes(request.scene), request.scene);
+  const auto scene = scene::scene_of_level(level);
+  Asked asked;
+  std::map<std::uint32_t, Ids> lists;
+  for (auto& leaf : scene::cells_of_level(level)) {
+    if (leaf.inner.empty()) {
+      ++asked.slivers;
+      continue;
+    }
+    if (!lists.contains(leaf.cluster)) lists[leaf.cluster] = scene::shipped_set(level, scene, leaf.cluster);
+    asked.cells.push_back({std::to_string(leaf.leaf), leaf.cluster, std::move(leaf.inner), lists[leaf.cluster], {}});
+  }
+  return asked;
+}
+
+Asked baked_in(const CheckCellsRequest& request, const std::string& sha256) {
+  const scene::FinishedBake bake(request.bake);
+  if (bake.plan().scene_sha256 != sha256)
+    throw Error(ErrorCode::bad_argument, request.bake + ": is of another scene than " + request.scene);
+  Asked asked;
+  for (std::uint32_t c = 0; c < bake.plan().cells.size(); ++c) {
+    const auto& cell = bake.plan().cells[c];
+    asked.cells.push_back(
+        {cell.name, cell.group, cell.inner.empty() ? cell.points : cell.inner, bake.cell(c).list, {}});
+  }
+  return asked;
+}
+
+void judge(Asked& asked, const scene::FlaggedMesh& mesh, int threads) {
+  const fastpath::SeeThroughScene scene(mesh);
+  ProgressBar bar("clues check");
+  bar.show("cells", 0, asked.cells.size());
+  std::mutex mutex;
+  std::uint64_t done = 0;
+  exact::by_threads(threads, [&] {
+    tbb::parallel_for(std::size_t{0}, asked.cells.size(), [&](std::size_t i) {
+      auto& cell = asked.cells[i];
+      cell.judgement = exact::by_threads(1, [&] { return validate::judge_cell(scene, cell.points, cell.list); });
+      const std::lock_guard lock(mutex);
+      bar.show("cells", ++done, asked.cells.size());
+    });
+  });
+}
+
+struct Hole {
+  const JudgedCell* cell;
+  const validate::Witness* witness;
+  double length;
+};
+
+std::vector<Hole> holes_of(const std::vector<JudgedCell>& cells) {
+  std::vector<Hole> holes;
+  for (const auto& cell : cells) {
+    for (const auto& w : cell.judgement.holes) {
+      const auto d = w.p - w.v;
+      holes.push_back({&cell, &w, std::sqrt(CGAL::to_double(d.squared_length()))});
+    }
+  }
+  std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.length > b.length; });
+  return holes;
+}
+
+struct Totals {
+  std::uint64_t listed = 0, ours = 0, witnessed = 0, with_holes = 0, holes = 0, undecided = 0, sight_lines = 0,
+                fallbacks = 0;
+};
+
+Totals totals_of(const std::vector<JudgedCell>& cells) {
+  Totals t;
+  for (const auto& cell : cells) {
+    const auto& j = cell.judgement;
+    t.listed += j.listed;
+    t.ours += j.may_be_seen.size();
+    t.witnessed += j.witnessed;
+    t.with_holes += j.holes.empty() ? 0 : 1;
+    t.holes += j.holes.size();
+    t.undecided += j.undecided.size();
+    t.sight_lines += j.sight_lines;
+    t.fallbacks += j.fallbacks;
+  }
+  return t;
+}
+
+nlohmann::json exact_point(const exact::Point3& p) {
+  return {exact::to_string_exact(p.x()), exact::to_string_exact(p.y()), exact::to_string_exact(p.z())};
+}
+
+nlohmann::json json_of(const JudgedCell& cell, const scene::FlaggedMesh& mesh) {
+  nlohmann::json holes = nlohmann::json::array();
+  for (const auto& w : cell.judgement.holes) {
+    holes.push_back({{"triangle", w.triangle},
+                     {"part", mesh.name_of(w.triangle)},
+                     {"side", w.front ? "front" : "back"},
+                     {"v", exact_point(w.v)},
+                     {"p", exact_point(w.p)}});
+  }
+  return {{"cell", cell.name},
+          {"cluster", cell.group},
+          {"points", cell.points},
+          {"listed", cell.judgement.listed},
+          {"may_be_seen", cell.judgement.may_be_seen.size()},
+          {"witnessed", cell.judgement.witnessed},
+          {"fallbacks", cell.judgement.fallbacks},
+          {"holes", holes},
+          {"undecided", cell.judgement.undecided}};
+}
+
+std::string json_text(const CheckCellsRequest& request, const std::string& sha256, const Asked& asked,
+                      const scene::FlaggedMesh& mesh, const Totals& t) {
+  nlohmann::json cells = nlohmann::json::array();
+  for (const auto& cell : asked.cells) cells.push_back(json_of(cell, mesh));
+  return nlohmann::json{
+             {"format", "clues-check-cells/1"},
+             {"scene", {{"file", std::filesystem::path(request.scene).filename().string()}, {"sha256", sha256}}},
+             {"lists", request.bake.empty() ? "shipped" : std::filesystem::path(request.bake).filename().string()},
+             {"cells_without_inner", asked.slivers},
+             {"cells_with_holes", t.with_holes},
+             {"holes", t.holes},
+             {"undecided", t.undecided},
+             {"sight_lines", t.sight_lines},
+             {"cells", cells}}
+             .dump(1) +
+         "\n";
+}
+
+std::string table_of(const Asked& asked, const scene::FlaggedMesh& mesh, const Totals& t) {
+  const auto cells = static_cast<double>(std::max<std::size_t>(asked.cells.size(), 1));
+  const auto average = [&](std::uint64_t n) { return static_cast<double>(n) / cells; };
+  std::string text = fmt::format(
+      "{:>7}  {:>9}  {:>11}  {:>9}  {:>10}  {:>7}  {:>9}\n{:>7}  {:>9.1f}  {:>11.1f}  {:>9.1f}  {:>10}  {:>7}  {:>9}\n",
+      "cells", "listed", "may be seen", "witnessed", "with holes", "holes", "undecided", asked.cells.size(),
+      average(t.listed), average(t.ours), average(t.witnessed), t.with_holes, t.holes, t.undecided);
+  if (asked.slivers > 0) text += fmt::format("{} slivers without an inner cell were not judged\n", asked.slivers);
+  const auto holes = holes_of(asked.cells);
+  if (!holes.empty()) text += fmt::format("the longest free sight lines to what is missing, of {}:\n", holes.size());
+  for (std::size_t i = 0; i < std::min(holes.size(), shown_holes); ++i) {
+    const auto& [cell, w, length] = holes[i];
+    text += fmt::format("  cell {}, triangle {} ({}), {:.6g} long:\n    from {}\n    to   {}\n", cell->name,
+                        w->triangle, mesh.name_of(w->triangle), length, validate::to_string_exact(w->v),
+                        validate::to_string_exact(w->p));
+  }
+  return text;
+}
+
+}  // namespace
+
+int check_all_cells(const CheckCellsRequest& request) {
+  require_writable_parent(request.json.file());
+  require_apart({&request.json.file()}, {&request.scene, &request.bake});
+  const auto sha256 = scene::sha256_of_file(request.scene);
+  const auto mesh = scene::read_scene(request.scene);
+  Asked asked = request.bake.empty() ? shipped_with(request) : baked_in(request, sha256);
+  judge(asked, mesh, request.threads);
+  const Totals totals = totals_of(asked.cells);
+  if (request.json.asked()) request.json.write(json_text(request, sha256, asked, mesh, totals));
+  if (!request.json.on_stdout()) print(table_of(asked, mesh, totals));
+  return totals.holes > 0 ? findings : totals.undecided > 0 ? not_everything_ran : fine;
+}
+
+}  // namespace clues::app

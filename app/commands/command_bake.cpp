@@ -1,0 +1,238 @@
+// clues bake: the lists of all cells of a scene, in one store.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/bake/bake_cells.h"
+#include "app/bake/bake_export.h"
+#include "app/bake/baker.h"
+#include "app/bake/cell_tree.h"
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/interrupt.h"
+#include "app/json_output.h"
+#include "app/progress.h"
+#include "exact/threads.h"
+#include "scene/bakes/bake_store.h"
+#include "scene/formats/file_bytes.h"
+#include "scene/formats/number.h"
+#include "scene/mesh_io.h"
+#include "scene/messages/error.h"
+#include "scene/result.h"
+#include "scene/scenes/scene_io.h"
+
+namespace clues::app {
+namespace {
+
+namespace fs = std::filesystem;
+using scene::Error;
+using scene::ErrorCode;
+
+struct BakeRequest {
+  std::string scene, cells, out, kernel = "fast", up, exported;
+  std::size_t group = 1;
+  std::vector<std::string> merged;
+  std::string shard;
+  int threads = 0;
+  JsonOutput json;
+};
+
+char up_of(const BakeRequest& request) {
+  if (!request.up.empty()) return request.up[0];
+  const auto extension = scene::lower_case_extension(request.scene);
+  return extension == ".gltf" || extension == ".glb" ? 'y' : 'z';
+}
+
+// Everything that the lists depend on, but for the scene.
+std::string question_of(const BakeRequest& request, const BakeCells& cells) {
+  return nlohmann::json{{"cells", request.cells},
+                        {"cells_sha256", cells.bytes.empty() ? "" : scene::sha256_of(cells.bytes)},
+                        {"kernel", request.kernel},
+                        {"group", request.group},
+                        {"up", std::string(1, up_of(request))}}
+      .dump();
+}
+
+scene::BakePlan plan_of(const BakeRequest& request, const std::string& sha256, const scene::FlaggedMesh& scene,
+                        BakeCells cells) {
+  scene::BakePlan plan;
+  plan.scene_file = fs::path(request.scene).filename().string();
+  plan.scene_sha256 = sha256;
+  plan.triangles = static_cast<std::uint32_t>(scene.mesh.triangles.size());
+  plan.question = question_of(request, cells);
+  plan.note = std::move(cells.note);
+  plan.cells = std::move(cells.cells);
+  std::vector<scene::CellSpec> specs;
+  for (const auto& cell : plan.cells) specs.push_back({cell.name, cell.points});
+  const auto tree = tree_over(specs, request.group > 1 ? std::vector{request.group} : std::vector<std::size_t>{});
+  for (const auto& node : tree.nodes) plan.nodes.push_back({"", node.parent, node.box, {}, -1});
+  for (std::size_t i = 0; i < plan.cells.size(); ++i) plan.cells[i].node = tree.node_of[i];
+  return plan;
+}
+
+struct Summary {
+  std::uint64_t cells = 0, least = 0, most = 0, all = 0, fallbacks = 0, mapped = 0, counting = 0;
+  double average() const { return static_cast<double>(all) / static_cast<double>(cells); }
+};
+
+Summary summary_of(const scene::FinishedBake& bake, const scene::FlaggedMesh& scene) {
+  Summary s;
+  for (std::uint32_t i = 0; i < bake.plan().cells.size(); ++i) {
+    const auto cell = bake.cell(i);
+    s.least = i == 0 ? cell.list.size() : std::min<std::uint64_t>(s.least, cell.list.size());
+    s.most = std::max<std::uint64_t>(s.most, cell.list.size());
+    s.all += cell.list.size();
+    s.fallbacks += static_cast<std::uint64_t>(cell.fallbacks);
+    s.mapped += static_cast<std::uint64_t>(cell.mapped);
+  }
+  s.cells = bake.plan().cells.size();
+  for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) s.counting += scene.counting(t) ? 1 : 0;
+  return s;
+}
+
+void report(const BakeRequest& request, const Summary& s, const std::string& note) {
+  if (request.json.asked()) {
+    const nlohmann::json json{{"format", "clues-bake-summary/1"},
+                              {"bake", request.out},
+                              {"cells", s.cells},
+                              {"counting_triangles", s.counting},
+                              {"listed_average", s.average()},
+                              {"listed_least", s.least},
+                              {"listed_most", s.most},
+                              {"fallbacks", s.fallbacks},
+                              {"mapped", s.mapped},
+                              {"bytes", fs::file_size(request.out)},
+                              {"note", note}};
+    request.json.write(json.dump(2) + "\n");
+  }
+  if (request.json.on_stdout()) return;
+  print(
+      fmt::format("{:>7}  {:>9}  {:>8}  {:>7}  {:>7}  {:>9}  {:>9}\n"
+                  "{:>7}  {:>9}  {:>8.1f}  {:>7}  {:>7}  {:>9}  {:>9}\n{}\n",
+                  "cells", "triangles", "listed", "least", "most", "fallbacks", "bytes", s.cells, s.counting,
+                  s.average(), s.least, s.most, s.fallbacks, fs::file_size(request.out), note));
+}
+
+BakeShard parse_shard(const std::string& text) {
+  if (text.empty()) return {};
+  const auto slash = text.find('/');
+  const auto index = scene::parse_integer(text.substr(0, slash));
+  const auto count = slash == std::string::npos ? std::nullopt : scene::parse_integer(text.substr(slash + 1));
+  if (!index || !count || *index < 1 || *index > *count || *count > 1000000)
+    throw Error(ErrorCode::bad_argument, "--shard " + text + ": expected I/N, with I from 1 to N");
+  return {static_cast<std::uint32_t>(*index - 1), static_cast<std::uint32_t>(*count)};
+}
+
+int run_bake(const BakeRequest& request) {
+  const BakeShard shard = parse_shard(request.shard);
+  require_writable_parent(request.out);
+  require_writable_parent(request.json.file());
+  require_apart({&request.out, &request.json.file()}, {&request.scene, &request.cells});
+  const auto sha256 = scene::sha256_of_file(request.scene);
+  const auto scene = scene::read_scene(request.scene);
+  std::optional<scene::BspFile> level;
+  if (scene::lower_case_extension(request.scene) == ".bsp")
+    level = scene::parse_bsp(scene::read_file_bytes(request.scene), request.scene);
+  if (scene::sha256_of_file(request.scene) != sha256)
+    throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
+  const auto plan =
+      plan_of(request, sha256, scene, parse_bake_cells(request.cells, request.scene, scene, level, up_of(request)));
+  {
+    scene::BakeStore store(request.out, plan);
+    if (!store.is_finished()) {
+      for (const auto& file : request.merged)
+        std::fputs(fmt::format("clues bake: {} cells from {}\n", store.take_from(file), file).c_str(), stderr);
+      const auto& stop = catch_interrupts();
+      std::uint64_t done = 0;
+      {
+        ProgressBar bar("clues bake");
+        exact::by_threads(request.threads, [&] {
+          bake(scene, plan, store, request.kernel == "fast" ? fast_lister() : exact_lister(), shard, stop,
+               [&](std::uint64_t cells) { bar.show("cells", done = cells, plan.cells.size()); });
+        });
+      }
+      if (stop)
+        throw Unfinished(fmt::format("{}: interrupted with {} of {} cells; the same command goes on", request.out, done,
+                                     plan.cells.size()));
+      if (!store.has_all_cells()) {
+        print(fmt::format("{}: shard {} is done; --merge brings shards together\n", request.out, request.shard));
+        return fine;
+      }
+      store.finish();
+    }
+  }
+  const scene::FinishedBake baked(request.out);
+  if (!request.exported.empty()) export_bake(request.exported, baked, scene);
+  report(request, summary_of(baked, scene), plan.note);
+  return fine;
+}
+
+}  // namespace
+
+void add_bake_command(CLI::App& program, int& status) {
+  auto* command = program.add_subcommand("bake", "List what may be seen from every cell of a scene or level");
+  auto request = std::make_shared<BakeRequest>();
+  command->add_option("SCENE", request->scene, std::string("The scene: ") + scene::scene_formats)->required();
+  command->add_option("--cells", request->cells, "The view cells: grid:..., leaves, auto:SIZE, or a file")
+      ->type_name("CELLS")
+      ->required();
+  command->add_option("-o,--out", request->out, "The store, one file; where it is there already, the bake goes on")
+      ->type_name("FILE.bake")
+      ->required();
+  command->add_option("--kernel", request->kernel, "fast, or exact for small scenes")
+      ->check(CLI::IsMember({"fast", "exact"}))
+      ->capture_default_str();
+  command
+      ->add_option("--group", request->group,
+                   "Map so many neighbouring cells in what the box around them sees; 1: each in the scene")
+      ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
+      ->capture_default_str();
+  command->add_option("--up", request->up, "Which way is up, for --cells auto (default: y in glTF files, else z)")
+      ->check(CLI::IsMember({"y", "z"}));
+  command->add_option("--threads", request->threads, "Threads; 0: all")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command
+      ->add_option("--export", request->exported,
+                   "Also write plain lists and the flat file for engines, into a new folder")
+      ->type_name("FOLDER");
+  command->add_option("--shard", request->shard, "Map only a share, the I-th of N, for one of N machines")
+      ->type_name("I/N");
+  command
+      ->add_option("--merge", request->merged,
+                   "Take over what stores of this bake hold, of shards for instance, before mapping what is missing")
+      ->type_name("FILE.bake...");
+  request->json.add_to(*command, "The summary");
+  command->footer(
+      std::string(
+          "DESCRIPTION\n"
+          "  Lists for each cell the triangles of which some point may be seen from some point of it; none that "
+          "is visible is left\n"
+          "  out. The store is one SQLite file (docs/bakes.md). What is finished is in it at once: after Ctrl-C, "
+          "or worse, the same\n"
+          "  command goes on, and the file that it ends with has the same bytes as if nothing had happened, "
+          "whatever --threads says.\n"
+          "  In glTF files and levels some triangles do not block (docs/real-levels.md). The fast kernel lists "
+          "those of them that it\n"
+          "  cannot prove to be hidden.\n\n") +
+      bake_cells_help +
+      "\n\nEXAMPLES\n"
+      "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 -o town.bake\n"
+      "  clues bake level.bsp --cells leaves -o level.bake --export engine\n"
+      "  clues bake town.obj --cells auto:16:2 -o walkable.bake --json\n"
+      "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 --shard 1/2 -o first.bake\n"
+      "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 --merge first.bake -o all.bake\n\n"
+      "EXIT CODES\n"
+      "  0 fine   2 bad usage or input   3 interrupted: the same command goes on   4 an oracle contradicted itself");
+  command->callback([request, &status] { status = run_bake(*request); });
+}
+
+}  // namespace clues::app

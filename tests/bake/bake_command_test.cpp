@@ -1,0 +1,211 @@
+// clues bake as a user runs it.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sqlite3.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "scene/bakes/bake_store.h"
+#include "scene/messages/error.h"
+#include "tests/app/program.h"
+#include "tests/levels/made_level.h"
+
+namespace clues::tests {
+namespace {
+
+using testing::HasSubstr;
+constexpr const char* grid = "grid:3x2x1:box:-0.3,-0.25,-0.25,0.3,0.25,0";
+
+std::vector<std::string> bake(const std::string& out, std::vector<std::string> more = {}) {
+  std::vector<std::string> words{"bake", "scene.off", "--cells", grid, "-o", out};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(Bake, ListsAreThoseOfMap) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const char* kernel : {"fast", "exact"}) {
+    SCOPED_TRACE(kernel);
+    const std::string file = std::string(kernel) + ".bake";
+    ASSERT_EQ(run_clues(bake(file, {"--kernel", kernel}), folder.path()).exit_code, 0);
+    ASSERT_EQ(
+        run_clues({"map", "scene.off", "--cells", grid, "--kernel", kernel, "-o", kernel}, folder.path()).exit_code, 0);
+    const scene::FinishedBake baked(folder.path() / file);
+    ASSERT_EQ(baked.plan().cells.size(), 6U);
+    for (std::uint32_t c = 0; c < 6; ++c) {
+      std::string name = baked.plan().cells[c].name;
+      std::replace(name.begin(), name.end(), ',', '-');
+      const auto json = nlohmann::json::parse(read_all(folder.path() / kernel / ("cell-" + name + ".clues.json")));
+      EXPECT_EQ(json["visible"].get<std::vector<std::uint32_t>>(), baked.cell(c).list);
+    }
+  }
+}
+
+TEST(Bake, SameBytesForAnyNumberOfThreads) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const char* group : {"1", "2", "6"}) {
+    for (const char* threads : {"1", "2", "5"})
+      ASSERT_EQ(run_clues(bake(std::string("g") + group + "t" + threads, {"--group", group, "--threads", threads}),
+                          folder.path())
+                    .exit_code,
+                0);
+    const std::string name = std::string("g") + group;
+    EXPECT_EQ(read_all(folder.path() / (name + "t1")), read_all(folder.path() / (name + "t2")));
+    EXPECT_EQ(read_all(folder.path() / (name + "t1")), read_all(folder.path() / (name + "t5")));
+    const scene::FinishedBake one(folder.path() / "g1t1"), grouped(folder.path() / (name + "t1"));
+    for (std::uint32_t c = 0; c < 6; ++c) EXPECT_EQ(one.cell(c).list, grouped.cell(c).list) << "T6";
+  }
+}
+
+TEST(Bake, ShardsMergedAreTheWhole) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const char* group : {"1", "2"}) {
+    const std::string whole = std::string("whole") + group;
+    ASSERT_EQ(run_clues(bake(whole, {"--group", group}), folder.path()).exit_code, 0);
+    for (int shards = 1; shards <= 4; ++shards) {
+      SCOPED_TRACE(shards);
+      std::vector<std::string> more{"--group", group, "--merge"};
+      for (int i = 1; i <= shards; ++i) {
+        const std::string name = fmt::format("g{}-{}-of-{}", group, i, shards);
+        const auto ran =
+            run_clues(bake(name, {"--group", group, "--shard", fmt::format("{}/{}", i, shards)}), folder.path());
+        ASSERT_EQ(ran.exit_code, 0) << ran.err;
+        more.push_back(name);
+      }
+      const std::string merged = fmt::format("merged{}-{}", group, shards);
+      const auto ran = run_clues(bake(merged, more), folder.path());
+      ASSERT_EQ(ran.exit_code, 0) << ran.err;
+      EXPECT_EQ(read_all(folder.path() / merged), read_all(folder.path() / whole));
+      // One shard lost: what it had is mapped again.
+      more.pop_back();
+      if (shards == 1) more.pop_back();
+      ASSERT_EQ(run_clues(bake(merged + "again", more), folder.path()).exit_code, 0);
+      EXPECT_EQ(read_all(folder.path() / (merged + "again")), read_all(folder.path() / whole));
+    }
+  }
+  EXPECT_EQ(run_clues(bake("x", {"--merge", "whole2"}), folder.path()).exit_code, 2) << "of another question";
+  for (const char* wrong : {"0/2", "3/2", "1", "a/b", "1/0"})
+    EXPECT_EQ(run_clues(bake("y", {"--shard", wrong}), folder.path()).exit_code, 2) << wrong;
+}
+
+void change(const std::filesystem::path& store, const char* sql) {
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open(store.c_str(), &db), SQLITE_OK);
+  EXPECT_EQ(sqlite3_exec(db, sql, nullptr, nullptr, nullptr), SQLITE_OK) << sqlite3_errmsg(db);
+  sqlite3_close(db);
+}
+
+TEST(Bake, GoesOnWhereItWasStopped) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const char* group : {"1", "3"}) {
+    ASSERT_EQ(run_clues(bake("whole", {"--group", group}), folder.path()).exit_code, 0);
+    for (const char* lost :
+         {"UPDATE cells SET list = NULL WHERE id > 2", "UPDATE cells SET list = NULL; UPDATE nodes SET list = NULL",
+          "UPDATE cells SET list = NULL WHERE id = 4", "SELECT 1"}) {
+      SCOPED_TRACE(lost);
+      std::filesystem::copy(folder.path() / "whole", folder.path() / "part",
+                            std::filesystem::copy_options::overwrite_existing);
+      change(folder.path() / "part", "UPDATE about SET value = 'no' WHERE name = 'finished'");
+      change(folder.path() / "part", lost);
+      EXPECT_THROW(scene::FinishedBake(folder.path() / "part"), scene::Error);
+      ASSERT_EQ(run_clues(bake("part", {"--group", group}), folder.path()).exit_code, 0);
+      const scene::FinishedBake whole(folder.path() / "whole"), part(folder.path() / "part");
+      for (std::uint32_t c = 0; c < 6; ++c) EXPECT_EQ(part.cell(c).list, whole.cell(c).list);
+    }
+    std::filesystem::remove(folder.path() / "whole");
+  }
+}
+
+TEST(Bake, OthersStoresAreNotTouched) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  ASSERT_EQ(run_clues(bake("a.bake"), folder.path()).exit_code, 0);
+  const std::string before = read_all(folder.path() / "a.bake");
+  const auto refused = [&](const std::vector<std::string>& words, const char* why) {
+    const auto ran = run_clues(words, folder.path());
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_THAT(ran.err, HasSubstr(why));
+  };
+  refused({"bake", "scene.off", "--cells", "grid:1x1x1:box:0,0,0,1,1,1", "-o", "a.bake"}, "of other cells or options");
+  refused(bake("a.bake", {"--group", "2"}), "of other cells or options");
+  folder.write("scene.off", std::string(screen_scene) + "# another\n");
+  refused(bake("a.bake"), "of another scene");
+  EXPECT_EQ(read_all(folder.path() / "a.bake"), before);
+  folder.write("text", "not a store, but a long enough text to be taken for something by somebody\n");
+  refused(bake("text"), "cannot be used: file is not a database");
+  EXPECT_THAT(read_all(folder.path() / "text"), HasSubstr("not a store"));
+  change(folder.path() / "a.bake", "CREATE TRIGGER t AFTER UPDATE ON cells BEGIN DELETE FROM cells; END");
+  folder.write("scene.off", screen_scene);
+  refused(bake("a.bake"), "holds 't', which clues did not make");
+  refused({"bake", "scene.off", "--cells", "leaves", "-o", "b.bake"}, "has no leaves");
+  refused({"bake", "scene.off", "--cells", "auto:0", "-o", "b.bake"}, "both above 0");
+  refused({"bake", "scene.off", "--cells", "auto:1e-9", "-o", "b.bake"}, "take larger ones");
+  refused({"bake", "scene.off", "--cells", "missing.txt", "-o", "b.bake"}, "missing.txt");
+  folder.write("cells.txt", "a box:0,0,0,1,1,1\nb box:0,0,0,1,1\n");
+  refused({"bake", "scene.off", "--cells", "cells.txt", "-o", "b.bake"}, "cells.txt:2: ");
+  folder.write("cells.txt", "a box:0,0,0,1,1,1\na box:0,0,0,1,1,1\n");
+  refused({"bake", "scene.off", "--cells", "cells.txt", "-o", "b.bake"}, "cells.txt:2: the second cell of the name a");
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "b.bake"));
+}
+
+TEST(Bake, DamagedStoresAreRefused) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  ASSERT_EQ(run_clues(bake("a.bake", {"--group", "3"}), folder.path()).exit_code, 0);
+  for (const char* damage :
+       {"UPDATE cells SET list = x'00' WHERE id = 1", "UPDATE cells SET points = x'00' WHERE id = 1",
+        "DELETE FROM cells WHERE id = 1", "UPDATE cells SET node = 77 WHERE id = 1",
+        "UPDATE about SET value = 'many' WHERE name = 'triangles'", "UPDATE cells SET listed = 0 WHERE id = 1",
+        "DELETE FROM about", "UPDATE nodes SET node = 5 WHERE id = 1"}) {
+    SCOPED_TRACE(damage);
+    std::filesystem::copy(folder.path() / "a.bake", folder.path() / "d.bake",
+                          std::filesystem::copy_options::overwrite_existing);
+    change(folder.path() / "d.bake", damage);
+    EXPECT_THROW(
+        {
+          const scene::FinishedBake bake(folder.path() / "d.bake");
+          for (std::uint32_t c = 0; c < bake.plan().cells.size(); ++c) bake.cell(c);
+          if (bake.plan().cells.size() != 6) throw scene::Error(scene::ErrorCode::malformed, "");
+        },
+        scene::Error);
+  }
+}
+
+TEST(Bake, CellsAboveFloors) {
+  const TestFolder folder;
+  // A floor of 4 x 2 at height 0, and a wall.
+  folder.write("room.obj",
+               "v 0 0 0\nv 4 0 0\nv 4 2 0\nv 0 2 0\nv 4 0 3\nv 4 2 3\nf 1 2 3\nf 1 3 4\nf 2 3 6\nf 2 6 5\n");
+  const auto ran = run_clues({"bake", "room.obj", "--cells", "auto:1:1.5", "-o", "a.bake", "--json"}, folder.path());
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  const scene::FinishedBake baked(folder.path() / "a.bake");
+  for (const char* name : {"0,0,0", "3,1,1"}) {
+    EXPECT_TRUE(std::any_of(baked.plan().cells.begin(), baked.plan().cells.end(), [&](const scene::BakePlace& c) {
+      return c.name == name;
+    })) << name;
+  }
+  for (const auto& cell : baked.plan().cells) EXPECT_LT(cell.points[0][2], 2) << cell.name;
+  EXPECT_THAT(json["note"].get<std::string>(), HasSubstr("2 triangles to walk on; 2 steeper triangles"));
+}
+
+TEST(Bake, ALevelWithItsLeaves) {
+  const TestFolder folder;
+  folder.write("made.bsp", two_rooms().bytes());
+  ASSERT_EQ(run_clues({"bake", "made.bsp", "--cells", "leaves", "-o", "l.bake"}, folder.path()).exit_code, 0);
+  const scene::FinishedBake baked(folder.path() / "l.bake");
+  ASSERT_EQ(baked.plan().cells.size(), 2U);
+  EXPECT_EQ(baked.plan().cells[1].group, 1);
+  EXPECT_FALSE(baked.plan().cells[0].inner.empty());
+  // What only blocks is in no list.
+  for (const auto t : baked.cell(0).list) EXPECT_LT(t, 4U + 2 + 32 + 2);
+}
+
+}  // namespace
+}  // namespace clues::tests

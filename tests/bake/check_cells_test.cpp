@@ -1,0 +1,91 @@
+// clues check --all-cells: holes are found with their sight lines, and only holes.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "scene/bakes/bake_store.h"
+#include "tests/app/program.h"
+#include "tests/levels/made_level.h"
+
+namespace clues::tests {
+namespace {
+
+using testing::HasSubstr;
+
+// What a level was shipped with: room 0 without the floor of room 1, which is seen through the glass.
+TEST(CheckCells, JudgesWhatALevelWasShippedWith) {
+  const TestFolder folder;
+  folder.write("made.bsp", two_rooms().bytes());
+  const auto ran = run_clues({"check", "made.bsp", "--all-cells"}, folder.path());
+  EXPECT_EQ(ran.exit_code, 1) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("the longest free sight lines"));
+  EXPECT_THAT(ran.out, HasSubstr("(face "));
+  const auto json = nlohmann::json::parse(run_clues({"check", "made.bsp", "--all-cells", "--json"}, folder.path()).out);
+  EXPECT_EQ(json["lists"], "shipped");
+  EXPECT_GT(json["holes"], 0);
+  for (const auto& cell : json["cells"]) {
+    for (const auto& hole : cell["holes"]) EXPECT_EQ(hole["p"].size(), 3U);
+  }
+}
+
+TEST(CheckCells, FindsNoHoleInABakeAndEveryOneThatIsMade) {
+  const TestFolder folder;
+  folder.write("made.bsp", two_rooms().bytes());
+  folder.write("scene.off", screen_scene);
+  struct Of {
+    const char *scene, *cells;
+  };
+  for (const auto& [scene_name, cells] :
+       {Of{"made.bsp", "leaves"}, Of{"scene.off", "grid:2x2x1:box:-0.3,-0.25,-0.25,0.3,0.25,0"}}) {
+    SCOPED_TRACE(scene_name);
+    const std::string bake = std::string(scene_name) + ".bake";
+    ASSERT_EQ(run_clues({"bake", scene_name, "--cells", cells, "-o", bake}, folder.path()).exit_code, 0);
+    const auto sound = run_clues({"check", scene_name, "--all-cells", "--bake", bake}, folder.path());
+    EXPECT_EQ(sound.exit_code, 0) << sound.out << sound.err;
+    // A store of the same bake, with one triangle fewer in each cell's list, by turns.
+    const scene::FinishedBake whole(folder.path() / bake);
+    const std::string spoiled = std::string("spoiled-") + bake;
+    std::uint64_t taken = 0;
+    {
+      scene::BakeStore store(folder.path() / spoiled, whole.plan());
+      for (std::uint32_t c = 0; c < whole.plan().cells.size(); ++c) {
+        auto place = whole.cell(c);
+        ASSERT_FALSE(place.list.empty());
+        place.list.erase(place.list.begin() + c % static_cast<std::uint32_t>(place.list.size()));
+        ++taken;
+        store.commit({{scene::PlaceKind::cell, c, place}});
+      }
+      store.finish();
+    }
+    const auto ran = run_clues({"check", scene_name, "--all-cells", "--bake", spoiled, "--json"}, folder.path());
+    EXPECT_EQ(ran.exit_code, 1) << ran.err;
+    const auto json = nlohmann::json::parse(ran.out);
+    EXPECT_EQ(json["holes"].get<std::uint64_t>() + json["undecided"].get<std::uint64_t>(), taken);
+    EXPECT_GE(json["holes"].get<std::uint64_t>(), taken - 1) << "what is seen at all is seen from much of these cells";
+  }
+}
+
+TEST(CheckCells, SaysWhatItNeeds) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  folder.write("made.bsp", two_rooms().bytes());
+  const auto refused = [&](std::vector<std::string> words, const char* why) {
+    words.insert(words.begin(), "check");
+    const auto ran = run_clues(words, folder.path());
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_THAT(ran.err, HasSubstr(why));
+  };
+  refused({"scene.off", "--all-cells"}, "no lists were shipped");
+  refused({"scene.off"}, "give --cell and --pvs, or --all-cells");
+  refused({"scene.off", "--bake", "x"}, "needs --all-cells");
+  refused({"scene.off", "--all-cells", "--cell", "box:0,0,0,1,1,1"}, "leave out --cell and --pvs");
+  refused({"scene.off", "--all-cells", "--bake", "missing.bake"}, "missing.bake: no such file");
+  ASSERT_EQ(run_clues({"bake", "made.bsp", "--cells", "leaves", "-o", "l.bake"}, folder.path()).exit_code, 0);
+  refused({"scene.off", "--all-cells", "--bake", "l.bake"}, "is of another scene");
+}
+
+}  // namespace
+}  // namespace clues::tests

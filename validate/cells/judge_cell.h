@@ -1,0 +1,27 @@
+// D19, D23 for one cell of many: which triangles are missing from a list that somebody baked? The fast kernel says what may be seen: what is in its list and not in the other is
+// in question, and nothing else is. A triangle in question is a *hole* only with a sight line that exact/sight/witness.h has confirmed against all that blocks.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fastpath/visibility/see_through.h"
+#include "validate/verdicts/judge.h"
+
+namespace clues::validate {
+
+struct CellJudgement {
+  std::vector<std::uint32_t> may_be_seen;  // counting triangles in the fast kernel's list for this cell, ascending
+  std::uint64_t listed = 0;                // by the list that is judged
+  std::uint64_t witnessed = 0;           // of those that may be seen and block: with a free sight line, decided exactly
+  std::vector<Witness> holes;            // missing and visible, ascending by triangle
+  std::vector<std::uint32_t> undecided;  // missing, and no sight line was found, ascending
+  std::uint64_t sight_lines = 0;         // decided exactly
+  std::uint64_t fallbacks = 0;           // of the kernel
+};
+
+// `list` is ascending. The cell is W_in: who is accused of a hole has one. The same answer in every run and for any number of threads of the current arena.
+CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell,
+                         const std::vector<std::uint32_t>& list);
+
+}  // namespace clues::validate
