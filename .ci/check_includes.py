@@ -32,7 +32,7 @@ CHAPTERS = {
                  "motion"],
     "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets",
              "motion"],
-    "app": [".", "view", "engine", "bake", "demo", "commands"],
+    "app": [".", "map", "view", "engine", "bake", "demo", "commands"],
 }
 NO_CHAPTERS = {"validate/adapters"}  # to be copied; they include nothing of ours
 MOST_FILES = 22

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/cell_folder.h"
-#include "app/cell_mapper.h"
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/map/cell_folder.h"
+#include "app/map/cell_mapper.h"
 #include "app/progress.h"
 #include "exact/threads.h"
 #include "scene/cell_spec.h"

@@ -8,8 +8,8 @@
 
 #include "app/common.h"
 #include "app/json_output.h"
-#include "app/simplify_choice.h"
-#include "app/umbra_output.h"
+#include "app/map/simplify_choice.h"
+#include "app/map/umbra_output.h"
 #include "reference/visibility/first_order.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh/flagged_mesh.h"

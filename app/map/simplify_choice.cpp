@@ -1,4 +1,4 @@
-#include "app/simplify_choice.h"
+#include "app/map/simplify_choice.h"
 
 #include <fmt/format.h>
 

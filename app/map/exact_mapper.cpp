@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "app/cell_mapper.h"
+#include "app/map/cell_mapper.h"
 #include "exact/sight/scene_query.h"
 #include "reference/visibility/map/omega.h"
 #include "reference/visibility/refinement/bounds.h"

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 
-#include "app/cell_mapper.h"
+#include "app/map/cell_mapper.h"
 #include "exact/threads.h"
 #include "fastpath/visibility/first_order.h"
 #include "fastpath/visibility/refinement/refinement.h"

@@ -1,4 +1,4 @@
-#include "app/cell_folder.h"
+#include "app/map/cell_folder.h"
 
 #include <fmt/format.h>
 

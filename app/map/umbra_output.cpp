@@ -1,4 +1,4 @@
-#include "app/umbra_output.h"
+#include "app/map/umbra_output.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/cell_mapper.h"
+#include "app/map/cell_mapper.h"
 #include "exact/threads.h"
 #include "fastpath/visibility/see_through.h"
 #include "scene/messages/error.h"
