@@ -1,4 +1,4 @@
-// T6: a node's list is the scene of what is below it. Cells of a node are asked one after the other, each with the list of the one before as a guess; nodes side by side.
+// T6: a node's list is the scene of what is below it; a node without a box only brings neighbours together. Cells of a node are asked one after the other, each with the list of the one before as a guess; nodes side by side.
 #include "app/bake/baker.h"
 
 #include <tbb/task_group.h>
@@ -149,7 +149,7 @@ class Baker {
   void map_below(std::uint32_t node, const std::shared_ptr<const Part>& part, tbb::task_group& tasks) {
     for (const auto child : below_[node].nodes) {
       if ((node == 0 && !is_ours(child)) || is_done(child)) continue;
-      tasks.run([this, child, part, &tasks] { map_node(child, *part, tasks); });
+      tasks.run([this, child, part, &tasks] { map_node(child, part, tasks); });
     }
     // At the root cells have nothing in common: each is a task.
     if (node == 0) {
@@ -162,13 +162,14 @@ class Baker {
     for (const auto cell : below_[node].cells) guess = map_cell(cell, *part, guess);
   }
 
-  void map_node(std::uint32_t node, const Part& part, tbb::task_group& tasks) {
+  void map_node(std::uint32_t node, const std::shared_ptr<const Part>& part, tbb::task_group& tasks) {
     if (stop_) return;
+    if (plan_.nodes[node].points.empty()) return map_below(node, part, tasks);
     Ids ids;
     if (auto there = stored(PlaceKind::node, node)) {
       ids = std::move(there->list);
     } else {
-      const CellList found = part.list(plan_.nodes[node].points, {});
+      const CellList found = part->list(plan_.nodes[node].points, {});
       ids = found.visible;
       keep(PlaceKind::node, node, found, ids);
     }

@@ -36,6 +36,8 @@ namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
 
+constexpr std::size_t neighbours = 4;
+
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;
   std::size_t group = 1;
@@ -72,8 +74,11 @@ scene::BakePlan plan_of(const BakeRequest& request, const std::string& sha256, c
   plan.cells = std::move(cells.cells);
   std::vector<scene::CellSpec> specs;
   for (const auto& cell : plan.cells) specs.push_back({cell.name, cell.points});
-  const auto tree = tree_over(specs, request.group > 1 ? std::vector{request.group} : std::vector<std::size_t>{});
-  for (const auto& node : tree.nodes) plan.nodes.push_back({"", node.parent, node.box, {}, -1});
+  // Without groups that are mapped, neighbours still help each other with guesses.
+  const bool boxes = request.group > 1;
+  const auto tree = tree_over(specs, {boxes ? request.group : neighbours});
+  for (const auto& node : tree.nodes)
+    plan.nodes.push_back({"", node.parent, boxes ? node.box : std::vector<scene::Point>{}, {}, -1});
   for (std::size_t i = 0; i < plan.cells.size(); ++i) plan.cells[i].node = tree.node_of[i];
   return plan;
 }

@@ -234,7 +234,11 @@ FinishedBake::FinishedBake(const fs::path& file) : db_(file, Database::Access::r
     const auto at = where(db_, PlaceKind::node, s.number(0));
     if (s.number(0) != static_cast<std::int64_t>(plan_.nodes.size()) || s.number(1) < 0 || s.number(1) >= s.number(0))
       throw Error(ErrorCode::malformed, at + ": is out of order; the store was damaged");
-    plan_.nodes.push_back({"", static_cast<std::uint32_t>(s.number(1)), points_of(s.bytes(2), at), {}, -1});
+    plan_.nodes.push_back({"",
+                           static_cast<std::uint32_t>(s.number(1)),
+                           s.bytes(2).empty() ? std::vector<Point>{} : points_of(s.bytes(2), at),
+                           {},
+                           -1});
   }
   for (Statement s(db_, "SELECT id, name, node, points, inner, cluster FROM cells ORDER BY id"); s.next();) {
     const auto at = where(db_, PlaceKind::cell, s.number(0));

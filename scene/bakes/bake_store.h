@@ -19,7 +19,7 @@ namespace clues::scene {
 struct BakePlace {
   std::string name;           // of a cell; none for a node
   std::uint32_t node = 0;     // in whose list it is mapped; 0: in the scene
-  std::vector<Point> points;  // their hull is the cell that is mapped (W_out)
+  std::vector<Point> points;  // their hull is the cell that is mapped (W_out); none: a node that is not mapped
   std::vector<Point> inner;   // W_in, where the cell has one of its own; none: the same
   std::int64_t group = -1;    // the cluster of a leaf
 };

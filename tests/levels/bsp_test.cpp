@@ -51,7 +51,7 @@ TEST(Level, KnowsWhatCountsAndWhatBlocks) {
   EXPECT_EQ(level.scene.name_of(static_cast<std::uint32_t>(level.scene.mesh.triangles.size() - 1)),
             "brush 1 (textures/caulk)");
   EXPECT_EQ(triangles_of(level, 3).size(), 32U);
-  EXPECT_EQ(triangles_of(level, 8).size(), 12U);
+  EXPECT_EQ(triangles_of(level, 8).size(), 10U) << "its top is drawn all over";
 }
 
 TEST(Level, TessellatesAPatchOnItsCurve) {
