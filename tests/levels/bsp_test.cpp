@@ -89,6 +89,24 @@ TEST(Level, HoldsHullsBehindWhatIsDrawnOnThem) {
   EXPECT_EQ(top, 0);
 }
 
+// A few bytes could ask for hours: brushes share sides.
+TEST(Level, WithBrushesOfTooManySidesIsRefused) {
+  auto made = two_rooms();
+  std::string& sides = made.lumps[sides_lump];
+  const std::string one = sides.substr(0, 8);
+  while (sides.size() < 8 * 1025) sides += one;
+  made.put_word(brushes_lump, 0, 0);
+  made.put_word(brushes_lump, 1, 1024);
+  EXPECT_NO_THROW(parsed(made));
+  made.put_word(brushes_lump, 1, 1025);
+  EXPECT_THROW(parsed(made), scene::Error);
+  made.put_word(brushes_lump, 1, 1024);
+  std::string& brushes = made.lumps[brushes_lump];
+  const std::string brush = brushes.substr(0, 12);
+  for (int i = 0; i < 1024; ++i) brushes += brush;
+  EXPECT_THROW(parsed(made), scene::Error);
+}
+
 // Far from the origin doubles lose the height of a corner above its side: they must not decide that it is no drawing.
 TEST(Level, HoldsHullsBehindWhatIsDrawnFarFromTheOrigin) {
   constexpr double far = 0x1p60;
