@@ -1,4 +1,5 @@
-// The ring holds bins cursor_ to cursor_ + kBins - 1; what is outside lies at looked_ + kBins or beyond.
+// The ring holds bins cursor_ to cursor_ + kBins - 1; what is outside lies at looked_ + kBins or beyond, which a long step may reach before half
+// of the ring has gone by.
 #include "fastpath/motion/calendar.h"
 
 #include <cmath>
@@ -51,13 +52,11 @@ void Calendar::take_due(double odometer, std::vector<Entry>& due) {
   };
   if (last >= cursor_ + kBins) {  // the whole ring has gone by
     for (auto& bin : ring_) take(bin);
-    cursor_ = last;
-    take(outside_);
-    look_outside(last);
-    return;
+  } else {
+    for (std::uint64_t bin = cursor_; bin <= last; ++bin) take(ring_[bin % kBins]);
   }
-  for (std::uint64_t bin = cursor_; bin <= last; ++bin) take(ring_[bin % kBins]);
   cursor_ = last;
+  if (last >= looked_ + kBins) take(outside_);
   if (cursor_ - looked_ >= kBins / 2) look_outside(cursor_);
 }
 

@@ -63,7 +63,7 @@ void Walk::rebuild() {
   old_view_ = std::make_unique<View>(triangulation_->mesh());
   old_view_->look_from(at_);
   removed_.clear();
-  failed_.clear();
+  for (auto* of_the_old_mesh : {&failing_, &failed_, &not_delaunay_}) of_the_old_mesh->clear();
   calendar_.reset();
   for (Part& part : parts_) part = {};
   stamps_.clear();

@@ -13,18 +13,14 @@
 namespace clues::reference {
 
 double facing_bound(const DepthSample& a, const DepthSample& b, const DepthSample& c, const ExactViewpoint& v) {
-  return largest_double([&](double s) {
-    const mpq_class radius(s);
-    return exact::compare_facing_bound(a, b, c, v, radius * radius) >= 0;
-  });
+  return largest_double(
+      [&](const mpq_class& radius) { return exact::compare_facing_bound(a, b, c, v, radius * radius) >= 0; });
 }
 
 double edge_bound(const DepthSample& a, const DepthSample& b, const ExactViewpoint& v,
                   const ExactThresholds& thresholds) {
-  return largest_double([&](double s) {
-    const mpq_class radius(s);
-    return exact::compare_edge_bound(a, b, v, thresholds, radius * radius) >= 0;
-  });
+  return largest_double(
+      [&](const mpq_class& radius) { return exact::compare_edge_bound(a, b, v, thresholds, radius * radius) >= 0; });
 }
 
 double separation_bound(const DepthSample& a, const DepthSample& b, const DepthSample& p, const ExactViewpoint& v,
@@ -40,8 +36,8 @@ double separation_bound(const DepthSample& a, const DepthSample& b, const DepthS
   if (!a.is_direction && !b.is_direction) normal_growth = length(enclosed(exact::minus(to_b, to_a)));
   if (a.is_direction && !b.is_direction) normal_growth = length(enclosed(to_a));
   if (b.is_direction && !a.is_direction) normal_growth = length(enclosed(to_b));
-  return largest_double([&](double radius) {
-    const Enclosure s{mpq_class(radius)};
+  return largest_double([&](const mpq_class& radius) {
+    const Enclosure s{radius};
     const Enclosure farthest = p.is_direction ? to_p : to_p + s;
     return sgn((height.value - steepness * s - sine * farthest * (normal + normal_growth * s)).low) >= 0;
   });

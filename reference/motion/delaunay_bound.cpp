@@ -79,8 +79,8 @@ double general_form(const Quadrangle& q, const ExactViewpoint& v, double known) 
   }
   const Enclosure first = length(gradient);
   second = second + matrix.symmetric_norm();
-  const auto holds = [&](double radius) {
-    const Enclosure s{mpq_class(radius)};
+  const auto holds = [&](const mpq_class& radius) {
+    const Enclosure s{radius};
     return sgn((value - s * (first + s * (second + s * third))).low) >= 0;
   };
   return largest_double(holds, known);
@@ -118,8 +118,8 @@ double quadrangle_form(const Quadrangle& q, const ExactViewpoint& v, double know
   }
   const Enclosure first = length(gradient), second = matrix.symmetric_norm();
   const mpq_class nearest = std::min({l_d.low, sides[0].l.low, sides[1].l.low, sides[2].l.low});
-  const auto holds = [&](double radius) {
-    const Enclosure s{mpq_class(radius)};
+  const auto holds = [&](const mpq_class& radius) {
+    const Enclosure s{radius};
     if (s.high >= nearest) return false;
     Enclosure rest = value - s * (first + s * second);
     for (const auto& side : sides) {

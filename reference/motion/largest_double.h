@@ -3,18 +3,24 @@
 // was proved.
 #pragma once
 
+#include <gmpxx.h>
+
 #include <bit>
 #include <cstdint>
 #include <limits>
 
 namespace clues::reference {
 
-// 0 when it holds for no positive double, infinity when it holds for all. `known`: what it is known to hold for already; when it holds for
-// nothing beyond, that takes one question.
+// 0 when it holds for no positive double, infinity when it holds for all radii: viewpoints are not doubles, and samples may be two largest
+// doubles apart. No finite bound of samples and thresholds that are doubles comes near 2^4096: where it holds up to there, it holds everywhere.
+// `known`: what it is known to hold for already; when it holds for nothing beyond, that takes one question. holds(const mpq_class&).
 template <class Holds>
-double largest_double(const Holds& holds, double known = 0) {
+double largest_double(const Holds& holds_for, double known = 0) {
   constexpr double most = std::numeric_limits<double>::max();
-  if (!(known < most) || holds(most)) return std::numeric_limits<double>::infinity();
+  const auto holds = [&](double radius) { return holds_for(mpq_class(radius)); };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (known == infinity) return known;
+  if (known == most || holds(most)) return holds_for(mpq_class(mpz_class(1) << 4096U)) ? infinity : most;
   std::uint64_t below = std::bit_cast<std::uint64_t>(known), above = std::bit_cast<std::uint64_t>(most);
   if (known > 0 && !holds(std::bit_cast<double>(below + 1))) return known;
   while (above - below > 1) {

@@ -25,7 +25,11 @@ std::string named(const char* item, std::uint32_t index, const GltfObject& objec
 class Reader {
  public:
   Reader(std::string_view bytes, const std::string& file, const BufferLoader& load)
-      : file_(file), document_(bytes, file, load), moves_(document_.nodes().size()), seen_(document_.nodes().size()) {}
+      : file_(file),
+        document_(bytes, file, load),
+        moves_(document_.nodes().size()),
+        seen_(document_.nodes().size()),
+        material_changes_(document_.materials().size()) {}
 
   FlaggedMesh read() {
     find_animated();
@@ -49,7 +53,7 @@ class Reader {
         fail_at(node.place, ErrorCode::unsupported,
                 "uses EXT_mesh_gpu_instancing, which is not read; export its instances as nodes");
       const Transform here = product(above, transform_of(node));
-      const bool moves_here = moves || moves_[index];
+      const bool moves_here = moves || moves_[index] || may_not_be_drawn(node);
       if (const auto mesh = node.index("mesh", "mesh", document_.meshes().size()))
         add_mesh(index, *mesh, here, moves_here);
       push(node.indices("children", "node", document_.nodes().size()), here, moves_here);
@@ -66,8 +70,37 @@ class Reader {
         const auto target = channel.object("target");
         const auto node = target ? target->index("node", "node", document_.nodes().size()) : std::nullopt;
         if (node) moves_[*node] = true;
+        if (target) find_pointed_at(*target);
       }
     }
+  }
+
+  // An animation may name what it changes by a path: "/nodes/3/translation".
+  void find_pointed_at(const GltfObject& target) {
+    const auto extensions = target.object("extensions");
+    const auto extension = extensions ? extensions->object("KHR_animation_pointer") : std::nullopt;
+    if (!extension) return;
+    const std::string pointer = extension->text("pointer", "");
+    const auto mark = [&](std::string_view list, std::vector<bool>& marks) {
+      if (!pointer.starts_with(list)) return;
+      const std::string number = pointer.substr(list.size(), pointer.find('/', list.size()) - list.size());
+      const bool is_number =
+          !number.empty() && number.size() <= 9 && number.find_first_not_of("0123456789") == std::string::npos;
+      if (!is_number || std::stoul(number) >= marks.size())
+        target.fail("its KHR_animation_pointer " + excerpt(pointer) + " points at nothing");
+      marks[std::stoul(number)] = true;
+    };
+    mark("/nodes/", moves_);
+    mark("/materials/", material_changes_);
+  }
+
+  // Switched off, or one of several levels of detail of which a renderer draws another: what stands behind it may be seen.
+  static bool may_not_be_drawn(const GltfObject& node) {
+    const auto extensions = node.object("extensions");
+    if (!extensions) return false;
+    const auto visibility = extensions->object("KHR_node_visibility");
+    return (visibility && visibility->find("visible") != nullptr && !visibility->flag("visible")) ||
+           extensions->find("MSFT_lod") != nullptr;
   }
 
   std::vector<std::uint32_t> roots() {
@@ -90,18 +123,34 @@ class Reader {
     return roots;
   }
 
+  // With its material, and with every other one that it may be given.
   bool is_opaque(const GltfObject& primitive) const {
-    const auto index = primitive.index("material", "material", document_.materials().size());
-    if (!index) return true;
-    const GltfObject& material = document_.materials()[*index];
+    const std::size_t count = document_.materials().size();
+    const auto index = primitive.index("material", "material", count);
+    if (index && !is_opaque_material(*index)) return false;
+    const auto extensions = primitive.object("extensions");
+    const auto variants = extensions ? extensions->object("KHR_materials_variants") : std::nullopt;
+    if (!variants) return true;
+    const auto mappings = variants->objects("mappings", "mapping");
+    return std::all_of(mappings.begin(), mappings.end(), [&](const GltfObject& mapping) {
+      return is_opaque_material(mapping.needed_index("material", "material", count));
+    });
+  }
+
+  bool is_opaque_material(std::uint32_t index) const {
+    const GltfObject& material = document_.materials()[index];
     const std::string alpha = material.text("alphaMode", "OPAQUE");
     if (alpha != "OPAQUE" && alpha != "MASK" && alpha != "BLEND")
       material.fail("its alphaMode is " + excerpt(alpha) + ", and not OPAQUE, MASK or BLEND");
-    if (alpha != "OPAQUE") return false;
+    if (alpha != "OPAQUE" || material_changes_[index]) return false;
     const auto extensions = material.object("extensions");
     if (!extensions) return true;
-    return std::none_of(extensions->json->items().begin(), extensions->json->items().end(),
-                        [](const auto& item) { return item.key().find("transmission") != std::string::npos; });
+    const auto lets_light_through = [](const auto& item) {
+      const std::string& name = item.key();
+      return name.find("transmission") != std::string::npos || name.find("transparency") != std::string::npos ||
+             name == "MSFT_lod";
+    };
+    return std::none_of(extensions->json->items().begin(), extensions->json->items().end(), lets_light_through);
   }
 
   void add_mesh(std::uint32_t node, std::uint32_t index, const Transform& transform, bool moves) {
@@ -189,8 +238,8 @@ class Reader {
       warn(fmt::format("{}: {} primitives of points or lines have no surface and are left out", file_, lines_));
     if (moving_ > 0)
       warn(
-          fmt::format("{}: {} primitives move or bend (skin, morph targets or animation); they count where they are "
-                      "drawn at rest, and block nothing",
+          fmt::format("{}: {} primitives move, bend or may be hidden (skin, morph targets, animation, visibility or "
+                      "levels of detail); they count where they are drawn at rest, and block nothing",
                       file_, moving_));
   }
 
@@ -204,7 +253,8 @@ class Reader {
 
   const std::string& file_;
   GltfDocument document_;
-  std::vector<bool> moves_, seen_;  // per node
+  std::vector<bool> moves_, seen_;      // per node
+  std::vector<bool> material_changes_;  // by an animation
   std::map<std::uint32_t, std::vector<Point>> positions_;
   TriangleMesh out_;
   std::vector<std::uint8_t> blocks_;

@@ -2,8 +2,9 @@
 // without a parent where the file has no scenes): a node, the primitives of its mesh, then its children. Lists, strips and fans, with
 // indices or without. Positions are moved by the product of the matrices, in doubles; a mirror turns the triangles around, so that fronts stay fronts.
 //
-// A primitive counts, and blocks unless something says that it may be seen through or may move: alphaMode MASK or BLEND, a transmission, a skin,
-// morph targets, an animation of its node or one above it. Whether a material has two sides says nothing: a triangle is a thin screen (D3).
+// A primitive counts, and blocks unless something says that it may be seen through, may move or may not be drawn: alphaMode MASK or BLEND, a
+// transmission, in any of its variants (KHR_materials_variants); a skin, morph targets; an animation of its material, of its node or of one above it; such a node that
+// is switched off (KHR_node_visibility) or has levels of detail (MSFT_lod). Whether a material has two sides says nothing: a triangle is a thin screen (D3).
 #pragma once
 
 #include <string>

@@ -15,6 +15,8 @@ namespace {
 constexpr std::uint32_t version = 46;
 constexpr std::uint64_t most_drawn = std::uint64_t{1}
                                      << 24;  // faces may share vertices: a few bytes can ask for any number
+// Brushes may share sides, and each cuts what those before it left. Compilers allow a brush 1024.
+constexpr std::uint64_t most_sides_of_brush = 1024, most_sides = std::uint64_t{1} << 20;
 constexpr std::size_t lump_count = 17, header_size = 8 + 8 * lump_count;
 
 enum LumpId : std::size_t {
@@ -237,9 +239,17 @@ class Parser {
       level_.sides.push_back(
           {r.index(0, "the plane", level_.planes.size()), r.index(1, "the shader", level_.shaders.size())});
     });
+    std::uint64_t sides = 0;
     each(brushes_lump, "brush", [&](const Record& r) {
       level_.brushes.push_back(
           {r.range(0, 1, "brush sides", level_.sides.size()), r.index(2, "the shader", level_.shaders.size())});
+      const std::uint64_t own = level_.brushes.back().sides.count;
+      sides += own;
+      if (own > most_sides_of_brush || sides > most_sides) {
+        fail_at(r.place(), ErrorCode::unsupported,
+                fmt::format("it has {} sides, and the brushes up to it {}; at most {} and {} are read", own, sides,
+                            most_sides_of_brush, most_sides));
+      }
     });
   }
 

@@ -3,6 +3,7 @@
 #include "scene/levels/bsp_hulls.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "scene/levels/rounding.h"
@@ -12,9 +13,14 @@ namespace {
 
 HalfSpace half_space_of(const BspFile::Plane& plane) { return {to_rational(plane.normal), mpq_class(plane.distance)}; }
 
-// Rounded, with a wide margin: who is within comes to the exact test.
-double rough_height(const BspFile::Plane& plane, const Point& p) {
-  return plane.normal[0] * p[0] + plane.normal[1] * p[1] + plane.normal[2] * p[2] - plane.distance;
+// Rounded, with a wide margin and one for the rounding (below 2^-51 of the terms): who is within comes to the exact test.
+bool may_be_near(const BspFile::Plane& plane, const Point& p) {
+  double height = -plane.distance, terms = std::abs(plane.distance);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    height += plane.normal[axis] * p[axis];
+    terms += std::abs(plane.normal[axis] * p[axis]);
+  }
+  return !(std::abs(height) > 2 * side_thickness + 0x1p-50 * terms);
 }
 
 // How far the side has to be moved inwards so that no drawing of it is behind it; in units of its normal.
@@ -22,11 +28,8 @@ mpq_class depth_of_drawings(const BspFile::Plane& plane, const std::vector<const
   const HalfSpace side = half_space_of(plane);
   mpq_class depth;
   for (const auto* triangle : drawn) {
-    const bool may_be_one = std::all_of(triangle->begin(), triangle->end(), [&](const Point& p) {
-      const double height = rough_height(plane, p);
-      return height >= -2 * side_thickness && height <= 2 * side_thickness;
-    });
-    if (!may_be_one) continue;
+    if (!std::all_of(triangle->begin(), triangle->end(), [&](const Point& p) { return may_be_near(plane, p); }))
+      continue;
     mpq_class lowest;
     bool near = true;
     for (const Point& p : *triangle) {

@@ -121,6 +121,10 @@ bool PointJudge::is_seen(std::uint32_t triangle, bool front, const scene::Point&
   const exact::Plane3 plane(a, b, c);
   const Point3 p = exact::collapsed(plane.projection(exact::to_exact(near)));
   if (!exact::Kernel::Triangle_3(a, b, c).has_on(p)) return false;
+  // A side that no point of V is strictly in front of is not seen (D15), also where it lies on V: there the oracle calls every point seen (D3).
+  const auto& s = cell_.vertices();
+  const auto faced = front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
+  if (std::none_of(s.begin(), s.end(), [&](const Point3& v) { return plane.oriented_side(v) == faced; })) return false;
   return !exact::point_occlusion(p, front ? plane : plane.opposite(), cell_, occluders_).occluded;
 }
 

@@ -4,33 +4,21 @@
 // CLUES_SEED takes other scenes, with CLUES_NO_FALLBACKS=1 a fallback is a flaw; series.h has the other variables.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdlib>
+#include <map>
+#include <string>
 
-#include "fuzz/findings/dials.h"
-#include "fuzz/generators/touching_scenes.h"
-#include "tests/differential/series.h"
+#include "tests/differential/touching_series.h"
 
 namespace clues::tests {
 namespace {
-
-constexpr std::uint64_t kScenesSeed = 20261122;
-
-// The generators by turns.
-fuzz::Case scene_number(std::uint64_t seed, std::uint64_t n) {
-  const auto& generators = fuzz::touching_generators();
-  const fuzz::DegenerateGenerator& g = generators[n % generators.size()];
-  const std::uint64_t index = n / generators.size();
-  fuzz::GeneratedScene scene = g.make(seed, index);
-  return {g.name, seed, index, std::move(scene.mesh), std::move(scene.cell), false};
-}
 
 const std::map<std::string, std::uint64_t> none;
 
 // Without a fallback, where that is asked: about one scene in twenty still has one. The other formulation of the
 // reference, which is the slowest of the kernels, is asked in one scene of eight where the series is long.
 void nothing_hidden_is_seen(std::uint64_t from, std::uint64_t scenes, bool no_fallbacks) {
-  const Series series{number_from("CLUES_SEED", kScenesSeed), scene_number, [=](std::uint64_t n) {
+  const Series series{number_from("CLUES_SEED", kTouchingSeed), touching_scene, [=](std::uint64_t n) {
                         JudgeSettings settings;
                         settings.visible_set = n % 10 == 0;
                         settings.no_fallbacks = no_fallbacks;
@@ -46,28 +34,8 @@ void nothing_hidden_is_seen(std::uint64_t from, std::uint64_t scenes, bool no_fa
     EXPECT_EQ(totals.counts.count(what), 1U) << what;
 }
 
-// D17: limits turned down in every scene, so that fallbacks are common; other dials in some. The refinements of both kernels are asked in one scene of four.
 void limits_hide_nothing(std::uint64_t from, std::uint64_t scenes) {
-  const auto limited = [](std::uint64_t seed, std::uint64_t n) {
-    constexpr std::array<std::int64_t, 5> csv_limits{0, 1, 2, 5, 20};
-    fuzz::Case scene = scene_number(seed, n);
-    scene.dials = fuzz::with_dials(scene, true).dials;
-    // Moved scenes have tests of their own (CoordinatesOfAnySize); areas far from the origin are as coarse as coordinates are there.
-    scene.dials.erase("scale");
-    scene.dials.erase("offset");
-    // A turn that the round of generators and cells (7 x 8) does not divide.
-    const std::uint64_t turn = n / 56 + n;
-    if (turn % 3 != 0) scene.dials["generation_limit"] = static_cast<std::int64_t>(turn / 3 % 3);
-    if (turn % 3 != 1) scene.dials["csv_limit"] = csv_limits[turn / 9 % csv_limits.size()];
-    return scene;
-  };
-  const Series series{number_from("CLUES_SEED", kScenesSeed + 1), limited, [](std::uint64_t n) {
-                        JudgeSettings settings;
-                        settings.refined = (n / 56 + n) % 4 == 0;
-                        settings.points_per_region = 2;
-                        return settings;
-                      }};
-  const Totals totals = judge_series(series, from, scenes);
+  const Totals totals = judge_series(limited_series(), from, scenes);
   EXPECT_EQ(totals.flaws, none);
   if (scenes < 100) return;
   for (const char* kernel : {"plain reference", "traversal", "fast path"})

@@ -32,6 +32,11 @@ std::vector<Setting> limits() {
     settings.push_back({std::to_string(generations) + " generations", {}});
     settings.back().dials.generation_limit = generations;
   }
+  // Walks that do not end make sources visible in doubt, which make wedges.
+  for (const int legs : {2, 3}) {
+    settings.push_back({"walks of " + std::to_string(legs) + " legs", {}});
+    settings.back().dials.longest_walk = legs;
+  }
   return settings;
 }
 

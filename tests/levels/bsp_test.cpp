@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "scene/levels/bsp_hulls.h"
 #include "scene/levels/bsp_scene.h"
 #include "scene/levels/rounding.h"
 #include "tests/levels/made_level.h"
@@ -86,6 +87,45 @@ TEST(Level, HoldsHullsBehindWhatIsDrawnOnThem) {
     for (const auto corner : deep.scene.mesh.triangles[t]) top = std::max(top, deep.scene.mesh.points[corner][2]);
   }
   EXPECT_EQ(top, 0);
+}
+
+// A few bytes could ask for hours: brushes share sides.
+TEST(Level, WithBrushesOfTooManySidesIsRefused) {
+  auto made = two_rooms();
+  std::string& sides = made.lumps[sides_lump];
+  const std::string one = sides.substr(0, 8);
+  while (sides.size() < 8 * 1025) sides += one;
+  made.put_word(brushes_lump, 0, 0);
+  made.put_word(brushes_lump, 1, 1024);
+  EXPECT_NO_THROW(parsed(made));
+  made.put_word(brushes_lump, 1, 1025);
+  EXPECT_THROW(parsed(made), scene::Error);
+  made.put_word(brushes_lump, 1, 1024);
+  std::string& brushes = made.lumps[brushes_lump];
+  const std::string brush = brushes.substr(0, 12);
+  for (int i = 0; i < 1024; ++i) brushes += brush;
+  EXPECT_THROW(parsed(made), scene::Error);
+}
+
+// Far from the origin doubles lose the height of a corner above its side: they must not decide that it is no drawing.
+TEST(Level, HoldsHullsBehindWhatIsDrawnFarFromTheOrigin) {
+  constexpr double far = 0x1p60;
+  scene::BspFile level;
+  level.planes.push_back({{0.5, 0.5, -0.5}, 5});  // 0.5 * 2^60 - 0.5 * 2^60 hides what stands between them
+  level.sides.push_back({0, 0});
+  scene::BspFile::Brush brush;
+  brush.sides = {0, 1};
+  const scene::Polytope bounds = scene::box_polytope(scene::to_rational({far - 0x1p20, -0x1p20, far - 0x1p20}),
+                                                     scene::to_rational({far + 0x1p20, 0x1p20, far + 0x1p20}));
+  const std::vector<std::array<scene::Point, 3>> drawn{
+      {{{far, 9.5, far}, {far + 1024, 9.5, far + 1024}, {far, 10, far}}}};
+  const auto hull = scene::hull_of_brush(level, brush, bounds, drawn);
+  EXPECT_FALSE(hull.empty());
+  const scene::HalfSpace behind{scene::to_rational(level.planes[0].normal),
+                                mpq_class(4.75)};  // the lowest corner's height
+  for (const auto& triangle : hull) {
+    for (const auto& corner : triangle) EXPECT_TRUE(behind.holds(scene::to_rational(corner)));
+  }
 }
 
 TEST(Level, HasItsLeavesAsCells) {

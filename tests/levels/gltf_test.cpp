@@ -171,6 +171,54 @@ TEST(Gltf, LetsLightThroughWhatIsNotKnownToBeOpaque) {
   EXPECT_FALSE(read(skinned.text()).blocking(0));
 }
 
+// What an extension switches off, exchanges or animates is not known to be there either. All of these once blocked.
+TEST(Gltf, LetsLightThroughWhatExtensionsMayTakeAway) {
+  const auto blocks = [](const json& more) {
+    auto made = one_triangle();
+    made.json["materials"] = {json::object(), {{"alphaMode", "BLEND"}}};
+    made.json["meshes"][0]["primitives"][0]["material"] = 0;
+    made.json.merge_patch(more);
+    const auto mesh = read(made.text());
+    EXPECT_TRUE(mesh.counting(0));
+    return mesh.blocking(0);
+  };
+  const auto node = [&](const json& extensions) {
+    auto made = one_triangle();
+    made.json["nodes"][0]["extensions"] = extensions;
+    return blocks({{"nodes", made.json["nodes"]}});
+  };
+  EXPECT_TRUE(node({{"KHR_node_visibility", {{"visible", true}}}}));
+  EXPECT_FALSE(node({{"KHR_node_visibility", {{"visible", false}}}}));
+  EXPECT_FALSE(node({{"MSFT_lod", {{"ids", {1}}}}}));
+
+  const auto variants = [&](std::size_t material) {
+    auto made = one_triangle();
+    json& primitive = made.json["meshes"][0]["primitives"][0];
+    primitive["extensions"] = {
+        {"KHR_materials_variants", {{"mappings", {{{"material", material}, {"variants", {0}}}}}}}};
+    return blocks({{"meshes", made.json["meshes"]}});
+  };
+  EXPECT_TRUE(variants(0));
+  EXPECT_FALSE(variants(1));
+
+  const auto material = [&](const char* extension) {
+    return blocks({{"materials", {{{"extensions", {{extension, json::object()}}}}}}});
+  };
+  EXPECT_TRUE(material("KHR_materials_unlit"));
+  EXPECT_FALSE(material("ADOBE_materials_thin_transparency"));
+
+  const auto animated = [&](const char* pointer) {
+    const json target = {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+    return blocks({{"animations", {{{"channels", {{{"sampler", 0}, {"target", target}}}}}}}});
+  };
+  EXPECT_TRUE(animated("/cameras/0/perspective/yfov"));
+  EXPECT_FALSE(animated("/nodes/0/translation"));
+  EXPECT_FALSE(animated("/nodes/0/extensions/KHR_node_visibility/visible"));
+  EXPECT_FALSE(animated("/materials/0/pbrMetallicRoughness/baseColorFactor"));
+  EXPECT_THROW(animated("/nodes/1/translation"), scene::Error);
+  EXPECT_THROW(animated("/materials/x/alphaCutoff"), scene::Error);
+}
+
 TEST(Gltf, IsReadFromFilesByTheirNames) {
   const SceneFolder folder;
   auto made = with_primitive(4, true, 5125);

@@ -123,6 +123,16 @@ TEST(FacingBound, IsTheLargestDouble) {
   EXPECT_GT(finite, 900);
 }
 
+// Two largest doubles away: farther than any double says, and yet not for ever.
+TEST(FacingBound, IsFiniteBeyondTheLargestDouble) {
+  constexpr double far = 0x1.fp1023, size = 0x1p1000;
+  const scene::DepthSample a{{far, 0, 0}}, b{{far, size, 0}}, c{{far, 0, size}};
+  const exact::ExactViewpoint v = exact::exact_viewpoint({-far, 0, 0});
+  EXPECT_EQ(reference::facing_bound(a, b, c, v), std::numeric_limits<double>::max());
+  const scene::DepthSample x{{1, 0, 0}, true}, y{{0, 1, 0}, true}, z{{0, 0, 1}, true};
+  EXPECT_EQ(reference::facing_bound(x, y, z, v), std::numeric_limits<double>::infinity());
+}
+
 // Closed forms. The ball of radius 3 - 1/2^40 is proved, 3 is the bound.
 TEST(Bounds, ClosedForms) {
   const auto origin = exact::exact_viewpoint({0, 0, 0});

@@ -29,7 +29,12 @@ TEST(Calendar, GivesWhatIsDueAndNothingElse) {
         waiting.push_back(static_cast<std::uint32_t>(keys.size() - 1));
         calendar.put({keys.back(), waiting.back(), 0});
       }
-      if (!random.one_in(7)) odometer += random.one_in(40) ? 5000 * width : width * random.between(1, 30) / 4;
+      // Short ways, ways of up to two rounds of the ring, and ways past all of it.
+      if (!random.one_in(7)) {
+        odometer += random.one_in(40)   ? 5000 * width
+                    : random.one_in(12) ? width * random.between(1, 2048)
+                                        : width * random.between(1, 30) / 4;
+      }
       std::vector<Calendar::Entry> due;
       calendar.take_due(odometer, due);
       std::vector<std::uint32_t> got, expected;
@@ -42,6 +47,18 @@ TEST(Calendar, GivesWhatIsDueAndNothingElse) {
       std::erase_if(waiting, [&](std::uint32_t item) { return keys[item] <= odometer; });
     }
   }
+}
+
+// What is outside of the ring may be due before half of the ring has gone by and it is looked through: after a step that is longer than that half.
+TEST(Calendar, GivesWhatIsDueOutsideOfTheRingAfterALongStep) {
+  Calendar calendar(1);
+  calendar.put({1100, 7, 0});
+  std::vector<Calendar::Entry> due;
+  calendar.take_due(500, due);
+  EXPECT_EQ(due.size(), 0U);
+  calendar.take_due(1150, due);
+  ASSERT_EQ(due.size(), 1U);
+  EXPECT_EQ(due.front().item, 7U);
 }
 
 }  // namespace

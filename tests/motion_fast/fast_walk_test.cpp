@@ -188,6 +188,36 @@ TEST(FastWalk, RefusesWhatCannotBeMeant) {
   EXPECT_THROW(Walk(bvh, bad, {0, 0, 0}), scene::Error);
 }
 
+// Short steps, and then one over more than half of the calendar: triangles that waited outside of its ring are due at once, and were not looked at.
+TEST(FastWalk, ALongStepAfterManyShortOnesLeavesNothingUnseen) {
+  constexpr double step = 0.0003;
+  std::vector<MotionPoint> path;
+  for (int k = 0; k <= 120; ++k) path.push_back({step * k, 0.1 * step * k, 0});
+  path.push_back({370 * step, 37 * step, 0});
+  for (const bool delaunay : {false, true}) {
+    const Summary sum = walk_along(room(), options_of(1200, delaunay), path);
+    EXPECT_EQ(sum.meshes.size(), path.size() - 1);
+    EXPECT_EQ(sum.rebuilt, 0U);  // else nothing is asked of the calendar
+  }
+}
+
+// After a jump the mesh is made anew, with fewer triangles than the one in which edges had failed: those numbers mean nothing any more. They were read
+// beyond the end of the new table (which only sanitizers and checked containers notice).
+TEST(FastWalk, AMeshMadeAnewForgetsWhichEdgesHadFailed) {
+  const auto mesh = room();
+  const fastpath::Bvh bvh(mesh);
+  WalkOptions options = options_of(3000, true);
+  options.thresholds.kappa = 16;
+  options.thresholds.sigma = 1e-4;
+  Walk walk(bvh, options, {0, 0, 0});
+  for (int k = 1; k <= 30; ++k) walk.move_to({0.02 * k, 0.005 * k, 0});
+  const std::size_t before = walk.mesh().faces().size();
+  const MotionPoint far{4.5, -3.5, 1.5};
+  EXPECT_TRUE(walk.move_to(far).rebuilt);
+  EXPECT_LT(walk.mesh().faces().size(), before);
+  EXPECT_EQ(fault_of(walk.depth_mesh(), far, options.thresholds), "");
+}
+
 // The sketch takes the chord from a vertex to the foot on the opposite edge: where the thresholds are coarse, triangles fail that it never looks at.
 TEST(FastWalk, TheBoundOfTheSketchIsFoundOut) {
   WalkOptions options = options_of(600, false, Bounds::sketch_unsound);

@@ -80,6 +80,14 @@ COPIES = {
         ("    if (!subtract(hidden, set_with(false, old.at(order[k]), frame)).empty())\n"
          "      throw scene::Error(scene::ErrorCode::internal, \"simplification: a hidden region grew\");\n", "")]),
 
+    # ---- the fast path
+
+    # What the limits of D17 left out is asked about one place beside a side only, and not about all of the side.
+    "one_sample_of_a_side": ("fastpath/sides.cpp", [
+        ("    const std::array<IntervalBox, 3> corners{scene_.corner(t, 0).approximate(), scene_.corner(t, 1).approximate(),\n"
+         "                                             scene_.corner(t, 2).approximate()};\n",
+         "    const std::array<IntervalBox, 1> corners{p->approximate()};\n")]),
+
     # ---- refinement in the fast path
 
     # Hazard A-4: the raw adjusted wedge, which is the map of V+ without V-.

@@ -190,6 +190,12 @@ TEST_F(PointsFile, DecimalsAndFractions) {
   EXPECT_EQ(read_points(path_).at(0).end, Point3(0.5, 0, 0));
 }
 
+// Leading zeros once made octal numbers of fractions, and an internal error of 08/1.
+TEST_F(PointsFile, FractionsAreDecimalWhateverTheyBeginWith) {
+  write("010/1 -08/09 007/0100\n");
+  EXPECT_EQ(read_points(path_).at(0).point, Point3(10, FT(-8) / FT(9), FT(7) / FT(100)));
+}
+
 TEST_F(PointsFile, FaultsNameFileAndLine) {
   for (const auto& [text, mentions] : {std::pair("1 2 3\n1 2\n", "three coordinates"),
                                        {"1 2 3\n1 2 x\n", "not a number"},

@@ -27,7 +27,7 @@ Rational coordinate(std::string_view token, const scene::Place& place) {
                    fmt::format("the coordinate {} is not a fraction; write p/q with whole numbers, q above 0",
                                scene::excerpt(token)));
   }
-  Rational x((std::string(token)));
+  Rational x(std::string(token), 10);  // else a leading zero would make it octal
   x.canonicalize();
   return x;
 }

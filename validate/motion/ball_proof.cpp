@@ -1,7 +1,7 @@
 // Branch and bound with interval arithmetic. In a cube with middle c and half edge h, and in the ball,
 //   separation: the determinant is affine, so it is at least det(c) - h |m|_1 in the cube and det(center) - |m| radius in the ball; the constraint
 //     holds where it is not less than sin(eps) times the greatest |p - v| times the greatest |N(v)|, N = a(v) x b(v);
-//   Delaunay: with gradients enclosed over the cube (mean value theorem), G is at least G(c) - h |grad G|_1 in the cube, and, split into a
+//   Delaunay: with gradients enclosed over the cube (mean value theorem; over what of it is in the ball, if its middle is), G is at least G(c) - h |grad G|_1 in the cube, and, split into a
 //     middle gradient g and what is left of it, G(c) + g.(center - c) - |g| radius - h |rest|_1 in the part of the cube that is in the ball.
 // Near the point where the ball touches the violation it is the second of each that ends the halving.
 #include "validate/motion/ball_proof.h"
@@ -126,10 +126,10 @@ class Prover {
     volume_ = dot(e_[0], k_[0]);
   }
 
-  // From the part of a cube that is in the ball.
-  Interval length_in_ball(const Row& x, std::size_t i) const {
+  // From a cube; or, `cut`, from the part of it that is in the ball.
+  Interval length_from(const Row& x, std::size_t i, bool cut) const {
     const Interval l = length(x[i]);
-    return l.inf() < nearest_[i] && nearest_[i] <= l.sup() ? Interval(nearest_[i], l.sup()) : l;
+    return cut && l.inf() < nearest_[i] && nearest_[i] <= l.sup() ? Interval(nearest_[i], l.sup()) : l;
   }
 
   struct Value {
@@ -137,13 +137,13 @@ class Prover {
     Vector gradient;
   };
 
-  Value of_four_points(const Vector& v) const {
+  Value of_four_points(const Vector& v, bool cut) const {
     const Row x = rows(v);
-    const Interval l_d = length_in_ball(x, 3);
+    const Interval l_d = length_from(x, 3, cut);
     const Vector u_d = times(Interval(1) / l_d, x[3]);
     Value out{volume_ * l_d, times(-volume_, u_d)};
     for (std::size_t i = 0; i < 3; ++i) {
-      const Interval l = length_in_ball(x, i);
+      const Interval l = length_from(x, i, cut);
       const Interval difference = dot(e_[i], plus(x[i], x[3])) / (l + l_d);              // l_i - l_d
       const Vector turn = times(Interval(1) / l, minus(e_[i], times(difference, u_d)));  // u_i - u_d
       const Interval height = -dot(k_[i], x[3]);
@@ -153,14 +153,14 @@ class Prover {
     return out;
   }
 
-  Value of_any_samples(const Vector& v) const {
+  Value of_any_samples(const Vector& v, bool cut) const {
     const Row x = rows(v);
     Value out{0, {0, 0, 0}};
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t j = i == 0 ? 1 : 0, k = i <= 1 ? 2 : 1, m = i <= 2 ? 3 : 2;
       const Interval sign = i % 2 == 0 ? -1 : 1;
       const Interval factor = sign * determinant(x, j, k, m);
-      const Interval l = length_in_ball(x, i);
+      const Interval l = length_from(x, i, cut);
       out.g += factor * l;
       out.gradient = plus(out.gradient, times(sign * l, slope(x, j, k, m)));
       if (moves(i)) out.gradient = minus(out.gradient, times(factor / l, x[i]));
@@ -172,10 +172,15 @@ class Prover {
     const Vector middle{cube.middle[0], cube.middle[1], cube.middle[2]};
     const Vector whole = box(cube);
     const Row x = rows(whole);
+    // The mean value theorem goes along the segment from the middle: only where that is in the ball, all of the segment to a point of
+    // the ball is.
+    const bool cut = in_ball(cube.middle);
     for (std::size_t i = 0; i < 4; ++i) {
-      if (length_in_ball(x, i).inf() <= 0) return false;  // a sample may be in the cube: no directions to speak of
+      if (length_from(x, i, cut).inf() <= 0) return false;  // a sample may be in the cube: no directions to speak of
     }
-    const auto value_at = [&](const Vector& v) { return all_points_ ? of_four_points(v) : of_any_samples(v); };
+    const auto value_at = [&](const Vector& v) {
+      return all_points_ ? of_four_points(v, cut) : of_any_samples(v, cut);
+    };
     const Interval here = value_at(middle).g;
     fails = here.sup() < 0;
     const Vector gradient = value_at(whole).gradient;
