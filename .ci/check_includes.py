@@ -20,16 +20,16 @@ MAY_SEE = {
 }
 # Of each folder, in the order in which a reader meets them; "." is the folder itself.
 CHAPTERS = {
-    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "motion"],
-    "exact": [".", "cell", "complex", "sight", "motion"],
+    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "motion", "multires"],
+    "exact": [".", "cell", "complex", "sight", "motion", "multires"],
     "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
                   "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",
-                  "visibility/refinement", "motion"],
+                  "visibility/refinement", "motion", "multires"],
     "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
                  "visibility/refinement", "motion"],
     "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "vectors", "conform",
-                 "motion"],
+                 "motion", "multires"],
     "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets",
              "motion"],
     "app": [".", "view", "demo", "commands"],
