@@ -31,8 +31,8 @@ CHAPTERS = {
     "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "vectors", "conform",
                  "motion", "multires"],
     "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets",
-             "motion"],
-    "app": [".", "view", "demo", "commands"],
+             "motion", "multires"],
+    "app": [".", "view", "demo", "maps", "commands"],
 }
 NO_CHAPTERS = {"validate/adapters"}  # to be copied; they include nothing of ours
 MOST_FILES = 22

@@ -295,10 +295,41 @@ class LevelJudge {
       report_.find("E1", place(r.vertex) + ": its new boundary edge exists already");
       return false;
     }
+    check_delaunay(r, flat);
     if (r.kind == StarKind::feature && edges.count({r.ring[0], r.ring[r.across]}) == 0) {
       return wrong("the new feature edge is none of the new triangles'");
     }
     return true;
+  }
+
+  // Every new edge that could be flipped is Delaunay in the disk; of four corners on one circle the lowest is an end of it.
+  void check_delaunay(const Removal& r, std::map<std::uint32_t, Whole2>& flat) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> beyond;
+    for (const auto& t : r.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) beyond[{t[k], t[(k + 1) % 3]}] = t[(k + 2) % 3];
+    }
+    for (const auto& [edge, c] : beyond) {
+      const auto [a, b] = edge;
+      const auto other = beyond.find({b, a});
+      if (a > b || other == beyond.end()) continue;
+      if (r.kind == StarKind::feature && scene::edge_of(a, b) == scene::edge_of(r.ring[0], r.ring[r.across])) continue;
+      const std::uint32_t d = other->second;
+      if (surface_.has_edge(c, d) || turn(flat[d], flat[b], flat[c]) <= 0 || turn(flat[d], flat[c], flat[a]) <= 0)
+        continue;
+      const int inside = circle(flat[a], flat[b], flat[c], flat[d]);
+      if (inside > 0 || (inside == 0 && std::min(c, d) < std::min(a, b))) {
+        report_.find(
+            "E3", place(r.vertex) + fmt::format(": the new edge ({}, {}) is not Delaunay, ({}, {}) would be{}", a, b, c,
+                                                d, inside == 0 ? " (four on a circle: the lowest is an end)" : ""));
+      }
+    }
+  }
+
+  static int circle(const Whole2& a, const Whole2& b, const Whole2& c, const Whole2& d) {
+    const auto lifted = [&](const Whole2& p) -> mpz_class {
+      return (p.x - d.x) * (p.x - d.x) + (p.y - d.y) * (p.y - d.y);
+    };
+    return sgn(mpz_class(lifted(a) * turn(d, b, c) + lifted(b) * turn(d, c, a) + lifted(c) * turn(d, a, b)));
   }
 
   void replace(const Removal& r) {

@@ -1,0 +1,96 @@
+#include "app/maps/maps_output.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include "scene/mesh_io.h"
+
+namespace clues::app {
+namespace {
+
+scene::Point position_estimate(const scene::Hierarchy& h, const scene::CarrierPoint& at) {
+  scene::Point out{0, 0, 0};
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const double weight = std::ldexp(static_cast<double>(at.weight[k]), -scene::weight_bits);
+    for (std::size_t i = 0; i < 3; ++i) out[i] += weight * h.input.points[at.corner[k]][i];
+  }
+  return out;
+}
+
+// Neighbouring numbers get colours far apart.
+std::array<int, 3> colour_of(std::uint32_t number) {
+  const double hue = std::fmod(0.618033988749895 * number, 1.0) * 6,
+               shade = number % 3 == 0 ? 1.0 : (number % 3 == 1 ? 0.8 : 0.6);
+  const double x = 1 - std::abs(std::fmod(hue, 2.0) - 1);
+  const std::array<std::array<double, 3>, 6> wheel{{{1, x, 0}, {x, 1, 0}, {0, 1, x}, {0, x, 1}, {x, 0, 1}, {1, 0, x}}};
+  std::array<int, 3> out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    out[i] = static_cast<int>(255 * shade * (0.25 + 0.75 * wheel[static_cast<std::size_t>(hue) % 6][i]));
+  }
+  return out;
+}
+
+// The base triangle that a piece lies in; no_vertex for a file that was not verified.
+std::uint32_t base_of(const std::map<scene::Triangle, std::uint32_t>& base, const scene::Hierarchy& h,
+                      const scene::OverlayTriangle& piece) {
+  std::vector<std::uint32_t> corners;
+  for (const std::uint32_t p : piece.corners) {
+    const auto& image = h.points[p].image;
+    corners.insert(corners.end(), image.corner.begin(),
+                   image.corner.begin() + static_cast<std::ptrdiff_t>(image.size()));
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  const auto found = corners.size() == 3 ? base.find({corners[0], corners[1], corners[2]}) : base.end();
+  return found == base.end() ? scene::no_vertex : found->second;
+}
+
+}  // namespace
+
+std::string patches_to_ply(const scene::Hierarchy& h) {
+  std::map<scene::Triangle, std::uint32_t> base;
+  for (std::uint32_t t = 0; t < h.base.size(); ++t) {
+    auto corners = h.base[t];
+    std::sort(corners.begin(), corners.end());
+    base.emplace(corners, t);
+  }
+  fmt::memory_buffer out;
+  auto to = std::back_inserter(out);
+  fmt::format_to(to,
+                 "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double "
+                 "z\nelement face {}\n"
+                 "property list uchar uint vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar "
+                 "blue\nend_header\n",
+                 h.points.size(), h.pieces.size());
+  for (const auto& p : h.points) {
+    const auto at = position_estimate(h, p.source);
+    fmt::format_to(to, "{} {} {}\n", at[0], at[1], at[2]);
+  }
+  for (const auto& piece : h.pieces) {
+    const auto colour = colour_of(base_of(base, h, piece));
+    fmt::format_to(to, "3 {} {} {} {} {} {}\n", piece.corners[0], piece.corners[1], piece.corners[2], colour[0],
+                   colour[1], colour[2]);
+  }
+  return fmt::to_string(out);
+}
+
+std::string base_to_off(const scene::Hierarchy& h) {
+  std::vector<std::uint32_t> number(h.input.points.size(), scene::no_vertex);
+  scene::TriangleMesh mesh;
+  for (const auto& t : h.base) {
+    for (const std::uint32_t v : t) number[v] = 0;
+  }
+  for (std::uint32_t v = 0; v < number.size(); ++v) {
+    if (number[v] == scene::no_vertex) continue;
+    number[v] = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.push_back(h.input.points[v]);
+  }
+  for (const auto& t : h.base) mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+  return scene::to_off_text(mesh);
+}
+
+}  // namespace clues::app

@@ -1,0 +1,16 @@
+// What `clues maps` draws: the base domain, and the input with a colour for each base triangle.
+#pragma once
+
+#include <string>
+
+#include "scene/multires/hierarchy.h"
+
+namespace clues::app {
+
+// The pieces of the overlay where they lie on the input, each with the colour of its base triangle (ascii PLY). Positions are estimates.
+std::string patches_to_ply(const scene::Hierarchy& hierarchy);
+
+// The base domain with vertices of the input; those that it does not use are left out.
+std::string base_to_off(const scene::Hierarchy& hierarchy);
+
+}  // namespace clues::app
