@@ -1,10 +1,10 @@
 // Crossings are points of two lines, with numbers longer than 128 bits: the only place where that is so.
-#include <gmpxx.h>
 
 #include <algorithm>
 #include <map>
 #include <optional>
 
+#include "reference/multires/combination.h"
 #include "reference/multires/star_pieces.h"
 
 namespace clues::reference {
@@ -13,47 +13,9 @@ namespace {
 using exact::Wide;
 using scene::CarrierPoint;
 
-mpz_class to_integer(Wide value) {
-  const bool negative = value < 0;
-  __extension__ typedef unsigned __int128 Bits;
-  const Bits bits = negative ? -static_cast<Bits>(value) : static_cast<Bits>(value);
-  mpz_class out(static_cast<unsigned long>(bits >> 64));
-  out <<= 64;
-  out += static_cast<unsigned long>(bits);
-  return negative ? mpz_class(-out) : out;
-}
-
 mpz_class divided_down(const mpz_class& a, const mpz_class& b) {
   mpz_class out;
   mpz_fdiv_q(out.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
-  return out;
-}
-
-// The point that divides the segment from p to q as `part` : `rest`, rounded down to the grid; what is left over goes to the largest weight.
-std::optional<CarrierPoint> between(const CarrierPoint& p, const CarrierPoint& q, const mpz_class& part,
-                                    const mpz_class& rest) {
-  std::vector<std::uint32_t> corners;
-  for (const auto& carrier : {p, q}) {
-    for (const std::uint32_t v : carrier.corner) {
-      if (v != scene::no_vertex && std::find(corners.begin(), corners.end(), v) == corners.end()) corners.push_back(v);
-    }
-  }
-  if (corners.size() > 3) return std::nullopt;  // no segment of one input triangle
-  std::sort(corners.begin(), corners.end());
-  CarrierPoint out;
-  const mpz_class whole = part + rest;
-  std::int64_t left = scene::whole_weight;
-  std::size_t largest = 0;
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const mpz_class weight =
-        divided_down(rest * mpz_class(p.weight_of(corners[k])) + part * mpz_class(q.weight_of(corners[k])), whole);
-    out.corner[k] = corners[k];
-    out.weight[k] = weight.get_si();
-    if (out.weight[k] == 0) return std::nullopt;
-    if (out.weight[k] > out.weight[largest]) largest = k;
-    left -= out.weight[k];
-  }
-  out.weight[largest] += left;
   return out;
 }
 
@@ -81,7 +43,7 @@ Crossing crossing_of(const Diagonal& d, const StarPoint& x, const StarPoint& y, 
   if (!out.within) return out;
   const std::int64_t weight_b = divided_down(way, unit).get_si(), weight_a = scene::whole_weight - weight_b;
   if (weight_b == 0) return out;
-  const auto source = between(x.at.source, y.at.source, part, rest);
+  const auto source = combined({{&x.at.source, rest}, {&y.at.source, part}});
   if (!source) return out;
   StarPoint point;
   point.at.source = *source;
