@@ -8,18 +8,17 @@
 #include <map>
 
 #include "scene/mesh_io.h"
+#include "scene/messages/error.h"
 
 namespace clues::app {
 namespace {
 
-scene::Point position_estimate(const scene::Hierarchy& h, const scene::CarrierPoint& at) {
-  scene::Point out{0, 0, 0};
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    const double weight = std::ldexp(static_cast<double>(at.weight[k]), -scene::weight_bits);
-    for (std::size_t i = 0; i < 3; ++i) out[i] += weight * h.input.points[at.corner[k]][i];
-  }
-  return out;
-}
+// Takes the numbers of vertices and of faces.
+constexpr fmt::string_view coloured_ply =
+    "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\nelement face "
+    "{}\n"
+    "property list uchar uint vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar "
+    "blue\nend_header\n";
 
 // Neighbouring numbers get colours far apart.
 std::array<int, 3> colour_of(std::uint32_t number) {
@@ -60,14 +59,9 @@ std::string patches_to_ply(const scene::Hierarchy& h) {
   }
   fmt::memory_buffer out;
   auto to = std::back_inserter(out);
-  fmt::format_to(to,
-                 "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double "
-                 "z\nelement face {}\n"
-                 "property list uchar uint vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar "
-                 "blue\nend_header\n",
-                 h.points.size(), h.pieces.size());
+  fmt::format_to(to, fmt::runtime(coloured_ply), h.points.size(), h.pieces.size());
   for (const auto& p : h.points) {
-    const auto at = position_estimate(h, p.source);
+    const auto at = reference::position_estimate(p.source, h.input);
     fmt::format_to(to, "{} {} {}\n", at[0], at[1], at[2]);
   }
   for (const auto& piece : h.pieces) {
@@ -91,6 +85,34 @@ std::string base_to_off(const scene::Hierarchy& h) {
   }
   for (const auto& t : h.base) mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
   return scene::to_off_text(mesh);
+}
+
+void require_remesh_format(const std::string& file) {
+  const std::string extension = scene::lower_case_extension(file);
+  if (extension != ".ply" && extension != ".obj" && extension != ".off") {
+    throw scene::Error(scene::ErrorCode::unsupported,
+                       fmt::format("--remesh {}: meshes are written as .ply, .obj or .off", file));
+  }
+}
+
+std::string remesh_to_file(const reference::Remesh& remesh, const std::string& file) {
+  const std::string extension = scene::lower_case_extension(file);
+  if (extension == ".off") return scene::to_off_text(remesh.mesh);
+  fmt::memory_buffer out;
+  auto to = std::back_inserter(out);
+  if (extension == ".obj") {
+    for (const auto& p : remesh.mesh.points) fmt::format_to(to, "v {} {} {}\n", p[0], p[1], p[2]);
+    for (const auto& t : remesh.mesh.triangles) fmt::format_to(to, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    return fmt::to_string(out);
+  }
+  fmt::format_to(to, fmt::runtime(coloured_ply), remesh.mesh.points.size(), remesh.mesh.triangles.size());
+  for (const auto& p : remesh.mesh.points) fmt::format_to(to, "{} {} {}\n", p[0], p[1], p[2]);
+  for (std::size_t k = 0; k < remesh.base.size(); ++k) {
+    const auto& t = remesh.mesh.triangles[k];
+    const auto colour = colour_of(remesh.base[k]);
+    fmt::format_to(to, "3 {} {} {} {} {} {}\n", t[0], t[1], t[2], colour[0], colour[1], colour[2]);
+  }
+  return fmt::to_string(out);
 }
 
 }  // namespace clues::app

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/multires/hierarchy.h"
+#include "reference/multires/remesh.h"
 
 namespace clues::app {
 
@@ -12,5 +12,9 @@ std::string patches_to_ply(const scene::Hierarchy& hierarchy);
 
 // The base domain with vertices of the input; those that it does not use are left out.
 std::string base_to_off(const scene::Hierarchy& hierarchy);
+
+// By the name's extension: PLY with a colour for each base triangle, OBJ, OFF. Other extensions: Error unsupported.
+void require_remesh_format(const std::string& file);
+std::string remesh_to_file(const reference::Remesh& remesh, const std::string& file);
 
 }  // namespace clues::app

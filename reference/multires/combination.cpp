@@ -14,13 +14,15 @@ mpz_class to_integer(exact::Wide value) {
   return negative ? mpz_class(-out) : out;
 }
 
-std::optional<scene::CarrierPoint> combined(const std::vector<std::pair<const scene::CarrierPoint*, mpz_class>>& parts) {
+std::optional<scene::CarrierPoint> combined(
+    const std::vector<std::pair<const scene::CarrierPoint*, mpz_class>>& parts) {
   std::vector<std::uint32_t> corners;
   mpz_class whole = 0;
   for (const auto& [point, part] : parts) {
     whole += part;
     for (std::size_t k = 0; k < point->size(); ++k) {
-      if (std::find(corners.begin(), corners.end(), point->corner[k]) == corners.end()) corners.push_back(point->corner[k]);
+      if (std::find(corners.begin(), corners.end(), point->corner[k]) == corners.end())
+        corners.push_back(point->corner[k]);
     }
   }
   if (corners.size() > 3) return std::nullopt;

@@ -17,10 +17,12 @@ using exact::Wide;
 using scene::CarrierPoint;
 
 [[noreturn]] void too_fine(const Patch& patch) {
-  throw scene::Error(scene::ErrorCode::unsupported,
-                     fmt::format("remesh: the overlay in base triangle {} is too fine for the grid of 2^-60 at level {}; take fewer levels, "
-                                 "or a base domain of more triangles",
-                                 patch.base, patch.level + 1));
+  throw scene::Error(
+      scene::ErrorCode::unsupported,
+      fmt::format(
+          "remesh: the overlay in base triangle {} is too fine for the grid of 2^-60 at level {}; take fewer levels, "
+          "or a base domain of more triangles",
+          patch.base, patch.level + 1));
 }
 
 // Parameters as coordinates: the second and third weight.
@@ -55,7 +57,8 @@ void insert(Patch& patch, const CarrierPoint& image) {
     std::array<Wide, 3> part{};
     bool inside = true;
     for (std::size_t k = 0; k < 3; ++k) {
-      part[k] = exact::area_in(patch.triangle, points[piece.corners[(k + 1) % 3]].at.image, points[piece.corners[(k + 2) % 3]].at.image, image);
+      part[k] = exact::area_in(patch.triangle, points[piece.corners[(k + 1) % 3]].at.image,
+                               points[piece.corners[(k + 2) % 3]].at.image, image);
       inside = inside && part[k] >= 0;
     }
     if (!inside) continue;
@@ -109,7 +112,8 @@ void merge_from(std::size_t first, StarPieces& star) {
   std::vector<StarPiece> left;
   for (StarPiece piece : star.pieces) {
     for (auto& v : piece.corners) v = same[v];
-    if (piece.corners[0] != piece.corners[1] && piece.corners[1] != piece.corners[2] && piece.corners[2] != piece.corners[0]) {
+    if (piece.corners[0] != piece.corners[1] && piece.corners[1] != piece.corners[2] &&
+        piece.corners[2] != piece.corners[0]) {
       left.push_back(piece);
     }
   }
@@ -157,7 +161,8 @@ std::vector<Patch> shared_out(const Patch& patch, const std::vector<std::array<C
       if (!lies_on(hierarchy.input.triangles[piece.input], at[k]->source)) too_fine(patch);
     }
     if (exact::orientation_in(patch.triangle, at[0]->image, at[1]->image, at[2]->image) <= 0 ||
-        exact::orientation_in(hierarchy.input.triangles[piece.input], at[0]->source, at[1]->source, at[2]->source) <= 0) {
+        exact::orientation_in(hierarchy.input.triangles[piece.input], at[0]->source, at[1]->source, at[2]->source) <=
+            0) {
       too_fine(patch);
     }
     std::size_t part = 0;
@@ -173,7 +178,8 @@ std::vector<Patch> shared_out(const Patch& patch, const std::vector<std::array<C
     if (part == parts.size()) too_fine(patch);
     StarPiece copy = piece;
     for (auto& v : copy.corners) {
-      const auto [place, fresh] = numbers[part].try_emplace(v, static_cast<std::uint32_t>(out[part].pieces.points.size()));
+      const auto [place, fresh] =
+          numbers[part].try_emplace(v, static_cast<std::uint32_t>(out[part].pieces.points.size()));
       if (fresh) out[part].pieces.points.push_back(patch.pieces.points[v]);
       v = place->second;
     }
@@ -196,12 +202,14 @@ class BaseTriangles {
     std::vector<std::uint32_t> corners;
     for (const std::uint32_t p : piece.corners) {
       const auto& image = h_.points[p].image;
-      corners.insert(corners.end(), image.corner.begin(), image.corner.begin() + static_cast<std::ptrdiff_t>(image.size()));
+      corners.insert(corners.end(), image.corner.begin(),
+                     image.corner.begin() + static_cast<std::ptrdiff_t>(image.size()));
     }
     std::sort(corners.begin(), corners.end());
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
     const auto found = corners.size() == 3 ? numbers_.find({corners[0], corners[1], corners[2]}) : numbers_.end();
-    if (found == numbers_.end()) throw scene::Error(scene::ErrorCode::bad_argument, "remesh: the hierarchy is not a verified one");
+    if (found == numbers_.end())
+      throw scene::Error(scene::ErrorCode::bad_argument, "remesh: the hierarchy is not a verified one");
     return found->second;
   }
 
@@ -239,7 +247,8 @@ scene::Hierarchy with_coarse_parameters(const scene::Hierarchy& hierarchy) {
     h.points[p].image = moved;
     const bool stays = std::all_of(around[p].begin(), around[p].end(), [&](std::uint32_t i) {
       const auto& c = h.pieces[i].corners;
-      return exact::orientation_in(h.base[triangle[i]], h.points[c[0]].image, h.points[c[1]].image, h.points[c[2]].image) > 0;
+      return exact::orientation_in(h.base[triangle[i]], h.points[c[0]].image, h.points[c[1]].image,
+                                   h.points[c[2]].image) > 0;
     });
     if (!stays) h.points[p].image = old;
   }
@@ -274,7 +283,8 @@ CarrierPoint middle_of(const CarrierPoint& a, const CarrierPoint& b) {
   std::vector<std::pair<std::uint32_t, std::int64_t>> weights;
   for (const auto* p : {&a, &b}) {
     for (std::size_t k = 0; k < p->size(); ++k) {
-      const auto found = std::find_if(weights.begin(), weights.end(), [&](const auto& w) { return w.first == p->corner[k]; });
+      const auto found =
+          std::find_if(weights.begin(), weights.end(), [&](const auto& w) { return w.first == p->corner[k]; });
       if (found == weights.end()) {
         weights.emplace_back(p->corner[k], p->weight[k] / 2);
       } else {
@@ -301,7 +311,10 @@ std::vector<Patch> cut_in_four(const Patch& patch, const scene::Hierarchy& hiera
   for (std::size_t k = 0; k < 3; ++k) cut(whole, middle[k], middle[(k + 1) % 3]);
   const auto& c = patch.corners;
   return shared_out(whole,
-                    {{c[0], middle[0], middle[2]}, {middle[0], c[1], middle[1]}, {middle[2], middle[1], c[2]}, {middle[0], middle[1], middle[2]}},
+                    {{c[0], middle[0], middle[2]},
+                     {middle[0], c[1], middle[1]},
+                     {middle[2], middle[1], c[2]},
+                     {middle[0], middle[1], middle[2]}},
                     patch.level + 1, hierarchy);
 }
 
@@ -316,7 +329,8 @@ std::vector<Patch> cut_in_two(const Patch& patch, std::size_t edge, const scene:
 
 CarrierPoint source_at(const Patch& patch, const CarrierPoint& corner) {
   const std::uint32_t k = point_at(patch, corner);
-  if (k == scene::no_vertex) throw scene::Error(scene::ErrorCode::internal, "remesh: a corner of a patch that is no point of its pieces");
+  if (k == scene::no_vertex)
+    throw scene::Error(scene::ErrorCode::internal, "remesh: a corner of a patch that is no point of its pieces");
   return patch.pieces.points[k].at.source;
 }
 

@@ -39,10 +39,14 @@ class Remesher {
     return position_estimate(source_at(patch, corner), h_.input);
   }
   PatchError error_of(const Patch& patch) const {
-    return error_bound(patch, {position(patch, patch.corners[0]), position(patch, patch.corners[1]), position(patch, patch.corners[2])},
-                       h_.input);
+    return error_bound(
+        patch,
+        {position(patch, patch.corners[0]), position(patch, patch.corners[1]), position(patch, patch.corners[2])},
+        h_.input);
   }
-  bool too_far(const Patch& patch) const { return options_.error < std::numeric_limits<double>::infinity() && error_of(patch).worst() > options_.error; }
+  bool too_far(const Patch& patch) const {
+    return options_.error < std::numeric_limits<double>::infinity() && error_of(patch).worst() > options_.error;
+  }
 
   void refine(Patch patch) {
     std::vector<Patch> parts;
@@ -120,7 +124,8 @@ class Remesher {
     out_.mesh.face_of.push_back(static_cast<std::uint32_t>(out_.mesh.triangles.size()));
     out_.mesh.triangles.push_back(t);
     out_.base.push_back(patch.base);
-    const PatchError error = error_bound(patch, {out_.mesh.points[t[0]], out_.mesh.points[t[1]], out_.mesh.points[t[2]]}, h_.input);
+    const PatchError error =
+        error_bound(patch, {out_.mesh.points[t[0]], out_.mesh.points[t[1]], out_.mesh.points[t[2]]}, h_.input);
     out_.error.to_remesh = std::max(out_.error.to_remesh, error.to_remesh);
     out_.error.to_input = std::max(out_.error.to_input, error.to_input);
   }
@@ -153,7 +158,8 @@ class Remesher {
 
 Remesh remeshed(const scene::Hierarchy& hierarchy, const RemeshOptions& options) {
   if (options.level < 0 || options.level > options.most || options.most > most_levels - 2) {
-    throw scene::Error(scene::ErrorCode::bad_argument, fmt::format("remesh: a level is from 0 to {}", std::min(options.most, most_levels - 2)));
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       fmt::format("remesh: a level is from 0 to {}", std::min(options.most, most_levels - 2)));
   }
   return Remesher(hierarchy, options).run();
 }

@@ -11,19 +11,20 @@
 namespace clues::reference {
 
 struct RemeshOptions {
-  int level = 0;                // every base triangle in 4^level
-  double error = std::numeric_limits<double>::infinity();  // then finer where the bound is above that, in units of the mesh
-  int most = 8;                 // but no finer than 4^most
+  int level = 0;  // every base triangle in 4^level
+  double error =
+      std::numeric_limits<double>::infinity();  // then finer where the bound is above that, in units of the mesh
+  int most = 8;                                 // but no finer than 4^most
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;
 };
 
 struct Remesh {
-  scene::TriangleMesh mesh;                    // positions are those of `sources`, rounded
-  std::vector<scene::CarrierPoint> sources;    // of each vertex, on the input
-  std::vector<scene::CarrierPoint> parameters; // on the base domain
-  std::vector<std::uint32_t> base;             // of each triangle
-  PatchError error;                            // of the rounded mesh: the larger one bounds the Hausdorff distance
-  bool reached = true;                         // the error that was asked for
+  scene::TriangleMesh mesh;                     // positions are those of `sources`, rounded
+  std::vector<scene::CarrierPoint> sources;     // of each vertex, on the input
+  std::vector<scene::CarrierPoint> parameters;  // on the base domain
+  std::vector<std::uint32_t> base;              // of each triangle
+  PatchError error;                             // of the rounded mesh: the larger one bounds the Hausdorff distance
+  bool reached = true;                          // the error that was asked for
 };
 
 // Neighbours differ by at most one level, and a triangle whose neighbour is finer is cut in two, so that edges meet whole edges. `hierarchy` has

@@ -27,7 +27,8 @@ Interval enclosed(Wide value) {
 Box on(const std::array<Point, 3>& triangle, const std::array<Interval, 3>& weights) {
   Box out;
   for (std::size_t i = 0; i < 3; ++i) {
-    out[i] = weights[0] * Interval(triangle[0][i]) + weights[1] * Interval(triangle[1][i]) + weights[2] * Interval(triangle[2][i]);
+    out[i] = weights[0] * Interval(triangle[0][i]) + weights[1] * Interval(triangle[1][i]) +
+             weights[2] * Interval(triangle[2][i]);
   }
   return out;
 }
@@ -91,7 +92,9 @@ PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle,
   for (const StarPoint& point : patch.pieces.points) {
     std::array<Interval, 3> weights;
     for (std::size_t k = 0; k < 3; ++k) {
-      weights[k] = enclosed(exact::area_in(patch.triangle, patch.corners[(k + 1) % 3], patch.corners[(k + 2) % 3], point.at.image)) / whole;
+      weights[k] = enclosed(exact::area_in(patch.triangle, patch.corners[(k + 1) % 3], patch.corners[(k + 2) % 3],
+                                           point.at.image)) /
+                   whole;
     }
     remeshed.push_back(on(triangle, weights));
   }
@@ -123,7 +126,8 @@ PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle,
   // Any input triangle will do, so where its own is far, others of the patch are tried: the farthest pieces first, until one cannot be bettered.
   std::sort(near.begin(), near.end());
   near.erase(std::unique(near.begin(), near.end()), near.end());
-  std::sort(own.begin(), own.end(), [](const auto& p, const auto& q) { return p.first != q.first ? p.first > q.first : p.second < q.second; });
+  std::sort(own.begin(), own.end(),
+            [](const auto& p, const auto& q) { return p.first != q.first ? p.first > q.first : p.second < q.second; });
   for (const auto& [square, i] : own) {
     if (square <= to_input) break;
     double best = square;

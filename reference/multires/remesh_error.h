@@ -19,7 +19,8 @@ struct PatchError {
 };
 
 // `triangle`: the corners of the patch in the remesh. Coordinates below 2^500, or the bound is infinite.
-PatchError error_bound(const Patch& patch, const std::array<scene::Point, 3>& triangle, const scene::TriangleMesh& input);
+PatchError error_bound(const Patch& patch, const std::array<scene::Point, 3>& triangle,
+                       const scene::TriangleMesh& input);
 
 // Where a point of the input surface lies, rounded.
 scene::Point position_estimate(const scene::CarrierPoint& source, const scene::TriangleMesh& input);

@@ -11,7 +11,7 @@
 #include "reference/multires/features.h"
 #include "scene/messages/error.h"
 #include "scene/multires/hierarchy_file.h"
-#include "seed.h"
+#include "tests/seed.h"
 #include "validate/multires/check_hierarchy.h"
 
 namespace clues {
