@@ -7,9 +7,9 @@
 #include <optional>
 #include <set>
 
-#include "reference/multires/hole.h"
 #include "reference/multires/overlay.h"
-#include "reference/multires/priority.h"
+#include "reference/multires/stars/hole.h"
+#include "reference/multires/stars/priority.h"
 #include "scene/messages/error.h"
 
 namespace clues::reference {

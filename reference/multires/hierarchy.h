@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "reference/multires/surface.h"
+#include "reference/multires/stars/surface.h"
 #include "scene/multires/hierarchy.h"
 
 namespace clues::reference {

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "reference/multires/flattening.h"
+#include "reference/multires/stars/flattening.h"
 
 namespace clues::reference {
 

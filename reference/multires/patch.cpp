@@ -6,7 +6,7 @@
 #include <map>
 #include <tuple>
 
-#include "reference/multires/combination.h"
+#include "reference/multires/stars/combination.h"
 #include "scene/messages/error.h"
 
 namespace clues::reference {

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "reference/multires/star_pieces.h"
+#include "reference/multires/stars/star_pieces.h"
 
 namespace clues::reference {
 

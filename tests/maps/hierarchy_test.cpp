@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "fuzz/multires/surfaces.h"
-#include "reference/multires/features.h"
+#include "reference/multires/stars/features.h"
 #include "scene/messages/error.h"
 #include "scene/multires/hierarchy_file.h"
 #include "tests/seed.h"

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "fuzz/multires/surfaces.h"
-#include "reference/multires/features.h"
 #include "reference/multires/hierarchy.h"
+#include "reference/multires/stars/features.h"
 #include "scene/messages/error.h"
 #include "scene/multires/hierarchy_file.h"
 #include "validate/multires/check_hierarchy.h"

@@ -6,10 +6,10 @@
 
 #include "fuzz/generators/parts.h"
 #include "fuzz/multires/surfaces.h"
-#include "reference/multires/flattening.h"
-#include "reference/multires/hole.h"
 #include "reference/multires/overlay.h"
-#include "reference/multires/priority.h"
+#include "reference/multires/stars/flattening.h"
+#include "reference/multires/stars/hole.h"
+#include "reference/multires/stars/priority.h"
 
 namespace clues {
 namespace {

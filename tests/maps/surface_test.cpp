@@ -1,5 +1,5 @@
 // What is a surface (D31), and what is refused, with the place.
-#include "reference/multires/surface.h"
+#include "reference/multires/stars/surface.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

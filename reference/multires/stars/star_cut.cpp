@@ -4,8 +4,8 @@
 #include <map>
 #include <optional>
 
-#include "reference/multires/combination.h"
-#include "reference/multires/star_pieces.h"
+#include "reference/multires/stars/combination.h"
+#include "reference/multires/stars/star_pieces.h"
 
 namespace clues::reference {
 namespace {

@@ -1,4 +1,4 @@
-#include "reference/multires/star_complex.h"
+#include "reference/multires/stars/star_complex.h"
 
 #include <algorithm>
 

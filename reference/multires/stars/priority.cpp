@@ -1,4 +1,4 @@
-#include "reference/multires/priority.h"
+#include "reference/multires/stars/priority.h"
 
 #include <algorithm>
 #include <array>

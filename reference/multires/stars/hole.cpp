@@ -3,7 +3,7 @@
 // simple one. Then flips to local Delaunay. A flip lowers the surface over the paraboloid (with corners of lower number pushed
 // down by amounts that are infinitely small, and infinitely smaller each than the one before), so that they end; without forbidden
 // diagonals in the one constrained Delaunay triangulation.
-#include "reference/multires/hole.h"
+#include "reference/multires/stars/hole.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "reference/multires/star_pieces.h"
+#include "reference/multires/stars/star_pieces.h"
 
 namespace clues::reference {
 namespace {

@@ -1,5 +1,5 @@
 // Defects are looked for in a fixed order, so that the same file always gets the same message.
-#include "reference/multires/surface.h"
+#include "reference/multires/stars/surface.h"
 
 #include <fmt/format.h>
 

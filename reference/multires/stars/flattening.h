@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "exact/multires/grid.h"
-#include "reference/multires/star_complex.h"
+#include "reference/multires/stars/star_complex.h"
 
 namespace clues::reference {
 

@@ -1,4 +1,4 @@
-#include "reference/multires/combination.h"
+#include "reference/multires/stars/combination.h"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "reference/multires/star_complex.h"
+#include "reference/multires/stars/star_complex.h"
 
 namespace clues::reference {
 

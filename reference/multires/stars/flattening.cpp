@@ -1,5 +1,5 @@
 // Angles and powers are doubles; they are rounded to the grid before anything is decided by them.
-#include "reference/multires/flattening.h"
+#include "reference/multires/stars/flattening.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // n.m < c |n| |m|: a sign, and a comparison of squares.
-#include "reference/multires/features.h"
+#include "reference/multires/stars/features.h"
 
 #include <fmt/format.h>
 #include <gmpxx.h>
