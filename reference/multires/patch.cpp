@@ -91,22 +91,26 @@ void insert(Patch& patch, const CarrierPoint& image) {
   if (!made) throw scene::Error(scene::ErrorCode::internal, "remesh: a point of a patch that no piece holds");
 }
 
-// New points on a line that the grid does not tell apart become one, the one that is on an edge of the input if one is; pieces between them vanish.
-// Whether what is left is right, its signs say.
+// New points on a line that the grid does not tell apart, on either surface, become one, that on an edge of the input if one is; pieces between them
+// vanish. Whether what is left is right, its signs say.
 void merge_from(std::size_t first, StarPieces& star) {
   std::vector<std::uint32_t> order, same(star.points.size());
   for (std::uint32_t k = 0; k < star.points.size(); ++k) same[k] = k;
   for (auto k = static_cast<std::uint32_t>(first); k < star.points.size(); ++k) order.push_back(k);
-  const auto key = [&](std::uint32_t k) {
-    const auto& at = star.points[k].at;
-    return std::make_tuple(at.image.corner, at.image.weight, at.source.size(), k);
-  };
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
   bool any = false;
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    if (!(star.points[order[k]].at.image == star.points[order[k - 1]].at.image)) continue;
-    same[order[k]] = same[order[k - 1]];
-    any = true;
+  for (const auto place : {&scene::OverlayVertex::image, &scene::OverlayVertex::source}) {
+    const auto key = [&](std::uint32_t k) {
+      const auto& at = star.points[k].at;
+      return std::make_tuple((at.*place).corner, (at.*place).weight, at.source.size(), k);
+    };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    for (std::size_t k = 1; k < order.size(); ++k) {
+      const std::uint32_t p = order[k - 1], q = order[k];
+      if (!(star.points[p].at.*place == star.points[q].at.*place) || same[p] == same[q]) continue;
+      const std::uint32_t from = same[q], to = same[p];
+      std::replace(same.begin(), same.end(), from, to);
+      any = true;
+    }
   }
   if (!any) return;
   std::vector<StarPiece> left;

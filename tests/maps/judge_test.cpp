@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <sstream>
+#include <string>
 
+#include "fuzz/generators/random.h"
 #include "fuzz/multires/surfaces.h"
 #include "reference/multires/hierarchy.h"
 #include "reference/multires/stars/features.h"
@@ -186,6 +189,46 @@ TEST(HierarchyFile, IsRefusedWithTheLine) {
   for (std::size_t cut = 0; cut + 1 < text.size(); cut += 97) {
     EXPECT_THROW(scene::parse_hierarchy(text.substr(0, cut), "f"), scene::Error) << cut;
   }
+}
+
+// Whatever is in a file: it is refused, or judged.
+TEST(HierarchyFile, MayHoldAnything) {
+  std::vector<std::string> lines;
+  std::istringstream in(scene::to_text(good()));
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  std::uint64_t refused = 0, found = 0;
+  for (std::uint64_t k = 0; k < 300; ++k) {
+    fuzz::Random random(1000 + k);
+    auto wrong = lines;
+    for (int times = random.between(1, 4); times > 0; --times) {
+      const std::size_t i = random.next() % wrong.size(), j = random.next() % wrong.size();
+      switch (random.between(0, 3)) {
+        case 0:
+          std::swap(wrong[i], wrong[j]);
+          break;
+        case 1:
+          wrong[i] = wrong[j];
+          break;
+        default: {
+          const char* const words[] = {"0",       "1", "3", "7", "-1", "1152921504606846976", "-4611686018427387904",
+                                       "16777216"};
+          const auto from = wrong[i].find(' ', random.next() % (wrong[i].size() + 1));
+          if (from == std::string::npos) break;
+          const auto to = std::min(wrong[i].find(' ', from + 1), wrong[i].size());
+          wrong[i].replace(from + 1, to - from - 1, words[random.next() % 8]);
+        }
+      }
+    }
+    std::string text;
+    for (const auto& line : wrong) text += line + "\n";
+    try {
+      found += validate::check_hierarchy(scene::parse_hierarchy(text, "f")).sound() ? 0U : 1U;
+    } catch (const scene::Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 50U);
+  EXPECT_GT(found, 30U);
 }
 
 validate::PlainMapReport plain(std::vector<scene::PlainMapLine> lines) {
