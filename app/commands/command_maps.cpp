@@ -30,7 +30,7 @@ namespace clues::app {
 namespace {
 
 struct MapsRequest {
-  std::string mesh, features, out, patches, base_out, remesh;
+  std::string mesh, features, out, patches, base_out, remesh, svg;
   std::uint64_t base = 200;
   std::optional<int> uniform;
   std::optional<double> adaptive;
@@ -145,6 +145,7 @@ int run_maps(const MapsRequest& request) {
   if (!request.remesh.empty()) scene::write_file_atomically(request.remesh, answer.file);
   if (!request.patches.empty()) scene::write_file_atomically(request.patches, patches_to_ply(hierarchy));
   if (!request.base_out.empty()) scene::write_file_atomically(request.base_out, base_to_off(hierarchy));
+  if (!request.svg.empty()) scene::write_file_atomically(request.svg, base_to_svg(hierarchy));
   if (request.json.asked()) request.json.write(validate::to_json_text(report));
   if (!request.json.on_stdout()) {
     print(fmt::format("{} vertices, {} triangles, {} components, genus {}, {} boundaries\n", census.vertices,
@@ -177,6 +178,7 @@ void add_maps_command(CLI::App& program, int& status) {
       ->add_option("--patches", request->patches,
                    "The input, cut along the base domain, a colour for each base triangle (PLY)")
       ->type_name("FILE");
+  command->add_option("--svg", request->svg, "The base domain drawn in the same colours")->type_name("FILE");
   command
       ->add_option("--uniform", request->uniform, "Mesh the surface anew, every base triangle in 4^L (with --remesh)")
       ->type_name("L");

@@ -72,6 +72,52 @@ std::string patches_to_ply(const scene::Hierarchy& h) {
   return fmt::to_string(out);
 }
 
+std::string base_to_svg(const scene::Hierarchy& h) {
+  constexpr double size = 760, margin = 20;
+  scene::Point low{}, high{};
+  bool first = true;
+  for (const auto& t : h.base) {
+    for (const std::uint32_t v : t) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double x = h.input.points[v][i];
+        low[i] = first ? x : std::min(low[i], x);
+        high[i] = first ? x : std::max(high[i], x);
+      }
+      first = false;
+    }
+  }
+  // Halves, so that the difference of huge coordinates is finite.
+  const double extent = std::max(high[0] / 2 - low[0] / 2, high[1] / 2 - low[1] / 2);
+  const auto at = [&](std::uint32_t v, std::size_t i) {
+    const double part = extent > 0 ? (h.input.points[v][i] / 2 - low[i] / 2) / extent : 0.5;
+    return margin + size * (i == 1 ? 1 - part : part);
+  };
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (std::uint32_t t = 0; t < h.base.size(); ++t) {
+    double depth = 0;
+    for (const std::uint32_t v : h.base[t]) depth += h.input.points[v][2] / 3;
+    order.emplace_back(depth, t);
+  }
+  std::sort(order.begin(), order.end());
+  fmt::memory_buffer out;
+  auto to = std::back_inserter(out);
+  fmt::format_to(
+      to,
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 800 800\">\n<title>base domain: {} triangles</title>\n",
+      h.base.size());
+  for (const auto& [depth, t] : order) {
+    const auto colour = colour_of(t);
+    const auto& c = h.base[t];
+    fmt::format_to(to,
+                   "<path d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}Z\" fill=\"#{:02x}{:02x}{:02x}\" "
+                   "stroke=\"#222\" stroke-width=\"0.8\"/>\n",
+                   at(c[0], 0), at(c[0], 1), at(c[1], 0), at(c[1], 1), at(c[2], 0), at(c[2], 1), colour[0], colour[1],
+                   colour[2]);
+  }
+  fmt::format_to(to, "</svg>\n");
+  return fmt::to_string(out);
+}
+
 std::string base_to_off(const scene::Hierarchy& h) {
   std::vector<std::uint32_t> number(h.input.points.size(), scene::no_vertex);
   scene::TriangleMesh mesh;

@@ -16,7 +16,7 @@ using Forbidden = std::function<bool(std::uint32_t, std::uint32_t)>;
 
 class Chains {
  public:
-  Chains(const HolePolygon& polygon, const Forbidden& forbidden) : polygon_(polygon), n_(polygon.points.size()) {
+  Chains(const HolePolygon& polygon, const Forbidden& forbidden) : n_(polygon.points.size()) {
     const std::size_t none = n_;
     middle_.assign(n_ * n_, none);
     for (std::size_t width = 2; width < n_; ++width) {
@@ -43,7 +43,6 @@ class Chains {
 
  private:
   bool closes(std::size_t i, std::size_t j) const { return j == i + 1 || middle_[i * n_ + j] != n_; }
-  const HolePolygon& polygon_;
   std::size_t n_;
   std::vector<std::size_t>
       middle_;  // of the chain from i to j: the third corner over its end; n_: the chain cannot be closed
