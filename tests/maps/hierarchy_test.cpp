@@ -144,6 +144,12 @@ void random_surfaces(std::uint64_t seed, std::uint64_t count) {
   EXPECT_GT(flips, 0U);  // or the overlay would not be tested
 }
 
+// Found by the long form: the judge asked for weights in a triangle that a point misses by less than 2^-60.
+TEST(Hierarchy, OfAPointNextToANewEdge) {
+  const auto test = fuzz::surface_case(20261122, 2203);
+  expect_verified(built(test.mesh, 2203 % 7), "case 2203");
+}
+
 TEST(Hierarchy, OfRandomSurfacesIsVerified) { random_surfaces(kSeed, 300); }
 TEST(HierarchyLong, OfRandomSurfacesIsVerified) { random_surfaces(kSeed + 1, 10'000); }
 

@@ -378,6 +378,7 @@ class LevelJudge {
     const mpz_class area = turn(flat[t[0]], flat[t[1]], flat[t[2]]);
     std::map<std::uint32_t, mpz_class> weights;
     mpz_class rest = unit;
+    bool vanished = false;
     for (std::size_t k = 0; k < 3; ++k) {
       // Twice the area in units of 2^-84 * 2^-84; divided by 2^60 and by the triangle's it is in units of 2^-60.
       const mpz_class part = turn(q, scaled(t[(k + 1) % 3]), scaled(t[(k + 2) % 3]));
@@ -385,12 +386,12 @@ class LevelJudge {
       mpz_class weight;
       const mpz_class divisor = area * unit;
       mpz_fdiv_q(weight.get_mpz_t(), part.get_mpz_t(), divisor.get_mpz_t());
-      if (part > 0 && weight == 0) {
-        report_.find("E5", fmt::format("level {}: a weight below 2^-60", level_ + 1));
-      }
+      vanished = vanished || (part > 0 && weight == 0);
       weights[t[k]] = weight;
       rest -= weight;
     }
+    // Asked only of the triangle that holds the point: another one may be missed by less than 2^-60.
+    if (vanished) report_.find("E5", fmt::format("level {}: a weight below 2^-60", level_ + 1));
     auto largest = weights.begin();
     for (auto w = weights.begin(); w != weights.end(); ++w) {
       if (w->second > largest->second) largest = w;
