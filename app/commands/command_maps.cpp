@@ -79,6 +79,11 @@ void check_remesh(const MapsRequest& request) {
         scene::ErrorCode::bad_argument,
         fmt::format("--adaptive {}: percent of the longest side of the bounding box, above 0", *request.adaptive));
   }
+  const int most = reference::RemeshOptions{}.most;
+  if (request.uniform && (*request.uniform < 0 || *request.uniform > most)) {
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       fmt::format("--uniform {}: a level is from 0 to {}", *request.uniform, most));
+  }
   if (!request.remesh.empty()) require_remesh_format(request.remesh);
 }
 
@@ -112,8 +117,8 @@ RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarch
 
 int run_maps(const MapsRequest& request) {
   if (request.mesh.empty()) throw scene::Error(scene::ErrorCode::bad_argument, "MESH is required (or verify)");
-  const std::vector<const std::string*> outputs{&request.out, &request.patches, &request.base_out,
-                                                &request.json.file()};
+  const std::vector<const std::string*> outputs{&request.out,    &request.patches, &request.base_out,
+                                                &request.remesh, &request.svg,     &request.json.file()};
   for (const std::string* file : outputs) {
     if (!file->empty()) require_writable_parent(*file);
   }
