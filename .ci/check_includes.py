@@ -20,19 +20,19 @@ MAY_SEE = {
 }
 # Of each folder, in the order in which a reader meets them; "." is the folder itself.
 CHAPTERS = {
-    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "stores", "bakes", "motion"],
-    "exact": [".", "cell", "complex", "sight", "motion"],
+    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "stores", "bakes", "motion", "multires"],
+    "exact": [".", "cell", "complex", "sight", "motion", "multires"],
     "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
                   "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",
-                  "visibility/refinement", "motion"],
+                  "visibility/refinement", "motion", "multires/stars", "multires"],
     "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
                  "visibility/refinement", "motion"],
     "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "cells", "vectors", "conform",
-                 "motion"],
+                 "motion", "multires"],
     "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets",
-             "motion"],
-    "app": [".", "map", "view", "engine", "bake", "demo", "commands"],
+             "motion", "multires"],
+    "app": [".", "map", "view", "engine", "bake", "demo", "maps", "commands"],
 }
 NO_CHAPTERS = {"validate/adapters"}  # to be copied; they include nothing of ours
 MOST_FILES = 22

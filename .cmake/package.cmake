@@ -21,7 +21,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION math)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # For those who build against the libraries.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "libcgal-dev, nlohmann-json3-dev, libssl-dev, libtbb-dev, libfmt-dev, libsqlite3-dev, libzstd-dev, bash-completion")
+  "libcgal-dev, nlohmann-json3-dev, libssl-dev, libtbb-dev, libfmt-dev, libopenmesh-dev, libsqlite3-dev, libzstd-dev, bash-completion")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)

@@ -157,6 +157,7 @@ class Scratch:
         r"docs/adding": ["sources"],
         r"clues lint|clues motion|docs/motion": ["motion_cases"],
         r"clues motion": ["depth_mesh"],
+        r"clues maps|docs/maps": ["surfaces"],
         r"clues lint": ["cases"],
         r"clues report": ["results"],
         r"clues (replay|shrink)": ["findings"],
@@ -193,6 +194,32 @@ class Scratch:
                    "triangles": [[i, *t] for i, t in enumerate(triangles)]},
                   {"viewpoint": [0.25, 0, 1.5]}]
         self.write("walk.jsonl", "".join(json.dumps(frame) + "\n" for frame in frames))
+
+    # A ball, an octahedron, the map of the octahedron to itself, and a hierarchy of the ball.
+    def surfaces(self):
+        def ball(n):
+            numbers, triangles = {}, []
+            for octant in range(8):
+                signs = [-1 if octant >> k & 1 else 1 for k in range(3)]
+                turned = signs[0] * signs[1] * signs[2] < 0
+
+                def corner(i, j):
+                    return numbers.setdefault((signs[0] * i, signs[1] * j, signs[2] * (n - i - j)), len(numbers))
+
+                for i in range(n):
+                    for j in range(n - i):
+                        cells = [[(i, j), (i + 1, j), (i, j + 1)]] + [[(i + 1, j), (i + 1, j + 1), (i, j + 1)]] * (i + j + 1 < n)
+                        triangles += [[corner(*at) for at in (cell[::-1] if turned else cell)] for cell in cells]
+            return list(numbers), triangles
+
+        for name, n in [("ball.off", 5), ("octahedron.off", 1)]:
+            points, triangles = ball(n)
+            self.write(name, "\n".join(["OFF", f"{len(points)} {len(triangles)} 0", *(" ".join(map(str, p)) for p in points),
+                                        *("3 " + " ".join(map(str, t)) for t in triangles)]) + "\n")
+        at = {v: (t, k) for t, corners in enumerate(triangles) for k, v in enumerate(corners)}
+        self.write("plain.txt", "".join(f"{at[v][0]} {' '.join('1' if k == at[v][1] else '0' for k in range(3))}\n"
+                                        for v in range(len(points))))
+        self.sh("clues maps ball.off --base 20 -o ball.maps")
 
     def cases(self):
         shutil.copytree(self.folder / "vectors", self.folder / "my-cases")

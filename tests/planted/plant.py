@@ -113,6 +113,28 @@ COPIES = {
     "bound_rounded_up": ("fastpath/bounds.cpp", [
         ("return det.speed == 0 ? kInfinity : det.low / det.speed * kDown;",
          "return det.speed == 0 ? kInfinity : det.low / det.speed * kUp;")]),
+
+    # ---- maps of surfaces
+
+    # Neighbours are removed in one level.
+    "neighbours_removed": ("reference/hierarchy.cpp", [
+        ("for (const std::uint32_t w : removal->ring) blocked[w] = true;", "")]),
+    # Of four corners on one circle the wrong diagonal.
+    "wrong_cocircular_tie": ("reference/hole.cpp", [
+        ("wanted = std::min(number(c), number(d)) < std::min(number(a), number(b)) ? 1 : -1;",
+         "wanted = std::min(number(c), number(d)) < std::min(number(a), number(b)) ? -1 : 1;")]),
+    # Weights sum to 1 but for 2^-60.
+    "weights_miss_one": ("reference/overlay.cpp", [
+        ("  largest->second += left;\n", "  largest->second += left - 1;\n")]),
+    # A piece of the overlay is turned round.
+    "flipped_piece": ("reference/overlay.cpp", [
+        ("      hierarchy.pieces.push_back(piece);\n",
+         "      if (hierarchy.pieces.size() == 5) std::swap(piece.corners[0], piece.corners[1]);\n"
+         "      hierarchy.pieces.push_back(piece);\n")]),
+    # The link condition is skipped for diagonals.
+    "no_link_condition": ("reference/hierarchy.cpp", [
+        ("const auto forbidden = [this](std::uint32_t a, std::uint32_t b) { return complex_.has_edge(a, b); };",
+         "const auto forbidden = [](std::uint32_t, std::uint32_t) { return false; };")]),
 }
 
 

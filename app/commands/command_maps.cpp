@@ -1,0 +1,229 @@
+// clues maps: a hierarchy of a surface, with a map to its base domain that is proved one to one (D31 to D33).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "app/commands.h"
+#include "app/commands/maps_check.h"
+#include "app/common.h"
+#include "app/json_output.h"
+#include "app/maps/maps_output.h"
+#include "app/progress.h"
+#include "reference/multires/hierarchy.h"
+#include "reference/multires/remesh.h"
+#include "reference/multires/stars/features.h"
+#include "scene/files/atomic_file.h"
+#include "scene/formats/number.h"
+#include "scene/mesh_io.h"
+#include "scene/messages/error.h"
+#include "scene/multires/feature_file.h"
+#include "scene/multires/hierarchy_file.h"
+#include "validate/multires/check_hierarchy.h"
+
+namespace clues::app {
+namespace {
+
+struct MapsRequest {
+  std::string mesh, features, out, patches, base_out, remesh, svg;
+  std::uint64_t base = 200;
+  std::optional<int> uniform;
+  std::optional<double> adaptive;
+  JsonOutput json;
+};
+
+// --features: a number is an angle in degrees, anything else a file.
+void add_features(const std::string& given, const scene::TriangleMesh& mesh, reference::HierarchyOptions& options) {
+  if (given.empty()) return;
+  const auto number = scene::parse_number(given);
+  if (number.kind == scene::NumberKind::not_a_number) {
+    const auto read = scene::read_features(given);
+    options.features = read.edges;
+    options.fixed = read.vertices;
+    return;
+  }
+  if (number.kind != scene::NumberKind::finite || number.value < 0 || number.value > 180) {
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       fmt::format("--features {}: an angle is from 0 to 180 degrees", given));
+  }
+  options.features = reference::sharp_edges(mesh, std::cos(number.value * std::numbers::pi / 180));
+}
+
+double longest_side(const scene::TriangleMesh& mesh) {
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double low = mesh.points[0][i], high = low;
+    for (const auto& p : mesh.points) {
+      low = std::min(low, p[i]);
+      high = std::max(high, p[i]);
+    }
+    longest = std::max(longest, high - low);
+  }
+  return longest;
+}
+
+void check_remesh(const MapsRequest& request) {
+  if (request.uniform && request.adaptive)
+    throw scene::Error(scene::ErrorCode::bad_argument, "--uniform or --adaptive, not both");
+  if (request.remesh.empty() != (!request.uniform && !request.adaptive)) {
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       "--uniform L and --adaptive EPS say how --remesh FILE is made: give one of them, and the file");
+  }
+  if (request.adaptive && !(*request.adaptive > 0 && *request.adaptive <= 100)) {
+    throw scene::Error(
+        scene::ErrorCode::bad_argument,
+        fmt::format("--adaptive {}: percent of the longest side of the bounding box, above 0", *request.adaptive));
+  }
+  const int most = reference::RemeshOptions{}.most;
+  if (request.uniform && (*request.uniform < 0 || *request.uniform > most)) {
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       fmt::format("--uniform {}: a level is from 0 to {}", *request.uniform, most));
+  }
+  if (!request.remesh.empty()) require_remesh_format(request.remesh);
+}
+
+struct RemeshAnswer {
+  std::string file, row;
+  bool reached = true;
+};
+RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarchy) {
+  const double side = longest_side(hierarchy.input);
+  reference::RemeshOptions options;
+  if (request.uniform) options.level = *request.uniform;
+  if (request.adaptive) options.error = *request.adaptive / 100 * side;
+  ProgressBar bar("clues maps, remesh");
+  options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("base triangles", done, total); };
+  const auto made = reference::remeshed(hierarchy, options);
+  RemeshAnswer answer;
+  answer.file = remesh_to_file(made, request.remesh);
+  answer.reached = made.reached;
+  answer.row = fmt::format(
+      "remesh: {} vertices, {} triangles; no point of the input is farther than {:.4g} from it ({:.3g} % of the box), "
+      "none of it farther "
+      "than {:.4g} ({:.3g} %) from the input\n",
+      made.mesh.points.size(), made.mesh.triangles.size(), made.error.to_remesh, 100 * made.error.to_remesh / side,
+      made.error.to_input, 100 * made.error.to_input / side);
+  if (!made.reached)
+    answer.row +=
+        "the error that was asked for was not reached: the map is too narrow in places for the grids, or for 4^8 parts "
+        "of a base triangle\n";
+  return answer;
+}
+
+int run_maps(const MapsRequest& request) {
+  if (request.mesh.empty()) throw scene::Error(scene::ErrorCode::bad_argument, "MESH is required (or verify)");
+  const std::vector<const std::string*> outputs{&request.out,    &request.patches, &request.base_out,
+                                                &request.remesh, &request.svg,     &request.json.file()};
+  for (const std::string* file : outputs) {
+    if (!file->empty()) require_writable_parent(*file);
+  }
+  require_apart(outputs, {&request.mesh, &request.features});
+  check_remesh(request);
+  const auto mesh = scene::read_mesh(request.mesh);
+  const auto census = reference::checked_surface(mesh, request.mesh);
+  reference::HierarchyOptions options;
+  options.base_triangles = request.base;
+  add_features(request.features, mesh, options);
+  scene::Hierarchy hierarchy;
+  {
+    ProgressBar bar("clues maps");
+    options.progress = [&](std::uint64_t left) {
+      bar.show("triangles taken away", mesh.triangles.size() - left, mesh.triangles.size());
+    };
+    hierarchy = reference::build_hierarchy(mesh, options, request.mesh);
+  }
+  // What is written is what was judged: the text, read again.
+  const std::string text = scene::to_text(hierarchy);
+  const auto report = validate::check_hierarchy(scene::parse_hierarchy(text, "the hierarchy"));
+  if (!report.sound()) {
+    print(validate::to_text(report), stderr);
+    return oracle_contradiction;
+  }
+  RemeshAnswer answer;
+  if (!request.remesh.empty()) answer = remesh(request, hierarchy);
+  if (!request.out.empty()) scene::write_file_atomically(request.out, text);
+  if (!request.remesh.empty()) scene::write_file_atomically(request.remesh, answer.file);
+  if (!request.patches.empty()) scene::write_file_atomically(request.patches, patches_to_ply(hierarchy));
+  if (!request.base_out.empty()) scene::write_file_atomically(request.base_out, base_to_off(hierarchy));
+  if (!request.svg.empty()) scene::write_file_atomically(request.svg, base_to_svg(hierarchy));
+  if (request.json.asked()) request.json.write(validate::to_json_text(report));
+  if (!request.json.on_stdout()) {
+    print(fmt::format("{} vertices, {} triangles, {} components, genus {}, {} boundaries\n", census.vertices,
+                      census.triangles, census.components, census.genus(), census.boundaries) +
+          validate::to_text(report) + answer.row);
+    if (hierarchy.base.size() > request.base) {
+      print(fmt::format("the base domain has more than {} triangles: no vertex that is left can be removed\n",
+                        request.base));
+    }
+  }
+  return answer.reached ? fine : not_everything_ran;
+}
+
+}  // namespace
+
+void add_maps_command(CLI::App& program, int& status) {
+  auto* command = program.add_subcommand(
+      "maps", "Map a surface to a base domain of few triangles, proved one to one; judge such maps");
+  auto request = std::make_shared<MapsRequest>();
+  command->add_option("MESH", request->mesh, "A surface, closed or with boundary: OBJ, OFF, PLY or STL");
+  command->add_option("--base", request->base, "End with the first level of at most N triangles (default: 200)")
+      ->type_name("N");
+  command
+      ->add_option("--features", request->features,
+                   "Edges that stay edges: sharper than an angle in degrees, or those of a FILE (docs/maps.md)")
+      ->type_name("ANGLE|FILE");
+  command->add_option("-o,--out", request->out, "The hierarchy with its map, for clues maps verify")->type_name("FILE");
+  command->add_option("--base-out", request->base_out, "The base domain (OFF)")->type_name("FILE");
+  command
+      ->add_option("--patches", request->patches,
+                   "The input, cut along the base domain, a colour for each base triangle (PLY)")
+      ->type_name("FILE");
+  command->add_option("--svg", request->svg, "The base domain drawn in the same colours")->type_name("FILE");
+  command
+      ->add_option("--uniform", request->uniform, "Mesh the surface anew, every base triangle in 4^L (with --remesh)")
+      ->type_name("L");
+  command
+      ->add_option("--adaptive", request->adaptive,
+                   "Mesh it anew, as fine as an error asks for: percent of the longest side of its box (with --remesh)")
+      ->type_name("EPS");
+  command
+      ->add_option("--remesh", request->remesh,
+                   "Where that mesh goes: FILE.ply (a colour for each base triangle), .obj or .off")
+      ->type_name("FILE");
+  request->json.add_to(*command, "The table of the levels");
+  command->footer(
+      "DESCRIPTION\n"
+      "  Takes away vertices level by level, each time as many as are independent, and closes the holes; what is left "
+      "is the "
+      "base\n"
+      "  domain. Every point of the surface gets a place on it. The map is written down as a common triangulation of "
+      "both, of\n"
+      "  which every piece is turned right on both sides, in whole numbers: that proves that it is one to one. It is "
+      "judged "
+      "before\n"
+      "  it is written, by a program that recomputes all of it. --uniform and --adaptive mesh the surface anew over "
+      "the base "
+      "domain\n"
+      "  and bound, with proof, how far the two are apart, both ways.\n\n"
+      "EXAMPLES\n"
+      "  clues maps ball.off --base 20 -o ball.maps --patches ball.ply\n"
+      "  clues maps verify ball.maps\n"
+      "  clues maps ball.off --base 20 --features 40 --json ball.json\n"
+      "  clues maps ball.off --base 20 --uniform 2 --remesh uniform.ply\n"
+      "  clues maps ball.off --base 20 --adaptive 5 --remesh adaptive.obj\n\n"
+      "EXIT CODES\n"
+      "  0 fine   2 bad usage or input (no surface: the message says where)   3 --adaptive was not reached   4 an "
+      "oracle "
+      "contradicted itself");
+  command->callback([request, command, &status] {
+    if (command->get_subcommands().empty()) status = run_maps(*request);
+  });
+  add_maps_check(*command, status);
+}
+
+}  // namespace clues::app

@@ -1,0 +1,23 @@
+// What `clues maps` draws: the base domain, and the input with a colour for each base triangle.
+#pragma once
+
+#include <string>
+
+#include "reference/multires/remesh.h"
+
+namespace clues::app {
+
+// The pieces of the overlay where they lie on the input, each with the colour of its base triangle (ascii PLY). Positions are estimates.
+std::string patches_to_ply(const scene::Hierarchy& hierarchy);
+
+// The base domain as it is seen along the third axis, far triangles first, in the same colours (SVG).
+std::string base_to_svg(const scene::Hierarchy& hierarchy);
+
+// The base domain with vertices of the input; those that it does not use are left out.
+std::string base_to_off(const scene::Hierarchy& hierarchy);
+
+// By the name's extension: PLY with a colour for each base triangle, OBJ, OFF. Other extensions: Error unsupported.
+void require_remesh_format(const std::string& file);
+std::string remesh_to_file(const reference::Remesh& remesh, const std::string& file);
+
+}  // namespace clues::app

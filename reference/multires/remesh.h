@@ -1,0 +1,34 @@
+// A surface meshed anew over its base domain (D34): every triangle of the base in parts of 4^level, or as fine as an error asks for. What comes out is connected
+// like the base domain, subdivided; every vertex is a point of one input triangle, with exact weights; and how far input and remesh are
+// apart is bounded, both ways.
+#pragma once
+
+#include <functional>
+#include <limits>
+
+#include "reference/multires/remesh_error.h"
+
+namespace clues::reference {
+
+struct RemeshOptions {
+  int level = 0;  // every base triangle in 4^level
+  double error =
+      std::numeric_limits<double>::infinity();  // then finer where the bound is above that, in units of the mesh
+  int most = 8;                                 // but no finer than 4^most
+  std::function<void(std::uint64_t done, std::uint64_t total)> progress;
+};
+
+struct Remesh {
+  scene::TriangleMesh mesh;                     // positions are those of `sources`, rounded
+  std::vector<scene::CarrierPoint> sources;     // of each vertex, on the input
+  std::vector<scene::CarrierPoint> parameters;  // on the base domain
+  std::vector<std::uint32_t> base;              // of each triangle
+  PatchError error;                             // of the rounded mesh: the larger one bounds the Hausdorff distance
+  bool reached = true;                          // the error that was asked for
+};
+
+// Neighbours differ by at most one level, and a triangle whose neighbour is finer is cut in two, so that edges meet whole edges. `hierarchy` has
+// to be a verified one. Throws Error unsupported where the grids are too coarse, bad_argument for a level above `most` or most_levels.
+Remesh remeshed(const scene::Hierarchy& hierarchy, const RemeshOptions& options);
+
+}  // namespace clues::reference

@@ -1,0 +1,131 @@
+// Half-edge collapses, each proved by the signs of what is left: the pieces around the point fill the same polygon before and after, on both
+// surfaces, and fill it once if they all turn counter-clockwise.
+#include <algorithm>
+#include <map>
+
+#include "reference/multires/stars/star_pieces.h"
+
+namespace clues::reference {
+namespace {
+
+using exact::Wide;
+using scene::CarrierPoint;
+
+// Whether v may move to w on the input: inside of the triangle anywhere, on an edge along it.
+bool may_slide(const CarrierPoint& v, const CarrierPoint& w) {
+  if (v.size() == 3) return true;
+  if (v.size() != 2) return false;
+  return std::all_of(w.corner.begin(), w.corner.begin() + static_cast<std::ptrdiff_t>(w.size()),
+                     [&](std::uint32_t c) { return v.weight_of(c) > 0; });
+}
+
+class Simplifier {
+ public:
+  Simplifier(const scene::Triangle& triangle, const std::vector<scene::Triangle>& input, const StarPieces& star,
+             std::vector<StarPiece>& pieces)
+      : triangle_(triangle), input_(input), star_(star), pieces_(pieces), alive_(pieces.size(), true) {
+    for (std::uint32_t k = 0; k < pieces_.size(); ++k) {
+      for (const std::uint32_t v : pieces_[k].corners) around_[v].push_back(k);
+    }
+  }
+
+  void run() {
+    std::vector<std::uint32_t> candidates;
+    for (const auto& [v, unused] : around_) {
+      if (!star_.points[v].of_input && star_.points[v].at.image.size() == 3) candidates.push_back(v);
+    }
+    for (bool changed = true; changed;) {
+      changed = false;
+      std::vector<std::uint32_t> left;
+      for (const std::uint32_t v : candidates) {
+        if (take_out(v)) {
+          changed = true;
+        } else {
+          left.push_back(v);
+        }
+      }
+      candidates = std::move(left);
+    }
+    std::vector<StarPiece> kept;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      if (alive_[k]) kept.push_back(pieces_[k]);
+    }
+    pieces_ = std::move(kept);
+  }
+
+ private:
+  // The smallest image that would be left with v at w; 0 where that is not allowed.
+  Wide smallest_left(std::uint32_t v, std::uint32_t w) const {
+    Wide smallest = 0;
+    std::size_t shared = 0;
+    for (const std::uint32_t k : around_.at(v)) {
+      auto corners = pieces_[k].corners;
+      if (std::find(corners.begin(), corners.end(), w) != corners.end()) {
+        ++shared;
+        continue;
+      }
+      std::replace(corners.begin(), corners.end(), v, w);
+      const auto& at = star_.points;
+      const Wide area =
+          exact::area_in(triangle_, at[corners[0]].at.image, at[corners[1]].at.image, at[corners[2]].at.image);
+      if (area <= 0 || exact::orientation_in(input_[pieces_[k].input], at[corners[0]].at.source,
+                                             at[corners[1]].at.source, at[corners[2]].at.source) <= 0) {
+        return 0;
+      }
+      if (smallest == 0 || area < smallest) smallest = area;
+    }
+    return shared == 2 ? smallest : 0;
+  }
+
+  bool take_out(std::uint32_t v) {
+    std::vector<std::uint32_t> neighbours;
+    for (const std::uint32_t k : around_.at(v)) {
+      for (const std::uint32_t w : pieces_[k].corners) {
+        if (w != v) neighbours.push_back(w);
+      }
+    }
+    std::sort(neighbours.begin(), neighbours.end());
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    Wide best = 0;
+    std::uint32_t target = v;
+    for (const std::uint32_t w : neighbours) {
+      if (!may_slide(star_.points[v].at.source, star_.points[w].at.source)) continue;
+      const Wide area = smallest_left(v, w);
+      if (area > best) {
+        best = area;
+        target = w;
+      }
+    }
+    if (target == v) return false;
+    for (const std::uint32_t k : around_.at(v)) {
+      auto& corners = pieces_[k].corners;
+      if (std::find(corners.begin(), corners.end(), target) != corners.end()) {
+        alive_[k] = false;
+        for (const std::uint32_t w : corners) {
+          if (w != v) std::erase(around_.at(w), k);
+        }
+      } else {
+        std::replace(corners.begin(), corners.end(), v, target);
+        around_.at(target).push_back(k);
+      }
+    }
+    around_.erase(v);
+    return true;
+  }
+
+  const scene::Triangle& triangle_;
+  const std::vector<scene::Triangle>& input_;
+  const StarPieces& star_;
+  std::vector<StarPiece>& pieces_;
+  std::vector<bool> alive_;
+  std::map<std::uint32_t, std::vector<std::uint32_t>> around_;
+};
+
+}  // namespace
+
+void simplify(const scene::Triangle& triangle, const std::vector<scene::Triangle>& input, const StarPieces& star,
+              std::vector<StarPiece>& pieces) {
+  Simplifier(triangle, input, star, pieces).run();
+}
+
+}  // namespace clues::reference

@@ -1,0 +1,57 @@
+// clues maps as a user types it: outputs, refusals, and nothing half-written.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "fuzz/multires/surfaces.h"
+#include "scene/mesh_io.h"
+#include "tests/app/program.h"
+
+namespace clues {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(MapsCommand, WritesWhatItVerifies) {
+  const tests::TestFolder folder;
+  folder.write("ball.off", scene::to_off_text(fuzz::ball(4)));
+  const auto ran =
+      tests::run_clues({"maps", "ball.off", "--base", "20", "-o", "a.maps", "--patches", "p.ply", "--svg", "b.svg",
+                        "--base-out", "b.off", "--uniform", "2", "--remesh", "r.obj", "--json", "t.json"},
+                       folder.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("verified: a homeomorphism"));
+  EXPECT_THAT(folder.names(), ElementsAre("a.maps", "b.off", "b.svg", "ball.off", "p.ply", "r.obj", "t.json"));
+  for (const char* mesh : {"b.off", "p.ply", "r.obj"}) EXPECT_NO_THROW(scene::read_mesh(folder.path() / mesh)) << mesh;
+  EXPECT_EQ(tests::run_clues({"maps", "verify", "a.maps"}, folder.path()).exit_code, 0);
+  auto text = tests::read_all(folder.path() / "a.maps");
+  text.replace(text.rfind("\npieces"), 7, "\npiecse");
+  folder.write("b.maps", text);
+  EXPECT_EQ(tests::run_clues({"maps", "verify", "b.maps"}, folder.path()).exit_code, 2);
+}
+
+TEST(MapsCommand, RefusesAndWritesNothing) {
+  const tests::TestFolder folder;
+  const std::string ball = scene::to_off_text(fuzz::ball(4));
+  folder.write("ball.off", ball);
+  folder.write("strip.off", scene::to_off_text(fuzz::moebius(5)));
+  const auto refused = [&](std::vector<std::string> words, const std::string& why) {
+    words.insert(words.begin(), "maps");
+    const auto ran = tests::run_clues(words, folder.path());
+    EXPECT_EQ(ran.exit_code, 2) << why;
+    EXPECT_THAT(ran.err, HasSubstr(why));
+  };
+  refused({"strip.off", "-o", "s.maps"}, "one side only");
+  refused({"ball.off", "--uniform", "1", "--remesh", "ball.off"}, "ball.off");
+  refused({"ball.off", "--svg", "ball.off"}, "ball.off");
+  refused({"ball.off", "--uniform", "9", "--remesh", "r.off"}, "--uniform 9");
+  refused({"ball.off", "--uniform", "1"}, "--remesh");
+  refused({"ball.off", "--adaptive", "0", "--remesh", "r.off"}, "--adaptive 0");
+  refused({"ball.off", "--uniform", "1", "--remesh", "r.stl"}, ".ply, .obj or .off");
+  refused({"ball.off", "--features", "181"}, "180 degrees");
+  EXPECT_THAT(folder.names(), ElementsAre("ball.off", "strip.off"));
+  EXPECT_EQ(tests::read_all(folder.path() / "ball.off"), ball);
+}
+
+}  // namespace
+}  // namespace clues

@@ -1,0 +1,285 @@
+// The judge of hierarchies finds what is planted: each defect by the check that is for it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "fuzz/generators/random.h"
+#include "fuzz/multires/surfaces.h"
+#include "reference/multires/hierarchy.h"
+#include "reference/multires/stars/features.h"
+#include "scene/messages/error.h"
+#include "scene/multires/hierarchy_file.h"
+#include "validate/multires/check_hierarchy.h"
+#include "validate/multires/check_plain_map.h"
+
+namespace clues {
+namespace {
+
+using testing::HasSubstr;
+
+scene::Hierarchy good() {
+  reference::HierarchyOptions options;
+  options.base_triangles = 24;
+  return reference::build_hierarchy(fuzz::ball(5), options);
+}
+
+// All findings of the hierarchy with the defect.
+std::string verdict(const scene::Hierarchy& h) {
+  const auto report = validate::check_hierarchy(h);
+  std::string out;
+  for (const auto& f : report.findings) out += f.check + " " + f.what + "\n";
+  EXPECT_EQ(out.empty(), report.sound());
+  return out;
+}
+
+// Vertices 0 to 5: x, -x, y, -y, z, -z; one level for each of z and -z, whose holes get these diagonals.
+scene::Hierarchy octahedron(scene::Edge first, scene::Edge second) {
+  scene::Hierarchy h;
+  h.input.points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  h.input.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  const std::int64_t u = 1 << 20;
+  const auto removal = [&](std::uint32_t v, std::vector<std::uint32_t> ring, scene::Edge diagonal) {
+    scene::Removal r;
+    r.vertex = v;
+    r.ring = ring;
+    r.flat = {{u, 0}, {0, u}, {-u, 0}, {0, -u}};
+    const bool even = diagonal == scene::edge_of(ring[0], ring[2]);
+    const auto t = [&](std::size_t a, std::size_t b, std::size_t c) {
+      return scene::Triangle{ring[a], ring[b], ring[c]};
+    };
+    r.triangles = even ? std::vector{t(0, 1, 2), t(0, 2, 3)} : std::vector{t(0, 1, 3), t(1, 2, 3)};
+    return r;
+  };
+  h.levels.push_back({{removal(4, {0, 2, 1, 3}, first)}, {}});
+  h.levels.push_back({{removal(5, {0, 3, 1, 2}, second)}, {}});
+  for (std::uint32_t v = 0; v < 6; ++v) h.points.push_back({scene::at_vertex(v), scene::at_vertex(v)});
+  return h;
+}
+
+TEST(JudgeOfHierarchies, AcceptsWhatIsRight) { EXPECT_EQ(verdict(good()), ""); }
+
+TEST(JudgeOfHierarchies, FindsASkippedLinkCondition) {
+  EXPECT_THAT(verdict(octahedron({0, 1}, {0, 1})),
+              HasSubstr("E1 level 2, vertex 5: the new triangle (0, 3, 1) exists already"));
+  EXPECT_THAT(verdict(octahedron({0, 1}, {2, 3})), Not(HasSubstr("E1")));
+}
+
+TEST(JudgeOfHierarchies, FindsAWrongCocircularTie) {
+  EXPECT_THAT(verdict(octahedron({2, 3}, {0, 1})),
+              HasSubstr("E3 level 1, vertex 4: the new edge (2, 3) is not Delaunay, (0, 1) would be"));
+  EXPECT_THAT(verdict(octahedron({0, 1}, {2, 3})), Not(HasSubstr("Delaunay")));
+}
+
+// With a radius exponent for each side the end of a feature would have two places; here it has one, and it must be on the axis.
+TEST(JudgeOfHierarchies, FindsAFeatureThatBends) {
+  const auto mesh = fuzz::frame(0, 4);
+  reference::HierarchyOptions options;
+  options.base_triangles = 0;
+  options.features = reference::sharp_edges(mesh, 0.5);
+  auto h = reference::build_hierarchy(mesh, options);
+  EXPECT_EQ(verdict(h), "");
+  bool planted = false;
+  for (auto& level : h.levels) {
+    for (auto& r : level.removals) {
+      if (planted || r.kind != scene::StarKind::feature) continue;
+      r.flat[r.across][1] += 1;
+      planted = true;
+    }
+  }
+  ASSERT_TRUE(planted);
+  EXPECT_THAT(verdict(h), HasSubstr("it does not lie on its new feature edge"));
+  // A feature that is not stated is not kept.
+  auto lost = reference::build_hierarchy(mesh, options);
+  lost.fixed.clear();
+  EXPECT_THAT(verdict(lost), HasSubstr("E2 vertex"));
+}
+
+TEST(JudgeOfHierarchies, FindsWeightsThatMissOneByTheLeast) {
+  for (const int by : {-1, 1}) {
+    auto h = good();
+    for (auto& p : h.points) {
+      if (p.image.size() != 3) continue;
+      p.image.weight[1] += by;
+      break;
+    }
+    EXPECT_THAT(verdict(h),
+                HasSubstr(by > 0 ? "its weights sum to 1 + 1 * 2^-60" : "its weights sum to 1 - 1 * 2^-60"));
+  }
+}
+
+TEST(JudgeOfHierarchies, FindsWhatIsWrongWithTheOverlay) {
+  auto flipped = good();
+  std::swap(flipped.pieces[7].corners[0], flipped.pieces[7].corners[1]);
+  EXPECT_THAT(verdict(flipped), HasSubstr("E6 piece 7 is flipped"));
+  auto missing = good();
+  missing.pieces.erase(missing.pieces.begin() + 3);
+  EXPECT_THAT(verdict(missing), testing::AllOf(HasSubstr("has no neighbour"), HasSubstr("of its area")));
+  auto twice = good();
+  twice.pieces.push_back(twice.pieces[2]);
+  EXPECT_THAT(verdict(twice), HasSubstr("lie on the same side"));
+  // Two points on one edge of the base change places.
+  auto moved = good();
+  std::map<scene::Edge, std::size_t> first;
+  for (std::size_t p = 0; p < moved.points.size(); ++p) {
+    auto& image = moved.points[p].image;
+    if (image.size() != 2) continue;
+    const auto [other, fresh] = first.try_emplace({image.corner[0], image.corner[1]}, p);
+    if (fresh) continue;
+    std::swap(image, moved.points[other->second].image);
+    break;
+  }
+  EXPECT_THAT(verdict(moved), HasSubstr("E6 piece"));
+}
+
+TEST(JudgeOfHierarchies, FindsALevelThatIsNotIndependentOrNotMaximal) {
+  auto less = good();
+  less.levels.back().removals.pop_back();
+  EXPECT_THAT(verdict(less), HasSubstr("the base domain is not what the levels leave"));
+  auto joined = good();
+  auto& first = joined.levels[0].removals;
+  first.insert(first.end(), joined.levels[1].removals.begin(), joined.levels[1].removals.end());
+  joined.levels.erase(joined.levels.begin() + 1);
+  EXPECT_THAT(verdict(joined), HasSubstr("a neighbour is removed in the same level"));
+  auto split = good();
+  split.levels.insert(split.levels.begin() + 1, scene::HierarchyLevel{});
+  auto& whole = split.levels[0].removals;
+  split.levels[1].removals.assign(whole.begin() + 10, whole.end());
+  whole.erase(whole.begin() + 10, whole.end());
+  EXPECT_THAT(verdict(split), HasSubstr("the level is not maximal"));
+  auto excused = split;
+  for (const auto& r : split.levels[1].removals) excused.levels[0].kept.push_back({r.vertex, scene::KeptFor::link});
+  EXPECT_THAT(verdict(excused), HasSubstr("no triangulation of its hole is free, and one is"));
+}
+
+TEST(JudgeOfHierarchies, FindsAnImageThatIsNotWhatTheStepsSay) {
+  auto h = good();
+  for (std::size_t v = 0; v < h.input.points.size(); ++v) {
+    auto& image = h.points[v].image;
+    if (image.size() != 3) continue;
+    ++image.weight[0];
+    --image.weight[1];
+    break;
+  }
+  EXPECT_THAT(verdict(h), HasSubstr("E5 vertex"));
+}
+
+TEST(HierarchyFile, IsRefusedWithTheLine) {
+  const auto text = scene::to_text(good());
+  const auto refusal = [&](const std::string& from, const std::string& to) {
+    std::string wrong = text;
+    const auto at = wrong.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    wrong.replace(at, from.size(), to);
+    try {
+      scene::parse_hierarchy(wrong, "f");
+    } catch (const scene::Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_THAT(refusal("clues-maps 1", "clues-maps 2"), HasSubstr("f:1"));
+  EXPECT_THAT(refusal("triangles 200", "triangles 201"), HasSubstr("f:"));
+  EXPECT_THAT(refusal("vertices 102", "vertices 99999999999"), HasSubstr("is no count"));
+  EXPECT_THAT(refusal("remove ", "remove 5000 "), HasSubstr("does not exist"));
+  EXPECT_THAT(refusal(" interior ", " inner "), HasSubstr("is no kind of a star"));
+  EXPECT_THAT(refusal("\npieces ", "\npieces 1 "), HasSubstr("one word too many"));
+  for (std::size_t cut = 0; cut + 1 < text.size(); cut += 97) {
+    EXPECT_THROW(scene::parse_hierarchy(text.substr(0, cut), "f"), scene::Error) << cut;
+  }
+}
+
+// Whatever is in a file: it is refused, or judged.
+TEST(HierarchyFile, MayHoldAnything) {
+  std::vector<std::string> lines;
+  std::istringstream in(scene::to_text(good()));
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  std::uint64_t refused = 0, found = 0;
+  for (std::uint64_t k = 0; k < 300; ++k) {
+    fuzz::Random random(1000 + k);
+    auto wrong = lines;
+    for (int times = random.between(1, 4); times > 0; --times) {
+      const std::size_t i = random.next() % wrong.size(), j = random.next() % wrong.size();
+      switch (random.between(0, 3)) {
+        case 0:
+          std::swap(wrong[i], wrong[j]);
+          break;
+        case 1:
+          wrong[i] = wrong[j];
+          break;
+        default: {
+          const char* const words[] = {"0",       "1", "3", "7", "-1", "1152921504606846976", "-4611686018427387904",
+                                       "16777216"};
+          const auto from = wrong[i].find(' ', random.next() % (wrong[i].size() + 1));
+          if (from == std::string::npos) break;
+          const auto to = std::min(wrong[i].find(' ', from + 1), wrong[i].size());
+          wrong[i].replace(from + 1, to - from - 1, words[random.next() % 8]);
+        }
+      }
+    }
+    std::string text;
+    for (const auto& line : wrong) text += line + "\n";
+    try {
+      found += validate::check_hierarchy(scene::parse_hierarchy(text, "f")).sound() ? 0U : 1U;
+    } catch (const scene::Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 50U);
+  EXPECT_GT(found, 30U);
+}
+
+validate::PlainMapReport plain(std::vector<scene::PlainMapLine> lines) {
+  const auto mesh = fuzz::ball(1);
+  return validate::check_plain_map(mesh, mesh, lines, "plain.txt");
+}
+
+// Every vertex of the octahedron at itself, by the first triangle that has it.
+std::vector<scene::PlainMapLine> identity() {
+  const auto mesh = fuzz::ball(1);
+  std::vector<scene::PlainMapLine> lines(6);
+  for (std::uint32_t t = 8; t-- > 0;) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto& line = lines[mesh.triangles[t][k]];
+      line.triangle = t;
+      line.weights = {k == 0 ? "1" : "0", k == 1 ? "1.0" : "0", k == 2 ? "7/7" : "0"};
+    }
+  }
+  return lines;
+}
+
+TEST(JudgeOfPlainMaps, ProvesRefutesAndLeavesOpen) {
+  EXPECT_EQ(plain(identity()).verdict, validate::PlainVerdict::proved);
+  auto ulp = identity();
+  for (auto& w : ulp[2].weights) {
+    if (w != "0") w = "0.9999999999999999";
+  }
+  EXPECT_THAT(validate::to_text(plain(ulp)), HasSubstr("E4 vertex 2: its coordinates sum to 1 - 1.11e-16"));
+  auto swapped = identity();
+  std::swap(swapped[0], swapped[1]);
+  const auto report = plain(swapped);
+  EXPECT_EQ(report.verdict, validate::PlainVerdict::refuted);
+  EXPECT_THAT(validate::to_text(report), HasSubstr("flipped"));
+  auto same = identity();
+  same[0] = same[1];
+  EXPECT_THAT(validate::to_text(plain(same)), HasSubstr("vertices 0 and 1 have the same image"));
+  auto inside = identity();
+  inside[0].weights = {"1/3", "1/3", "1/3"};
+  EXPECT_EQ(plain(inside).verdict, validate::PlainVerdict::undecided);
+  auto two = identity();
+  two[0].weights[2].clear();
+  EXPECT_EQ(plain(two).verdict, validate::PlainVerdict::proved);
+  auto nonsense = identity();
+  nonsense[0].weights[1] = "1/0";
+  EXPECT_THROW(plain(nonsense), scene::Error);
+  nonsense.pop_back();
+  EXPECT_THROW(plain(nonsense), scene::Error);
+  auto outside = identity();
+  outside[0].triangle = 8;
+  EXPECT_THAT(validate::to_text(plain(outside)), HasSubstr("base triangle 8 does not exist"));
+}
+
+}  // namespace
+}  // namespace clues

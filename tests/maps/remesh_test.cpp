@@ -1,0 +1,156 @@
+// Remeshing: connected like the base domain, on the input, and as near as it says (D34).
+#include "reference/multires/remesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fuzz/multires/surfaces.h"
+#include "reference/multires/hierarchy.h"
+#include "scene/messages/error.h"
+#include "tests/seed.h"
+#include "validate/multires/level_topology.h"
+
+namespace clues {
+namespace {
+
+using scene::Point;
+
+scene::Hierarchy over(const scene::TriangleMesh& mesh, std::uint64_t base) {
+  reference::HierarchyOptions options;
+  options.base_triangles = base;
+  return reference::build_hierarchy(mesh, options);
+}
+
+double length(const Point& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+Point mix(const Point& a, const Point& b, double t) {
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+}
+
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+double distance(const Point& p, const std::array<Point, 3>& t) {
+  double least = 1e300;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Point e = minus(t[(k + 1) % 3], t[k]);
+    const double along = dot(e, e) > 0 ? std::clamp(dot(minus(p, t[k]), e) / dot(e, e), 0.0, 1.0) : 0;
+    least = std::min(least, length(minus(p, mix(t[k], t[(k + 1) % 3], along))));
+  }
+  const Point u = minus(t[1], t[0]), v = minus(t[2], t[0]), w = minus(p, t[0]);
+  const double det = dot(u, u) * dot(v, v) - dot(u, v) * dot(u, v);
+  const double b = (dot(v, v) * dot(w, u) - dot(u, v) * dot(w, v)) / det,
+               c = (dot(u, u) * dot(w, v) - dot(u, v) * dot(w, u)) / det;
+  if (b >= 0 && c >= 0 && b + c <= 1) {
+    least =
+        std::min(least, length({w[0] - b * u[0] - c * v[0], w[1] - b * u[1] - c * v[1], w[2] - b * u[2] - c * v[2]}));
+  }
+  return least;
+}
+
+std::array<Point, 3> triangle(const scene::TriangleMesh& mesh, std::size_t t) {
+  return {mesh.points[mesh.triangles[t][0]], mesh.points[mesh.triangles[t][1]], mesh.points[mesh.triangles[t][2]]};
+}
+
+// The largest distance from corners and middles of a's triangles to b, without any of our code.
+double measured(const scene::TriangleMesh& a, const scene::TriangleMesh& b) {
+  double most = 0;
+  for (std::size_t s = 0; s < a.triangles.size(); ++s) {
+    const auto t = triangle(a, s);
+    for (const Point& p :
+         {t[0], mix(t[0], t[1], 0.5), mix(t[1], t[2], 0.5), mix(mix(t[0], t[1], 0.5), t[2], 1.0 / 3)}) {
+      double least = 1e300;
+      for (std::size_t u = 0; u < b.triangles.size() && least > most; ++u) {
+        least = std::min(least, distance(p, triangle(b, u)));
+      }
+      most = std::max(most, least);
+    }
+  }
+  return most;
+}
+
+TEST(Remesh, IsTheBaseDomainCutInFour) {
+  const auto mesh = fuzz::frame(1, 2);
+  const auto h = over(mesh, 40);
+  for (int level = 0; level < 3; ++level) {
+    reference::RemeshOptions options;
+    options.level = level;
+    const auto remesh = reference::remeshed(h, options);
+    EXPECT_EQ(remesh.mesh.triangles.size(), h.base.size() << (2 * level));
+    const auto topology = validate::topology_of(remesh.mesh.triangles, remesh.mesh.points.size());
+    EXPECT_EQ(topology.defect, "");
+    EXPECT_EQ(topology.euler(), 0);
+    for (const auto& source : remesh.sources) {
+      EXPECT_EQ(source.weight[0] + source.weight[1] + source.weight[2], scene::whole_weight);
+    }
+  }
+}
+
+TEST(Remesh, OfItselfHasNoError) {
+  const auto mesh = fuzz::ball(3);
+  const auto remesh = reference::remeshed(over(mesh, 1000), {});
+  EXPECT_EQ(remesh.mesh.points.size(), mesh.points.size());
+  EXPECT_LT(remesh.error.worst(), 1e-6);
+  reference::RemeshOptions two;
+  two.level = 2;
+  EXPECT_LT(reference::remeshed(over(mesh, 1000), two).error.worst(), 1e-6);
+}
+
+TEST(Remesh, IsAsNearAsItSays) {
+  for (const auto& mesh : {fuzz::ball(6), fuzz::frame(1, 3), fuzz::sheet(8)}) {
+    const auto h = over(mesh, 40);
+    for (int level = 0; level < 3; ++level) {
+      reference::RemeshOptions options;
+      options.level = level;
+      const auto remesh = reference::remeshed(h, options);
+      const double there = measured(mesh, remesh.mesh), back = measured(remesh.mesh, mesh);
+      EXPECT_LE(there, remesh.error.to_remesh * (1 + 1e-9) + 1e-9) << level;
+      EXPECT_LE(back, remesh.error.to_input * (1 + 1e-9) + 1e-9) << level;
+    }
+  }
+}
+
+TEST(Remesh, ReachesWhatIsAskedAndIsClosed) {
+  const auto h = over(fuzz::ball(10), 20);
+  std::size_t before = 0;
+  for (const double error : {0.5, 0.2, 0.05}) {
+    reference::RemeshOptions options;
+    options.error = error;
+    const auto remesh = reference::remeshed(h, options);
+    EXPECT_TRUE(remesh.reached);
+    EXPECT_LE(remesh.error.worst(), error);
+    EXPECT_GT(remesh.mesh.triangles.size(), before);
+    before = remesh.mesh.triangles.size();
+    const auto topology = validate::topology_of(remesh.mesh.triangles, remesh.mesh.points.size());
+    EXPECT_EQ(topology.defect, "");
+    EXPECT_EQ(topology.euler(), 2);
+    EXPECT_EQ(topology.boundaries, 0);  // no T-junction is left
+  }
+}
+
+TEST(Remesh, OfRandomSurfacesIsASurface) {
+  int made = 0;
+  for (std::uint64_t k = 0; k < 60; ++k) {
+    const auto test = fuzz::surface_case(kSeed + 3, k);
+    const auto h = over(test.mesh, 20);
+    reference::RemeshOptions options;
+    options.error = 0.3;
+    options.most = 3;
+    try {
+      const auto remesh = reference::remeshed(h, options);
+      const auto topology = validate::topology_of(remesh.mesh.triangles, remesh.mesh.points.size());
+      EXPECT_EQ(topology.defect, "") << k;
+      EXPECT_EQ(topology.euler(), validate::topology_of(test.mesh.triangles, test.mesh.points.size()).euler()) << k;
+      EXPECT_EQ(topology.boundaries, test.boundaries) << k;
+      EXPECT_TRUE(!remesh.reached || remesh.error.worst() <= 0.3) << k;
+      ++made;
+    } catch (const scene::Error& error) {
+      EXPECT_EQ(error.code(), scene::ErrorCode::unsupported) << k << error.what();
+    }
+  }
+  EXPECT_GT(made, 40);
+}
+
+}  // namespace
+}  // namespace clues

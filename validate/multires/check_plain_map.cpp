@@ -1,0 +1,215 @@
+#include "validate/multires/check_plain_map.h"
+
+#include <fmt/format.h>
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "scene/formats/number.h"
+#include "scene/messages/error.h"
+#include "validate/multires/level_topology.h"
+
+namespace clues::validate {
+namespace {
+
+// Corners of the base with positive weights, ascending.
+using ExactCarrier = std::vector<std::pair<std::uint32_t, mpq_class>>;
+
+class PlainJudge {
+ public:
+  PlainJudge(const scene::TriangleMesh& input, const scene::TriangleMesh& base,
+             const std::vector<scene::PlainMapLine>& lines, const std::string& file)
+      : input_(input), base_(base), lines_(lines), file_(file) {}
+
+  PlainMapReport run() {
+    if (lines_.size() != input_.points.size()) {
+      throw scene::Error(scene::ErrorCode::malformed,
+                         fmt::format("{}: {} lines, but the input has {} vertices; there must be one for each", file_,
+                                     lines_.size(), input_.points.size()));
+    }
+    report_.vertices = input_.points.size();
+    report_.triangles = input_.triangles.size();
+    report_.base_triangles = base_.triangles.size();
+    check_surfaces();
+    for (std::uint32_t v = 0; v < lines_.size(); ++v) images_.push_back(image_of(v));
+    check_places();
+    check_triangles();
+    if (!report_.counts.empty()) {
+      report_.verdict = PlainVerdict::refuted;
+    } else {
+      report_.verdict = report_.spread == 0 ? PlainVerdict::proved : PlainVerdict::undecided;
+    }
+    return std::move(report_);
+  }
+
+ private:
+  void find(const std::string& check, const std::string& what) {
+    if (++report_.counts[check] <= 20) report_.findings.push_back({check, what});
+  }
+
+  void check_surfaces() {
+    const auto a = topology_of(input_.triangles, input_.points.size()),
+               b = topology_of(base_.triangles, base_.points.size());
+    if (!a.defect.empty()) find("E1", "the input: " + a.defect);
+    if (!b.defect.empty()) find("E1", "the base: " + b.defect);
+    if (a.defect.empty() && b.defect.empty() && (a.euler() != b.euler() || a.boundaries != b.boundaries)) {
+      find("E1",
+           fmt::format(
+               "the input has Euler number {} and {} boundaries, the base {} and {}: no map between them is one to one",
+               a.euler(), a.boundaries, b.euler(), b.boundaries));
+    }
+  }
+
+  mpq_class number(std::uint32_t v, const std::string& text) const {
+    const auto fail = [&]() -> mpq_class {
+      throw scene::Error(scene::ErrorCode::malformed,
+                         fmt::format("{}: vertex {}: {} is no number", file_, v, scene::excerpt(text)));
+    };
+    const auto slash = text.find('/');
+    if (slash == std::string::npos) {
+      const auto parsed = scene::parse_number(text);
+      if (parsed.kind != scene::NumberKind::finite) return fail();
+      return mpq_class(parsed.value);
+    }
+    const bool digits =
+        std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '/' || c == '-'; });
+    mpq_class out;
+    if (!digits || text.size() > 10'000 || out.set_str(text, 10) != 0 || out.get_den() == 0) return fail();
+    out.canonicalize();
+    return out;
+  }
+
+  ExactCarrier image_of(std::uint32_t v) {
+    const auto& line = lines_[v];
+    if (line.triangle >= base_.triangles.size()) {
+      find("E4", fmt::format("vertex {}: base triangle {} does not exist; there are {}", v, line.triangle,
+                             base_.triangles.size()));
+      return {};
+    }
+    std::array<mpq_class, 3> w{number(v, line.weights[0]), number(v, line.weights[1]), 0};
+    w[2] = line.weights[2].empty() ? mpq_class(1 - w[0] - w[1]) : number(v, line.weights[2]);
+    const mpq_class sum = w[0] + w[1] + w[2];
+    if (sum != 1) {
+      find("E4", fmt::format("vertex {}: its coordinates sum to 1 {} {:.3g}, not to 1", v, sum > 1 ? "+" : "-",
+                             std::abs(mpq_class(sum - 1).get_d())));
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (w[k] < 0) find("E4", fmt::format("vertex {}: coordinate {} is negative ({:.3g})", v, k, w[k].get_d()));
+    }
+    ExactCarrier out;
+    for (std::size_t k = 0; k < 3; ++k) {
+      // With a sum that is off by a little, what is judged is the point that must have been meant.
+      if (w[k] > 0 && sum > 0) out.emplace_back(base_.triangles[line.triangle][k], mpq_class(w[k] / sum));
+    }
+    std::sort(out.begin(), out.end());
+    return out;
+  }
+
+  void check_places() {
+    std::map<ExactCarrier, std::uint32_t> places;
+    for (std::uint32_t v = 0; v < images_.size(); ++v) {
+      if (images_[v].empty()) continue;
+      const auto [place, fresh] = places.emplace(images_[v], v);
+      if (!fresh) find("E6", fmt::format("vertices {} and {} have the same image", place->second, v));
+    }
+  }
+
+  void check_triangles() {
+    std::map<scene::Triangle, std::uint32_t> base;
+    for (std::uint32_t t = 0; t < base_.triangles.size(); ++t) {
+      auto corners = base_.triangles[t];
+      std::sort(corners.begin(), corners.end());
+      base.emplace(corners, t);
+    }
+    for (std::uint32_t i = 0; i < input_.triangles.size(); ++i) {
+      std::vector<std::uint32_t> corners;
+      bool known = true;
+      for (const std::uint32_t v : input_.triangles[i]) {
+        known = known && !images_[v].empty();
+        for (const auto& [c, unused] : images_[v]) corners.push_back(c);
+      }
+      std::sort(corners.begin(), corners.end());
+      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+      if (!known) continue;
+      if (corners.size() < 3) {
+        find("E6", fmt::format("triangle {} is mapped to an edge or a vertex", i));
+        continue;
+      }
+      const auto on = corners.size() == 3 ? base.find({corners[0], corners[1], corners[2]}) : base.end();
+      if (on == base.end()) {
+        ++report_.spread;
+        continue;
+      }
+      ++report_.judged;
+      if (sign_on(base_.triangles[on->second], input_.triangles[i]) <= 0) {
+        ++report_.flipped;
+        find("E6", fmt::format("triangle {} is flipped or flat on base triangle {}", i, on->second));
+      }
+    }
+  }
+
+  int sign_on(const scene::Triangle& base, const scene::Triangle& input) const {
+    std::array<mpq_class, 3> u, v;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const auto& [corner, weight] : images_[input[k]]) {
+        if (corner == base[1]) u[k] = weight;
+        if (corner == base[2]) v[k] = weight;
+      }
+    }
+    return sgn(mpq_class((u[1] - u[0]) * (v[2] - v[0]) - (v[1] - v[0]) * (u[2] - u[0])));
+  }
+
+  const scene::TriangleMesh &input_, &base_;
+  const std::vector<scene::PlainMapLine>& lines_;
+  const std::string& file_;
+  std::vector<ExactCarrier> images_;
+  PlainMapReport report_;
+};
+
+constexpr std::array<const char*, 3> verdicts{"proved", "refuted", "undecided"};
+
+}  // namespace
+
+PlainMapReport check_plain_map(const scene::TriangleMesh& input, const scene::TriangleMesh& base,
+                               const std::vector<scene::PlainMapLine>& lines, const std::string& file) {
+  return PlainJudge(input, base, lines, file).run();
+}
+
+std::string to_text(const PlainMapReport& r) {
+  std::string out = fmt::format("{} vertices and {} triangles on {}\n", r.vertices, r.triangles, r.base_triangles);
+  out += fmt::format("in one base triangle: {} triangles, {} of them flipped; over several: {}\n", r.judged, r.flipped,
+                     r.spread);
+  for (const auto& f : r.findings) out += fmt::format("{} {}\n", f.check, f.what);
+  for (const auto& [check, count] : r.counts) {
+    if (count > 20) out += fmt::format("{}: {} findings, 20 are listed\n", check, count);
+  }
+  switch (r.verdict) {
+    case PlainVerdict::proved:
+      return out + "proved: one to one, linear on every triangle\n";
+    case PlainVerdict::refuted:
+      return out + "refuted: no bijection, or not as it is written\n";
+    case PlainVerdict::undecided:
+      break;
+  }
+  return out +
+         "undecided: nothing is wrong, and how the triangles over several base triangles run is not in the file\n";
+}
+
+std::string to_json_text(const PlainMapReport& r) {
+  nlohmann::json findings = nlohmann::json::array();
+  for (const auto& f : r.findings) findings.push_back({{"check", f.check}, {"what", f.what}});
+  const nlohmann::json out{{"format", "clues-plain-map-verdict/1"},
+                           {"verdict", verdicts[static_cast<std::size_t>(r.verdict)]},
+                           {"counts", r.counts},
+                           {"findings", findings},
+                           {"vertices", r.vertices},
+                           {"triangles", r.triangles},
+                           {"base_triangles", r.base_triangles},
+                           {"judged", r.judged},
+                           {"flipped", r.flipped},
+                           {"spread", r.spread}};
+  return out.dump(1) + "\n";
+}
+
+}  // namespace clues::validate
