@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/common.h"
+#include "app/fragments_output.h"
 #include "app/json_output.h"
 #include "app/simplify_choice.h"
 #include "app/umbra_output.h"
@@ -27,6 +28,7 @@ struct MapRequest {
   validate::Refinement refinement = validate::Refinement::none;  // as --method and --refine together say
   SimplifyChoice simplify;
   UmbraRequest umbra;
+  FragmentsRequest fragments;
 };
 
 struct MappedCell {
@@ -36,6 +38,7 @@ struct MappedCell {
   std::string summary;        // one line of the table, and one more of what simplification did
   std::string overlap_graph;  // GraphViz, where it was asked for
   std::string umbra_bytes, umbra_summary;
+  std::string fragments_bytes, fragments_summary;
 };
 
 class CellMapper {

@@ -64,6 +64,11 @@ class ExactMapper : public CellMapper {
                simplification);
     out.summary = table_line(spec.name, map) + about_simplification;
     if (!request_.overlap_graph.empty()) out.overlap_graph = overlap_graph_of(map);
+    if (!request_.fragments.file.empty()) {
+      FragmentsOutput fragments = make_fragments(map, request_.scene, sha256_, request_.fragments);
+      out.fragments_bytes = std::move(fragments.bytes);
+      out.fragments_summary = std::move(fragments.summary);
+    }
     return out;
   }
   MappedCell simplified(const reference::VisibilityMap& map, const scene::CellSpec& spec, int threads) const {
