@@ -7,7 +7,6 @@
 #include <string>
 
 #include "app/common.h"
-#include "app/fragments_output.h"
 #include "app/json_output.h"
 #include "app/simplify_choice.h"
 #include "app/umbra_output.h"
@@ -19,7 +18,7 @@
 namespace clues::app {
 
 struct MapRequest {
-  std::string scene, cell, cells, out, overlap_graph;
+  std::string scene, cell, cells, out, overlap_graph, fragments;
   bool with_map = false, with_states = false, resume = false;
   JsonOutput json;
   MethodOptions method;
@@ -28,7 +27,6 @@ struct MapRequest {
   validate::Refinement refinement = validate::Refinement::none;  // as --method and --refine together say
   SimplifyChoice simplify;
   UmbraRequest umbra;
-  FragmentsRequest fragments;
 };
 
 struct MappedCell {
