@@ -20,7 +20,8 @@ MAY_SEE = {
 }
 # Of each folder, in the order in which a reader meets them; "." is the folder itself.
 CHAPTERS = {
-    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "motion"],
+    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "motion",
+              "stream"],
     "exact": [".", "cell", "complex", "sight", "motion"],
     "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
                   "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/commands.h"
+#include "app/commands/conform_stream.h"
 #include "app/common.h"
 #include "app/json_output.h"
 #include "app/progress.h"
@@ -216,6 +217,10 @@ EXPECTED FAILURES
   --expect-failures FILE: {"format": "clues-expected-failures/1", "cases": [{"case": ID, "issue": URL, "date": "2026-11-21"}]}
   A listed case that fails does not count. One that does not fail any more is an error, and so is an id that the suite does not have.
 
+STREAMS
+  --stream FILE     Messages that a server sent to a client while a viewer went from cell to cell (docs/delta.md). At every step, what
+                    the client holds has to have all that is visible from where the viewer is; a sight line proves what has not.
+
 EXAMPLES
   clues conform --impl 'python3 my_adapter.py' --jobs 4
   clues conform --impl ./libmine.so --topic grazing --junit conform.xml
@@ -266,7 +271,14 @@ void add_conform_command(CLI::App& program, int& status) {
   command->add_flag("-v,--verbose", request->every_case, "A line for every case");
   for (const char* name : {"--case", "--flag", "--topic"}) command->get_option(name)->allow_extra_args(false);
   command->footer(footer);
-  command->callback([request, &status] { status = run_conform(*request); });
+  auto stream = std::make_shared<ConformStreamRequest>();
+  auto* file = command->add_option("--stream", stream->stream, "Judge the messages of a server and its client instead")
+                   ->type_name("FILE");
+  command->add_option("--scene", stream->scene, "With --stream: the scene")->type_name("SCENE")->needs(file);
+  command->add_option("--cells", stream->cells, "With --stream: the cells")->type_name("SPEC")->needs(file);
+  command->callback([request, stream, &status] {
+    status = stream->stream.empty() ? run_conform(*request) : run_conform_stream(*stream);
+  });
 }
 
 }  // namespace clues::app

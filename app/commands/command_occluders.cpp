@@ -181,8 +181,8 @@ void add_occluders_command(CLI::App& program, int& status) {
           "  exact one; docs/delta.md says more.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
-      "  clues occluders town.obj --cell box:0,0,1,2,2,2 --plane y=14 -o town.occluders.off\n"
-      "  clues occluders town.obj --cell box:0,0,1,2,2,2 --plane y=14 --plane x=14 --pvs with.pvs\n"
+      "  clues occluders town.obj --cell box:0,0,1,2,2,2 --plane z=5 -o town.occluders.off\n"
+      "  clues occluders town.obj --cell box:0,0,1,2,2,2 --plane z=5 --plane x=1 --pvs with.pvs\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs with.pvs\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   3 the umbra is not closed where a limit was reached   4 an oracle "

@@ -1,0 +1,91 @@
+#include "app/commands/conform_stream.h"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "app/commands.h"
+#include "app/common.h"
+#include "app/progress.h"
+#include "reference/visibility/first_order.h"
+#include "scene/cell_spec.h"
+#include "scene/messages/error.h"
+#include "scene/messages/shell_word.h"
+#include "scene/result.h"
+#include "scene/scenes/scene_io.h"
+#include "validate/stream/judge_stream.h"
+#include "validate/visible_set/settle.h"
+
+namespace clues::app {
+namespace {
+
+using scene::Error;
+using scene::ErrorCode;
+
+std::string words_of(const exact::Point3& p) {
+  return fmt::format("({}, {}, {})", exact::to_string_exact(p.x()), exact::to_string_exact(p.y()),
+                     exact::to_string_exact(p.z()));
+}
+
+std::string text_of(const validate::StreamFinding& f, const ConformStreamRequest& request) {
+  std::string text = fmt::format("UNSOUND {}:{}: {}\n", request.stream, f.message + 1, f.what);
+  if (f.witness) {
+    text += fmt::format("  sight line from {} to {}, {}\n", words_of(f.witness->v), words_of(f.witness->p),
+                        f.witness->front ? "front" : "back");
+  }
+  return text;
+}
+
+}  // namespace
+
+int run_conform_stream(const ConformStreamRequest& request) {
+  if (request.scene.empty() || request.cells.empty())
+    throw Error(ErrorCode::bad_argument, "--stream needs --scene and --cells, too");
+  const auto mesh = scene::read_plain_scene(request.scene);
+  const auto cells = scene::parse_cells(request.cells);
+  const auto stream = scene::read_stream(request.stream);
+  if (stream.header.scene_triangles != mesh.triangles.size() ||
+      stream.header.scene_sha256 != scene::sha256_of_file(request.scene))
+    throw Error(ErrorCode::bad_argument, request.stream + ": is of another scene than " + request.scene);
+  if (stream.header.cell_count != cells.size()) {
+    throw Error(ErrorCode::bad_argument, fmt::format("{}: is of {} cells, but --cells has {}", request.stream,
+                                                     stream.header.cell_count, cells.size()));
+  }
+  validate::StreamVerdict verdict;
+  {
+    ProgressBar bar("clues conform");
+    std::map<std::uint32_t, validate::Judgement> known;
+    const auto truth = [&](std::uint32_t c) -> const validate::Judgement& {
+      if (const auto at = known.find(c); at != known.end()) return at->second;
+      bar.show("cells", known.size(), cells.size());
+      const auto cell = exact::ConvexCell::from_doubles(cells[c].points);
+      const auto map = reference::first_order_visibility(mesh, cell, {});
+      auto judgement = validate::judge_pvs(mesh, map, {});
+      if (mesh.triangles.size() <= validate::kSettleTriangles)
+        validate::settle(judgement, mesh, cell, reference::Mode::sheet);
+      return known.emplace(c, std::move(judgement)).first->second;
+    };
+    verdict = validate::judge_stream(mesh, cells, stream.messages, truth);
+    for (const auto& [c, judgement] : known) {
+      if (!judgement.contradictions.empty())
+        throw Error(ErrorCode::internal, fmt::format("the map of cell {} hides what a sight line reaches", c));
+    }
+  }
+  std::string text;
+  for (const auto& f : verdict.findings) text += text_of(f, request);
+  if (!verdict.findings.empty()) {
+    text += fmt::format("again: clues conform --stream {} --scene {} --cells {}\n", scene::shell_word(request.stream),
+                        scene::shell_word(request.scene), scene::shell_word(request.cells));
+  }
+  text += fmt::format("{}: {} cells entered, {} triangles sent, {} taken away, {} held at most, {} undecided\n",
+                      !verdict.findings.empty()   ? "unsound"
+                      : verdict.undecided > 0     ? "undecided"
+                      : verdict.cells_entered > 0 ? "sound"
+                                                  : "nothing to judge",
+                      verdict.cells_entered, verdict.sent, verdict.taken, verdict.most_held, verdict.undecided);
+  print(text);
+  if (!verdict.findings.empty()) return findings;
+  return verdict.undecided > 0 || verdict.cells_entered == 0 ? not_everything_ran : fine;
+}
+
+}  // namespace clues::app
