@@ -30,6 +30,7 @@ void add_motion_command(CLI::App& program, int& status);  // and motion check, m
 void add_delta_command(CLI::App& program, int& status);   // and delta check
 void add_occluders_command(CLI::App& program, int& status);
 void add_walk_command(CLI::App& program, int& status);
+void add_serve_command(CLI::App& program, int& status);
 void add_demo_command(CLI::App& program, int& status);
 
 }  // namespace clues::app

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "scene/messages/error.h"
+
 namespace clues::reference {
 
 using scene::StreamMessage;
@@ -81,7 +83,7 @@ std::string DisplayList::bytes() const {
 
 StreamServer::StreamServer(const scene::TriangleMesh& mesh, std::vector<std::vector<std::uint32_t>> lists,
                            std::vector<std::vector<std::uint32_t>> neighbours, int horizon)
-    : lists_(std::move(lists)), neighbours_(std::move(neighbours)), horizon_(horizon), mirror_(mesh) {}
+    : lists_(std::move(lists)), neighbours_(std::move(neighbours)), mesh_(&mesh), horizon_(horizon), mirror_(mesh) {}
 
 std::set<std::uint32_t> StreamServer::wanted_in(std::uint32_t cell) const {
   std::set<std::uint32_t> reached{cell}, wanted;
@@ -114,7 +116,25 @@ std::vector<StreamMessage> StreamServer::enter(std::uint32_t cell) {
   entered.cell = cell;
   messages.push_back(entered);
   if (!less.empty()) messages.push_back(mirror_.minus(less));
+  messages_ += messages.size();
   return messages;
+}
+
+std::vector<StreamMessage> StreamServer::resume(const std::vector<std::uint32_t>& route, std::uint64_t have) {
+  mirror_ = DisplayList(*mesh_);
+  messages_ = 0;
+  std::vector<StreamMessage> tail;
+  for (const std::uint32_t cell : route) {
+    std::uint64_t number = messages_;
+    for (StreamMessage& message : enter(cell)) {
+      if (number++ >= have) tail.push_back(std::move(message));
+    }
+  }
+  if (have > messages_) {
+    throw scene::Error(scene::ErrorCode::bad_argument, "resume: this route has " + std::to_string(messages_) +
+                                                           " messages, and the client has more; begin anew");
+  }
+  return tail;
 }
 
 }  // namespace clues::reference

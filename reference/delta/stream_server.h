@@ -65,13 +65,21 @@ class StreamServer {
   // The messages of a step into the cell. Empty packets are left out.
   std::vector<scene::StreamMessage> enter(std::uint32_t cell);
 
+  // After a lost connection, also by another server of the same scene and cells: goes the route again from its beginning,
+  // and returns all but the first `have` messages, which the client has. The client is then where the connection was
+  // lost, and nothing is sent twice. Throws scene::Error bad_argument where the route has not so many messages.
+  std::vector<scene::StreamMessage> resume(const std::vector<std::uint32_t>& route, std::uint64_t have);
+
+  std::uint64_t messages() const { return messages_; }  // of this session
   const DisplayList& mirror() const { return mirror_; }
 
  private:
   std::set<std::uint32_t> wanted_in(std::uint32_t cell) const;
 
   std::vector<std::vector<std::uint32_t>> lists_, neighbours_;
+  const scene::TriangleMesh* mesh_;
   int horizon_;
+  std::uint64_t messages_ = 0;
   DisplayList mirror_;
 };
 

@@ -22,8 +22,7 @@ constexpr std::uint64_t most_slots = std::uint64_t{1} << 32;
 // One line of the file.
 class StreamLine {
  public:
-  StreamLine(std::string_view text, const std::filesystem::path& path, std::uint64_t line)
-      : where_(fmt::format("{}:{}", path.string(), line)), json_(parse_json(text, where_)) {
+  StreamLine(std::string_view text, std::string where) : where_(std::move(where)), json_(parse_json(text, where_)) {
     if (!json_.is_object()) fail("a line of a stream is a JSON object");
   }
 
@@ -129,13 +128,50 @@ std::string to_line(const StreamMessage& message) {
   return json.dump() + "\n";
 }
 
+StreamHeader parse_stream_header(std::string_view line, const std::string& where) {
+  return header_of(StreamLine(line, where));
+}
+
+StreamMessage parse_stream_message(std::string_view line, const std::string& where, const StreamHeader& header) {
+  return message_of(StreamLine(line, where), header);
+}
+
+std::string to_line(const StreamRequest& request) {
+  const StreamJson json = request.resumes ? StreamJson{{"resume", {{"route", request.route}, {"have", request.have}}}}
+                                          : StreamJson{{"enter", request.cell}};
+  return json.dump() + "\n";
+}
+
+StreamRequest parse_stream_request(std::string_view text, const std::string& where, std::uint64_t cells) {
+  const StreamLine line(text, where);
+  StreamRequest request;
+  if (line.has("enter") && line.size() == 1) {
+    request.cell = line.number(line.at("enter"), 0, cells, "the cell");
+    return request;
+  }
+  if (!line.has("resume") || line.size() != 1) line.fail(R"(a request is {"enter": N} or {"resume": {...}})");
+  const StreamLine inner(line.at("resume").dump(), where);
+  request.resumes = true;
+  request.have = inner.count("have");
+  for (const auto& cell : inner.list("route")) request.route.push_back(inner.number(cell, 0, cells, "the cell"));
+  return request;
+}
+
+std::string stream_end_line(std::uint64_t messages) { return StreamJson{{"end", messages}}.dump() + "\n"; }
+
+std::optional<std::uint64_t> parse_stream_end(std::string_view text) {
+  const StreamLine line(text, "end");
+  if (!line.has("end") || line.size() != 1) return std::nullopt;
+  return line.count("end");
+}
+
 Stream read_stream(const std::filesystem::path& path) {
   const std::string bytes = read_file_bytes(path);
   Stream stream;
   std::string_view rest = bytes;
   for (std::uint64_t number = 1; !rest.empty(); ++number) {
     const auto end = rest.find('\n');
-    const StreamLine line(rest.substr(0, end), path, number);
+    const StreamLine line(rest.substr(0, end), fmt::format("{}:{}", path.string(), number));
     rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
     if (number == 1) {
       stream.header = header_of(line);

@@ -7,7 +7,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scene/mesh/mesh.h"
@@ -52,6 +54,25 @@ struct Stream {
 // With its newline.
 std::string to_line(const StreamHeader& header);
 std::string to_line(const StreamMessage& message);
+
+// One line, without its end; `where` is for messages. Throws Error malformed, index_out_of_range.
+StreamHeader parse_stream_header(std::string_view line, const std::string& where);
+StreamMessage parse_stream_message(std::string_view line, const std::string& where, const StreamHeader& header);
+
+// What a client asks a server: to enter a cell, or, after a lost connection, for what it does not have of the messages
+// of a route.
+struct StreamRequest {
+  bool resumes = false;
+  std::uint32_t cell = 0;            // to enter
+  std::vector<std::uint32_t> route;  // resumes: the cells that were asked for before
+  std::uint64_t have = 0;            // resumes: so many messages have come
+};
+std::string to_line(const StreamRequest& request);
+StreamRequest parse_stream_request(std::string_view line, const std::string& where, std::uint64_t cells);
+
+// The end of an answer: how many messages the session has had. None where the line is something else.
+std::string stream_end_line(std::uint64_t messages);
+std::optional<std::uint64_t> parse_stream_end(std::string_view line);
 
 // Throws Error: file errors; malformed, index_out_of_range, non_finite with file and line. Ids and cells are below what the header says.
 Stream read_stream(const std::filesystem::path& path);

@@ -140,6 +140,71 @@ TEST(StreamLong, OfTenScenesIsSoundOnEveryTransition) {
 }
 
 // One wrong thing at a time, in a walk through all cells of the lower layer.
+// The link is cut after every message, and a server that knows nothing of the session takes over: no hole, nothing twice.
+TEST(Stream, IsTakenUpAfterACutAtEveryMessage) {
+  for (const int horizon : {0, 1}) {
+    const std::vector<std::uint32_t> route = scene::random_route(town().neighbours(), 20, kSeed);
+    const auto whole = town().stream(route, horizon);
+    for (std::size_t have = 0; have <= whole.size(); ++have) {
+      auto other = town().server(horizon);
+      std::vector<StreamMessage> joined(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(have));
+      for (auto& message : other.resume(route, have)) joined.push_back(std::move(message));
+      ASSERT_EQ(joined.size(), whole.size());
+      EXPECT_EQ(other.messages(), whole.size());
+      EXPECT_TRUE(town().judge(joined).findings.empty()) << "cut after " << have;
+      // And the viewer goes on from there.
+      for (auto& message : other.enter(town().neighbours()[route.back()][0])) joined.push_back(std::move(message));
+      EXPECT_TRUE(town().judge(joined).findings.empty()) << "cut after " << have;
+    }
+    EXPECT_THROW(town().server(horizon).resume(route, whole.size() + 1), scene::Error);
+  }
+}
+
+// A reconnection that begins anew, though the client has its list: everything comes twice.
+TEST(Stream, AServerThatForgetsTheClientIsCaught) {
+  const auto whole = town().stream({0, 1, 2}, 0);
+  auto joined = whole;
+  for (const auto& message : town().stream({2}, 0)) joined.push_back(message);
+  EXPECT_FALSE(town().judge(joined).findings.empty());
+}
+
+TEST(StreamRequests, ComeBackAsTheyWereWritten) {
+  scene::StreamRequest request;
+  request.cell = 3;
+  EXPECT_EQ(scene::parse_stream_request(scene::to_line(request), "x", 4).cell, 3U);
+  EXPECT_THROW(scene::parse_stream_request(scene::to_line(request), "x", 3), scene::Error);
+  request.resumes = true;
+  request.route = {0, 1};
+  request.have = 5;
+  const auto back = scene::parse_stream_request(scene::to_line(request), "x", 4);
+  EXPECT_TRUE(back.resumes);
+  EXPECT_EQ(back.route, request.route);
+  EXPECT_EQ(back.have, 5U);
+  for (const char* bad : {"{}", "[]", "{\"resume\": 3}", "{\"resume\": {\"route\": [9], \"have\": 0}}",
+                          "{\"resume\": {\"route\": []}}", "{\"enter\": 0, \"x\": 1}", "enter"}) {
+    EXPECT_THROW(scene::parse_stream_request(bad, "x", 4), scene::Error) << bad;
+  }
+  EXPECT_EQ(scene::parse_stream_end(scene::stream_end_line(7)), 7U);
+  EXPECT_FALSE(scene::parse_stream_end("{\"cell\": 7}"));
+}
+
+// The program as a server, and one that forgets what it sent.
+TEST(StreamServers, TheProgramIsOne) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  const std::string cells = "grid:2x2x1:box:-0.25,-0.25,-0.25,0.25,0.25,0";
+  const auto good =
+      tests::run_clues({"conform", "--stream-server", std::string(CLUES_PROGRAM) + " serve screen.off --cells " + cells,
+                        "--scene", "screen.off", "--cells", cells, "--steps", "6"},
+                       folder.path());
+  EXPECT_EQ(good.exit_code, 0) << good.out << good.err;
+  EXPECT_NE(good.out.find("sound: 7 cells entered"), std::string::npos) << good.out;
+  EXPECT_NE(good.out.find("was cut"), std::string::npos) << good.out;
+  const auto none = tests::run_clues(
+      {"conform", "--stream-server", "echo nothing", "--scene", "screen.off", "--cells", cells}, folder.path());
+  EXPECT_EQ(none.exit_code, 1) << none.out << none.err;
+}
+
 class PlantedStream : public ::testing::Test {
  protected:
   PlantedStream() : messages_(town().stream({0, 1, 2, 5, 4, 3, 6, 7, 8, 7, 4, 1, 0}, 0)) {}
