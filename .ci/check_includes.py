@@ -20,16 +20,17 @@ MAY_SEE = {
 }
 # Of each folder, in the order in which a reader meets them; "." is the folder itself.
 CHAPTERS = {
-    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "stores", "bakes", "motion", "multires"],
+    "scene": ["messages", "mesh", "formats", "files", ".", "gltf", "levels", "scenes", "stores", "bakes", "motion",
+              "multires", "stream"],
     "exact": [".", "cell", "complex", "sight", "motion", "multires"],
     "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
                   "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",
-                  "visibility/refinement", "motion", "multires/stars", "multires"],
+                  "visibility/refinement", "delta", "motion", "multires/stars", "multires"],
     "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
                  "visibility/refinement", "motion"],
     "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "cells", "vectors", "conform",
-                 "motion", "multires"],
+                 "motion", "multires", "stream"],
     "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets",
              "motion", "multires"],
     "app": [".", "map", "view", "engine", "bake", "demo", "maps", "commands"],

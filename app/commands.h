@@ -29,6 +29,10 @@ void add_report_command(CLI::App& program, int& status);
 void add_view_command(CLI::App& program, int& status);
 void add_motion_command(CLI::App& program, int& status);  // and motion check, motion verify
 void add_maps_command(CLI::App& program, int& status);    // and maps verify
+void add_delta_command(CLI::App& program, int& status);   // and delta check
+void add_occluders_command(CLI::App& program, int& status);
+void add_walk_command(CLI::App& program, int& status);
+void add_serve_command(CLI::App& program, int& status);
 void add_demo_command(CLI::App& program, int& status);
 
 }  // namespace clues::app

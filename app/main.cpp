@@ -119,6 +119,10 @@ int main(int argc, char** argv) {
   app::add_view_command(program, status);
   app::add_motion_command(program, status);
   app::add_maps_command(program, status);
+  app::add_delta_command(program, status);
+  app::add_occluders_command(program, status);
+  app::add_walk_command(program, status);
+  app::add_serve_command(program, status);
   app::add_demo_command(program, status);
   if (argc <= 1) return list_commands(program);
   std::vector<std::string> words(argv + 1, argv + argc);

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "app/commands.h"
+#include "app/commands/conform_stream.h"
 #include "app/common.h"
 #include "app/json_output.h"
 #include "app/progress.h"
@@ -216,6 +217,12 @@ EXPECTED FAILURES
   --expect-failures FILE: {"format": "clues-expected-failures/1", "cases": [{"case": ID, "issue": URL, "date": "2026-11-21"}]}
   A listed case that fails does not count. One that does not fail any more is an error, and so is an id that the suite does not have.
 
+STREAMS
+  --stream-server CMD  A program that answers {"enter": N} with messages; it is asked along a route, and then cut off after each message
+                    and asked to go on.
+  --stream FILE     Messages that a server sent to a client while a viewer went from cell to cell (docs/delta.md). At every step, what
+                    the client holds has to have all that is visible from where the viewer is; a sight line proves what has not.
+
 EXAMPLES
   clues conform --impl 'python3 my_adapter.py' --jobs 4
   clues conform --impl ./libmine.so --topic grazing --junit conform.xml
@@ -266,7 +273,22 @@ void add_conform_command(CLI::App& program, int& status) {
   command->add_flag("-v,--verbose", request->every_case, "A line for every case");
   for (const char* name : {"--case", "--flag", "--topic"}) command->get_option(name)->allow_extra_args(false);
   command->footer(footer);
-  command->callback([request, &status] { status = run_conform(*request); });
+  auto stream = std::make_shared<ConformStreamRequest>();
+  auto* file = command->add_option("--stream", stream->stream, "Judge the messages of a server and its client instead")
+                   ->type_name("FILE");
+  command
+      ->add_option("--stream-server", stream->server,
+                   "Judge a server of streams: put a route to it, and cut the connection after every message")
+      ->type_name("CMD")
+      ->excludes(file);
+  command->add_option("--scene", stream->scene, "With a stream: the scene")->type_name("SCENE");
+  command->add_option("--cells", stream->cells, "With a stream: the cells")->type_name("SPEC");
+  command->add_option("--route", stream->route, "With --stream-server: numbers of cells")->type_name("FILE");
+  command->add_option("--steps", stream->steps, "Without --route: so many steps at random (default: 40)")
+      ->type_name("N");
+  command->add_option("--seed", stream->seed, "Of these (default: 1)")->type_name("N");
+  command->callback(
+      [request, stream, &status] { status = stream->asked() ? run_conform_stream(*stream) : run_conform(*request); });
 }
 
 }  // namespace clues::app

@@ -169,6 +169,13 @@ int run_map(MapRequest request) {
   if (request.with_states && !request.with_map)
     throw Error(ErrorCode::bad_argument, "--render-states are put into the regions of --map; give that too");
   require_good(request.umbra, many);
+  if (!request.fragments.empty()) {
+    if (many) throw Error(ErrorCode::bad_argument, "--fragments is for one cell: use --cell, not --cells");
+    const auto extension = fs::path(request.fragments).extension();
+    if (extension != ".json" && extension != ".obj" && extension != ".ply")
+      throw Error(ErrorCode::bad_argument, request.fragments + ": fragments are written as *.json, *.obj or *.ply");
+    require_writable_parent(request.fragments);
+  }
   if (!(many && fs::is_directory(request.out))) require_writable_parent(request.out);
   if (request.with_map && !many && wants_plain_list(request.out)) {
     throw Error(ErrorCode::bad_argument,
@@ -179,7 +186,7 @@ int run_map(MapRequest request) {
     require_writable_parent(request.overlap_graph);
   }
   require_writable_parent(request.json.file());
-  require_apart({&request.out, &request.json.file(), &request.umbra.file, &request.overlap_graph},
+  require_apart({&request.out, &request.json.file(), &request.umbra.file, &request.fragments, &request.overlap_graph},
                 {&request.scene, &request.cell, &request.cells});
   const std::string sha256 = scene::sha256_of_file(request.scene);
   const auto scene = scene::read_scene(request.scene);
@@ -192,6 +199,7 @@ int run_map(MapRequest request) {
   const auto mapped = map_cells(*mapper, sha256, cells, request);
 
   if (!request.umbra.file.empty()) scene::write_file_atomically(request.umbra.file, mapped[0].umbra_bytes);
+  if (!request.fragments.empty()) scene::write_file_atomically(request.fragments, mapped[0].fragments_bytes);
   if (!request.overlap_graph.empty()) scene::write_file_atomically(request.overlap_graph, mapped[0].overlap_graph);
   if (!request.out.empty() && !many)
     scene::write_file_atomically(request.out, wants_plain_list(request.out) ? mapped[0].list : mapped[0].json);
@@ -202,7 +210,7 @@ int run_map(MapRequest request) {
     if (request.json.on_stdout() && request.out.empty()) return fine;
   }
   std::string table = mapper->table_head();
-  for (const auto& cell : mapped) table += cell.summary + cell.umbra_summary;
+  for (const auto& cell : mapped) table += cell.summary + cell.umbra_summary + cell.fragments_summary;
   std::fputs(table.c_str(), request.json.on_stdout() ? stderr : stdout);
   return fine;
 }
@@ -247,6 +255,11 @@ void add_map_command(CLI::App& program, int& status) {
           "gets one file per cell")
       ->type_name("OUT");
   request->umbra.add_to(*command);
+  command
+      ->add_option("--fragments", request->fragments,
+                   "With --cell: write the visible regions as triangles that share their corners: *.json (exact),\n"
+                   "*.obj or *.ply (rounded)")
+      ->type_name("FILE");
   command->add_flag("--resume", request->resume,
                     "With --cells and -o: go on with a run that was stopped; cells whose files are there are not made "
                     "again");
@@ -280,6 +293,7 @@ void add_map_command(CLI::App& program, int& status) {
       "  clues map town.obj --cell box:0,0,1,2,2,2\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --map -o town.clues.json\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --umbra town.umbra.json\n"
+      "  clues map town.obj --cell box:0,0,1,2,2,2 --map --fragments town.visible.obj\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --formulation traversal --overlap-graph town.dot\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --method backprojected --max-depth 2\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --simplify-boundaries 0.05 --min-occlusion 0.01\n"

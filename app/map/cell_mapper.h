@@ -18,7 +18,7 @@
 namespace clues::app {
 
 struct MapRequest {
-  std::string scene, cell, cells, out, overlap_graph;
+  std::string scene, cell, cells, out, overlap_graph, fragments;
   bool with_map = false, with_states = false, resume = false;
   JsonOutput json;
   MethodOptions method;
@@ -36,6 +36,7 @@ struct MappedCell {
   std::string summary;        // one line of the table, and one more of what simplification did
   std::string overlap_graph;  // GraphViz, where it was asked for
   std::string umbra_bytes, umbra_summary;
+  std::string fragments_bytes, fragments_summary;
 };
 
 class CellMapper {

@@ -1,6 +1,7 @@
 // clues map --kernel exact: the reference, and what is derived from its map.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <utility>
 
 #include "app/map/cell_mapper.h"
@@ -9,6 +10,7 @@
 #include "reference/visibility/refinement/bounds.h"
 #include "reference/visibility/traversal/overlap.h"
 #include "scene/messages/percent.h"
+#include "validate/stream/fragments_file.h"
 
 namespace clues::app {
 namespace {
@@ -64,7 +66,19 @@ class ExactMapper : public CellMapper {
                simplification);
     out.summary = table_line(spec.name, map) + about_simplification;
     if (!request_.overlap_graph.empty()) out.overlap_graph = overlap_graph_of(map);
+    if (!request_.fragments.empty()) put_fragments(map, out);
     return out;
+  }
+  void put_fragments(const reference::VisibilityMap& map, MappedCell& out) const {
+    auto record = validate::fragments_of(map);
+    record.scene_file = std::filesystem::path(request_.scene).filename().string();
+    record.scene_sha256 = sha256_;
+    const auto extension = std::filesystem::path(request_.fragments).extension();
+    out.fragments_bytes = extension == ".obj"   ? validate::to_obj_text(record)
+                          : extension == ".ply" ? validate::to_ply_text(record)
+                                                : validate::to_json_text(record);
+    out.fragments_summary =
+        fmt::format("fragments: {} triangles, {} corners\n", record.fragments.size(), record.exact.size());
   }
   MappedCell simplified(const reference::VisibilityMap& map, const scene::CellSpec& spec, int threads) const {
     if (!request_.simplify.asked()) return mapped(map, spec);

@@ -140,6 +140,7 @@ class FastMapper : public CellMapper {
 std::unique_ptr<CellMapper> fast_mapper(const scene::TriangleMesh& mesh, const std::string& sha256,
                                         const MapRequest& request) {
   for (const auto& [asked, option] : {std::pair{!request.umbra.file.empty(), "--umbra"},
+                                      {!request.fragments.empty(), "--fragments"},
                                       {!request.overlap_graph.empty(), "--overlap-graph"},
                                       {request.with_states, "--render-states"},
                                       {request.method.formulation != "plain", "--formulation"},

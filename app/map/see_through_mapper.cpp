@@ -83,6 +83,7 @@ std::unique_ptr<CellMapper> see_through_mapper(const scene::FlaggedMesh& scene, 
                                                const MapRequest& request) {
   for (const auto& [asked, option] : {std::pair{request.with_map, "--map"},
                                       {!request.umbra.file.empty(), "--umbra"},
+                                      {!request.fragments.empty(), "--fragments"},
                                       {!request.overlap_graph.empty(), "--overlap-graph"},
                                       {request.refinement != validate::Refinement::none, "refinement"},
                                       {request.method.mode == "solid", "--mode solid"},

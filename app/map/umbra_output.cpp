@@ -68,23 +68,26 @@ void require_good(const UmbraRequest& request, bool many_cells) {
   bounds_of(request.bounds);
 }
 
+reference::Umbra checked_umbra(const reference::Omega& omega, const scene::TriangleMesh& mesh,
+                               const std::string& bounds, int threads) {
+  reference::Umbra umbra = reference::build_umbra(omega, bounds_of(bounds), threads);
+  const auto verdict = validate::check_umbra_certificate(mesh, omega.map().range.moved_back(omega.map().cell),
+                                                         validate::record_of(umbra).facets);
+  if (verdict.valid) return umbra;
+  const std::uint64_t limits = umbra.fallbacks + omega.map().statistics.conservative_fallbacks;
+  if (limits > 0)
+    throw Unfinished(fmt::format("the umbra is not closed, because {} labels are visible only by a limit: {}", limits,
+                                 verdict.reason));
+  if (stands_in_flat_cell(mesh, omega))
+    throw Unfinished("geometry stands in this cell, which is flat: its umbra has no certificate (" + verdict.reason +
+                     ")");
+  throw Error(ErrorCode::internal, "the umbra's certificate fails: " + verdict.reason);
+}
+
 UmbraOutput make_umbra(const reference::Omega& omega, const scene::TriangleMesh& mesh, const scene::CellSpec& cell,
                        const std::string& scene_path, const std::string& scene_sha256, const UmbraRequest& request,
                        int threads) {
-  const reference::Umbra umbra = reference::build_umbra(omega, bounds_of(request.bounds), threads);
-  validate::UmbraRecord record = validate::record_of(umbra);
-  const auto verdict =
-      validate::check_umbra_certificate(mesh, omega.map().range.moved_back(omega.map().cell), record.facets);
-  if (!verdict.valid) {
-    const std::uint64_t limits = umbra.fallbacks + omega.map().statistics.conservative_fallbacks;
-    if (limits > 0)
-      throw Unfinished(fmt::format("the umbra is not closed, because {} labels are visible only by a limit: {}", limits,
-                                   verdict.reason));
-    if (stands_in_flat_cell(mesh, omega))
-      throw Unfinished("geometry stands in this cell, which is flat: its umbra has no certificate (" + verdict.reason +
-                       ")");
-    throw Error(ErrorCode::internal, "the umbra's certificate fails: " + verdict.reason);
-  }
+  validate::UmbraRecord record = validate::record_of(checked_umbra(omega, mesh, request.bounds, threads));
   record.scene_file = fs::path(scene_path).filename().string();
   record.scene_sha256 = scene_sha256;
   record.scene_triangles = mesh.triangles.size();

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "reference/visibility/hidden/umbra.h"
 #include "reference/visibility/map/omega.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh/mesh.h"
@@ -19,11 +20,16 @@ struct UmbraRequest {
 // Throws Error bad_argument where the options do not fit together, file_unwritable where the file cannot be made.
 void require_good(const UmbraRequest& request, bool many_cells);
 
+// The umbra, with its certificate checked. Throws Unfinished when limits (D17) leave it open, Error internal when its
+// certificate fails without them; bad_argument where `bounds` is no box (empty: as large as usual).
+reference::Umbra checked_umbra(const reference::Omega& omega, const scene::TriangleMesh& mesh,
+                               const std::string& bounds, int threads);
+
 struct UmbraOutput {
   std::string bytes, summary;
 };
 
-// Throws Unfinished when limits (D17) leave the umbra open, Error internal when its certificate fails without them.
+// Throws as checked_umbra.
 UmbraOutput make_umbra(const reference::Omega& omega, const scene::TriangleMesh& mesh, const scene::CellSpec& cell,
                        const std::string& scene_path, const std::string& scene_sha256, const UmbraRequest& request,
                        int threads);

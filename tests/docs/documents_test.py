@@ -40,6 +40,7 @@ NOT_RUN = [
     Entry("CONTRIBUTING.md", "clues lint vectors --write --case 'your-id'", "a case that the reader writes"),
     Entry("docs/ci.md", r"clues (replay|shrink) results/", "a finding of a job that ran elsewhere"),
     Entry("docs/second-opinion.md", r"second_opinion\.py ", "all of these are typed by tests/second_opinion", "block"),
+    Entry("docs/delta.md", r'\{"cell_count"', "a line of a stream", "block"),
     Entry("docs/architecture.md", "app -> fuzz", "a picture of the layers", "block"),
     Entry("docs/formats.md", "# baked by", "a file", "block"),
     Entry("docs/fuzzing.md", r"clues fuzz .*--seed 2026112", "what was run: half an hour each"),

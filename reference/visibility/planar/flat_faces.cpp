@@ -102,6 +102,11 @@ TriangleFrame::TriangleFrame(const exact::Complex& complex, std::uint32_t piece)
                complex.points[complex.pieces[piece].corners[2]]},
       flat_(frame_(corners_[0]), frame_(corners_[1]), frame_(corners_[2])) {}
 
+TriangleFrame::TriangleFrame(const std::array<Point3, 3>& corners, double unit)
+    : frame_(exact::Plane3(corners[0], corners[1], corners[2]), unit),
+      corners_(corners),
+      flat_(frame_(corners_[0]), frame_(corners_[1]), frame_(corners_[2])) {}
+
 Point3 TriangleFrame::lift(const Point2& q) const {  // affine: barycentric coordinates carry over
   const FT area = CGAL::area(flat_[0], flat_[1], flat_[2]);
   const FT u = CGAL::area(q, flat_[1], flat_[2]) / area, w = CGAL::area(flat_[0], q, flat_[2]) / area;

@@ -26,10 +26,12 @@ bool on_outline(const exact::Kernel::Triangle_2& triangle, const exact::Point2& 
 // A point inside the face: of a triangle of its constrained triangulation, which one depends on `which`.
 exact::Point2 inner_point(const std::vector<Ring2>& rings, std::size_t which);
 
-// A piece of the complex laid flat.
+// A piece of the complex, or another triangle, laid flat.
 class TriangleFrame {
  public:
   TriangleFrame(const exact::Complex& complex, std::uint32_t piece);
+  // Not without area; in units of `unit`, a power of two.
+  explicit TriangleFrame(const std::array<exact::Point3, 3>& corners, double unit = 1);
   const PlaneFrame& frame() const { return frame_; }
   const std::array<exact::Point3, 3>& corners() const { return corners_; }
   const exact::Kernel::Triangle_2& flat() const { return flat_; }

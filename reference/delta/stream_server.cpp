@@ -1,0 +1,140 @@
+#include "reference/delta/stream_server.h"
+
+#include <utility>
+
+#include "scene/messages/error.h"
+
+namespace clues::reference {
+
+using scene::StreamMessage;
+
+std::uint32_t Slots::take() {
+  if (free_.empty()) return next_++;
+  const std::uint32_t slot = *free_.begin();
+  free_.erase(free_.begin());
+  return slot;
+}
+
+std::vector<std::uint32_t> DisplayList::triangles() const {
+  std::vector<std::uint32_t> out;
+  for (const auto& [id, unused] : triangles_) out.push_back(id);
+  return out;
+}
+
+StreamMessage DisplayList::plus(const std::vector<std::uint32_t>& triangles) {
+  StreamMessage message;
+  message.kind = StreamMessage::Kind::plus;
+  for (const std::uint32_t t : triangles) {
+    scene::StreamTriangle sent{t, triangle_slots_.take(), {}};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t v = mesh_->triangles[t][i];
+      Vertex& vertex = vertices_[v];
+      if (vertex.users == 0) {
+        vertex.slot = vertex_slots_.take();
+        message.vertices.push_back({vertex.slot, mesh_->points[v]});
+      }
+      ++vertex.users;
+      sent.corners[i] = vertex.slot;
+    }
+    triangles_[t] = sent;
+    message.plus.push_back(sent);
+  }
+  return message;
+}
+
+StreamMessage DisplayList::minus(const std::vector<std::uint32_t>& triangles) {
+  StreamMessage message;
+  message.kind = StreamMessage::Kind::minus;
+  for (const std::uint32_t t : triangles) {
+    triangle_slots_.give_back(triangles_.at(t).slot);
+    triangles_.erase(t);
+    message.minus.push_back(t);
+    for (const std::uint32_t v : mesh_->triangles[t]) {
+      const auto at = vertices_.find(v);
+      if (--at->second.users > 0) continue;
+      vertex_slots_.give_back(at->second.slot);
+      message.unused.push_back(at->second.slot);
+      vertices_.erase(at);
+    }
+  }
+  return message;
+}
+
+std::string DisplayList::bytes() const {
+  std::map<std::uint32_t, std::string> lines;
+  for (const auto& [id, t] : triangles_) {
+    lines[t.slot] = "t " + std::to_string(t.slot);
+    for (const std::uint32_t x : {id, t.corners[0], t.corners[1], t.corners[2]})
+      lines[t.slot].append(" ").append(std::to_string(x));
+  }
+  std::string text;
+  for (const auto& [slot, line] : lines) text.append(line).append("\n");
+  lines.clear();
+  for (const auto& [v, vertex] : vertices_) {
+    const scene::Point& p = mesh_->points[v];
+    StreamMessage one;
+    one.kind = StreamMessage::Kind::plus;
+    one.vertices.push_back({vertex.slot, p});
+    lines[vertex.slot] = scene::to_line(one);
+  }
+  for (const auto& [slot, line] : lines) text += line;
+  return text;
+}
+
+StreamServer::StreamServer(const scene::TriangleMesh& mesh, std::vector<std::vector<std::uint32_t>> lists,
+                           std::vector<std::vector<std::uint32_t>> neighbours, int horizon)
+    : lists_(std::move(lists)), neighbours_(std::move(neighbours)), mesh_(&mesh), horizon_(horizon), mirror_(mesh) {}
+
+std::set<std::uint32_t> StreamServer::wanted_in(std::uint32_t cell) const {
+  std::set<std::uint32_t> reached{cell}, wanted;
+  std::vector<std::uint32_t> rim{cell};
+  for (int step = 0; step < horizon_; ++step) {
+    std::vector<std::uint32_t> next;
+    for (const std::uint32_t c : rim) {
+      for (const std::uint32_t n : neighbours_[c]) {
+        if (reached.insert(n).second) next.push_back(n);
+      }
+    }
+    rim = std::move(next);
+  }
+  for (const std::uint32_t c : reached) wanted.insert(lists_[c].begin(), lists_[c].end());
+  return wanted;
+}
+
+std::vector<StreamMessage> StreamServer::enter(std::uint32_t cell) {
+  const std::set<std::uint32_t> wanted = wanted_in(cell);
+  std::vector<std::uint32_t> more, less;
+  for (const std::uint32_t t : wanted) {
+    if (!mirror_.holds(t)) more.push_back(t);
+  }
+  for (const std::uint32_t t : mirror_.triangles()) {
+    if (!wanted.contains(t)) less.push_back(t);
+  }
+  std::vector<StreamMessage> messages;
+  if (!more.empty()) messages.push_back(mirror_.plus(more));
+  StreamMessage entered;
+  entered.cell = cell;
+  messages.push_back(entered);
+  if (!less.empty()) messages.push_back(mirror_.minus(less));
+  messages_ += messages.size();
+  return messages;
+}
+
+std::vector<StreamMessage> StreamServer::resume(const std::vector<std::uint32_t>& route, std::uint64_t have) {
+  mirror_ = DisplayList(*mesh_);
+  messages_ = 0;
+  std::vector<StreamMessage> tail;
+  for (const std::uint32_t cell : route) {
+    std::uint64_t number = messages_;
+    for (StreamMessage& message : enter(cell)) {
+      if (number++ >= have) tail.push_back(std::move(message));
+    }
+  }
+  if (have > messages_) {
+    throw scene::Error(scene::ErrorCode::bad_argument, "resume: this route has " + std::to_string(messages_) +
+                                                           " messages, and the client has more; begin anew");
+  }
+  return tail;
+}
+
+}  // namespace clues::reference

@@ -1,0 +1,84 @@
+// D25: what a server says to a client, as JSON lines ("clues-stream/1", docs/delta.md). The first line says of which
+// scene and cells; every other is a message. `+` brings triangles with the slots that they get in the client's display
+// list, and the vertices that are new to it; `-` takes triangles out, and says which slots of vertices become free;
+// `cell` says where the viewer is from here on. Slot 0 is nothing (FIG. 43).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/mesh/mesh.h"
+
+namespace clues::scene {
+
+struct StreamTriangle {
+  std::uint32_t triangle = 0;              // id (D1)
+  std::uint32_t slot = 0;                  // of the display list, from 1
+  std::array<std::uint32_t, 3> corners{};  // slots of vertices, from 1
+
+  friend bool operator==(const StreamTriangle&, const StreamTriangle&) = default;
+};
+
+struct StreamVertex {
+  std::uint32_t slot = 0;
+  Point at{};
+
+  friend bool operator==(const StreamVertex&, const StreamVertex&) = default;
+};
+
+struct StreamMessage {
+  enum class Kind : std::uint8_t { plus, minus, cell };
+  Kind kind = Kind::cell;
+  std::uint32_t cell = 0;              // cell: its number
+  std::vector<StreamTriangle> plus;    // plus
+  std::vector<StreamVertex> vertices;  // plus
+  std::vector<std::uint32_t> minus;    // minus: ids
+  std::vector<std::uint32_t> unused;   // minus: slots of vertices that become free
+};
+
+struct StreamHeader {
+  std::string scene_sha256, cells;  // cells: as --cells has it
+  std::uint64_t scene_triangles = 0, cell_count = 0;
+};
+
+struct Stream {
+  StreamHeader header;
+  std::vector<StreamMessage> messages;
+};
+
+// With its newline.
+std::string to_line(const StreamHeader& header);
+std::string to_line(const StreamMessage& message);
+
+// One line, without its end; `where` is for messages. Throws Error malformed, index_out_of_range.
+StreamHeader parse_stream_header(std::string_view line, const std::string& where);
+StreamMessage parse_stream_message(std::string_view line, const std::string& where, const StreamHeader& header);
+
+// What a client asks a server: to enter a cell, or, after a lost connection, for what it does not have of the messages
+// of a route.
+struct StreamRequest {
+  bool resumes = false;
+  std::uint32_t cell = 0;            // to enter
+  std::vector<std::uint32_t> route;  // resumes: the cells that were asked for before
+  std::uint64_t have = 0;            // resumes: so many messages have come
+};
+std::string to_line(const StreamRequest& request);
+StreamRequest parse_stream_request(std::string_view line, const std::string& where, std::uint64_t cells);
+
+// The end of an answer: how many messages the session has had. None where the line is something else.
+std::string stream_end_line(std::uint64_t messages);
+std::optional<std::uint64_t> parse_stream_end(std::string_view line);
+
+// Throws Error: file errors; malformed, index_out_of_range, non_finite with file and line. Ids and cells are below what the header says.
+Stream read_stream(const std::filesystem::path& path);
+
+// Numbers of cells with blanks or ends of lines between them, '#' comments. Throws Error as read_stream; index_out_of_range
+// where one is not below `cells`; malformed where there is none.
+std::vector<std::uint32_t> read_route(const std::filesystem::path& path, std::uint64_t cells);
+
+}  // namespace clues::scene

@@ -1,0 +1,231 @@
+// The judge of transitions (D24): right ones pass, of the suite and of random scenes; wrong ones are caught.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+
+#include "exact/cell/direction_cone.h"
+#include "fuzz/generators/random_scenes.h"
+#include "reference/delta/delta.h"
+#include "tests/reference/support.h"
+#include "tests/seed.h"
+#include "validate/stream/judge_delta.h"
+#include "validate/vectors/reader.h"
+
+namespace clues::test {
+namespace {
+
+using reference::SeenFrom;
+using validate::DeltaRecord;
+using validate::MapFile;
+
+// As read_map_file() reads it from the file of the map.
+MapFile map_file_of(const reference::VisibilityMap& map) {
+  MapFile file;
+  file.visible = map.visible;
+  const scene::Result result = reference::to_result(map, {}, true);
+  for (const scene::MapRegion& r : result.regions) {
+    if (!r.visible) continue;
+    validate::MapFileRegion region{r.triangle, r.front, {}};
+    for (const auto& ring : r.rings_exact) {
+      region.rings.emplace_back();
+      for (const auto& p : ring) {
+        region.rings.back().push_back({validate::Rational(p[0]), validate::Rational(p[1]), validate::Rational(p[2])});
+      }
+    }
+    file.regions.push_back(std::move(region));
+  }
+  return file;
+}
+
+// Both halves of a solid cell, cut at its centre across the x axis: neighbours that share a face. Of a cell without an
+// interior none.
+std::vector<exact::ConvexCell> halves_of(const exact::ConvexCell& cell) {
+  if (cell.dimension() != 3) return {};
+  const exact::Plane3 cut(cell.center(), exact::Vector3(1, 0, 0));
+  std::vector<exact::ConvexCell> out;
+  for (const exact::Plane3& side : {cut, cut.opposite()}) {
+    std::vector<exact::Point3> points;
+    for (const auto& facet : cell.facets()) {
+      std::vector<exact::Point3> polygon;
+      for (const int c : facet.corners) polygon.push_back(cell.vertices()[static_cast<std::size_t>(c)]);
+      for (const auto& p : exact::clipped(polygon, side)) points.push_back(exact::collapsed(p));
+    }
+    out.emplace_back(points);
+  }
+  return out;
+}
+
+struct Sums {
+  std::uint64_t transitions = 0, sides = 0, exposed = 0, occluded = 0, packets = 0;
+};
+
+// The maps, both transitions between them, made independently, and what must hold of them.
+void expect_identities(const scene::TriangleMesh& mesh, const exact::ConvexCell& a, const exact::ConvexCell& b,
+                       const reference::Options& options, Sums& sums) {
+  const MapFile map_a = map_file_of(reference::first_order_visibility(mesh, a, options)),
+                map_b = map_file_of(reference::first_order_visibility(mesh, b, options));
+  const DeltaRecord there = validate::record_of(reference::delta_of(mesh, a, b, options), true),
+                    back = validate::record_of(reference::delta_of(mesh, b, a, options), true);
+  const auto verdict = validate::judge_delta(mesh, there, map_a, map_b);
+  for (const auto& f : verdict.findings) ADD_FAILURE() << "there: " << f.what;
+  const auto verdict_back = validate::judge_delta(mesh, back, map_b, map_a);
+  for (const auto& f : verdict_back.findings) ADD_FAILURE() << "back: " << f.what;
+  for (const auto& f : validate::judge_reverse(there, back)) ADD_FAILURE() << f.what;
+  EXPECT_EQ(verdict.exposed, verdict_back.occluded);
+  ++sums.transitions;
+  sums.sides += verdict.sides;
+  sums.exposed += sgn(verdict.exposed) != 0;
+  sums.occluded += sgn(verdict.occluded) != 0;
+  sums.packets += !there.plus.empty() || !there.minus.empty();
+}
+
+// The two halves of the cell, and the first half with the whole cell.
+void expect_identities(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
+                       const reference::Options& options, Sums& sums) {
+  const auto halves = halves_of(cell);
+  if (halves.empty()) return;
+  expect_identities(mesh, halves[0], halves[1], options, sums);
+  if (sums.transitions % 4 == 0) expect_identities(mesh, cell, halves[0], options, sums);
+}
+
+void expect_seen_something(const Sums& sums) {
+  std::cout << sums.transitions << " transitions, " << sums.sides << " sides; " << sums.exposed
+            << " with newly visible parts, " << sums.occluded << " with newly hidden ones, " << sums.packets
+            << " with packets\n";
+  EXPECT_GT(sums.exposed, 0U);
+  EXPECT_GT(sums.occluded, 0U);
+  EXPECT_GT(sums.packets, 0U);
+}
+
+void expect_on_random_scenes(std::uint64_t first, std::uint64_t end) {
+  Sums sums;
+  for (const fuzz::Kind kind : fuzz::all_kinds) {
+    for (std::uint64_t i = first; i < end; ++i) {
+      const auto scene = fuzz::generate(kind, kSeed, i);
+      SCOPED_TRACE(scene.name);
+      expect_identities(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), {}, sums);
+    }
+  }
+  expect_seen_something(sums);
+}
+
+TEST(DeltaIdentities, HoldOnRandomScenes) { expect_on_random_scenes(0, 2); }
+
+TEST(DeltaIdentitiesLong, HoldOnThreeHundredRandomScenes) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  expect_on_random_scenes(2, 52);
+}
+
+// The suite: every case with a solid cell, each `step`-th of them.
+void expect_on_the_suite(std::size_t first, std::size_t step) {
+  Sums sums;
+  const auto suite = validate::read_suite(CLUES_SOURCE_DIR "/vectors");
+  for (std::size_t i = first; i < suite.size(); i += step) {
+    SCOPED_TRACE(suite[i].id);
+    reference::Options options;
+    if (suite[i].mode == validate::CaseMode::solid) options.mode = reference::Mode::solid;
+    expect_identities(suite[i].mesh, exact::ConvexCell::from_doubles(suite[i].cell), options, sums);
+  }
+  expect_seen_something(sums);
+}
+
+TEST(DeltaIdentities, HoldOnPartOfTheSuite) { expect_on_the_suite(0, 30); }
+
+TEST(DeltaIdentitiesLong, HoldOnTheSuite) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  expect_on_the_suite(0, 1);
+}
+
+// Scene P with a triangle that only one of the cells sees, and one wrong thing at a time.
+class PlantedDelta : public ::testing::Test {
+ protected:
+  PlantedDelta() {
+    SceneBuilder scene;
+    scene.plate(-1, -1, 1, 1, 4);
+    scene.plate(-20, -20, 20, 20, 8);
+    scene.triangle({-0.9, -0.1, 5}, {-0.8, -0.1, 5}, {-0.9, 0.1, 5});
+    scene.triangle({1.15, -0.1, 5}, {1.2, -0.1, 5}, {1.15, 0.1, 5});
+    mesh_ = scene.mesh();
+    const auto a = box_cell(-2, -1, -1, 0, 1, 0), b = box_cell(0, -1, -1, 2, 1, 0);
+    from_ = map_file_of(map_of(mesh_, a));
+    to_ = map_file_of(map_of(mesh_, b));
+    delta_ = validate::record_of(reference::delta_of(mesh_, a, b, {}), true);
+    back_ = validate::record_of(reference::delta_of(mesh_, b, a, {}), true);
+  }
+  std::size_t findings() const { return validate::judge_delta(mesh_, delta_, from_, to_).findings.size(); }
+  // The first fragment with this label.
+  validate::DeltaFragment& fragment(SeenFrom seen) {
+    return *std::find_if(delta_.fragments.begin(), delta_.fragments.end(),
+                         [&](const auto& f) { return f.seen == seen && f.triangle >= 2; });
+  }
+
+  scene::TriangleMesh mesh_;
+  MapFile from_, to_;
+  DeltaRecord delta_, back_;
+};
+
+TEST_F(PlantedDelta, TheRightOneIsRight) {
+  EXPECT_EQ(findings(), 0U);
+  EXPECT_TRUE(validate::judge_reverse(delta_, back_).empty());
+  EXPECT_FALSE(delta_.plus.empty() && delta_.minus.empty());
+}
+
+TEST_F(PlantedDelta, ExchangedLabels) {
+  fragment(SeenFrom::to).seen = SeenFrom::from;
+  EXPECT_GT(findings(), 0U);
+}
+
+TEST_F(PlantedDelta, AFragmentThatBothSeeCalledNew) {
+  fragment(SeenFrom::both).seen = SeenFrom::to;
+  EXPECT_GT(findings(), 0U);
+}
+
+TEST_F(PlantedDelta, ANewFragmentThatIsMissing) {
+  delta_.fragments.erase(delta_.fragments.begin() + (&fragment(SeenFrom::to) - delta_.fragments.data()));
+  EXPECT_GT(findings(), 0U);
+}
+
+TEST_F(PlantedDelta, AFragmentTwice) {
+  const auto copy = fragment(SeenFrom::both);
+  delta_.fragments.push_back(copy);
+  EXPECT_GT(findings(), 0U);
+}
+
+TEST_F(PlantedDelta, AFragmentTurnedOver) {
+  auto& f = fragment(SeenFrom::both);
+  std::swap(f.corners[0], f.corners[1]);
+  EXPECT_GT(findings(), 0U);
+}
+
+TEST_F(PlantedDelta, ACornerMovedByABitInThePlane) {
+  fragment(SeenFrom::to).corners[0][0] += validate::Rational("1/1000000000000000000000");
+  EXPECT_GT(findings(), 0U);
+}
+
+TEST_F(PlantedDelta, AFragmentOnTheOtherSide) {
+  auto& f = fragment(SeenFrom::both);
+  f.front = !f.front;
+  EXPECT_GT(findings(), 0U);
+}
+
+TEST_F(PlantedDelta, PacketsExchanged) {
+  std::swap(delta_.plus, delta_.minus);
+  EXPECT_GT(findings(), 0U);
+}
+
+TEST_F(PlantedDelta, APlusTooFew) {
+  auto& packet = delta_.plus.empty() ? delta_.minus : delta_.plus;
+  packet.pop_back();
+  EXPECT_GT(findings(), 0U);
+}
+
+TEST_F(PlantedDelta, TheWayBackOfAnother) {
+  EXPECT_FALSE(validate::judge_reverse(delta_, delta_).empty());
+  fragment(SeenFrom::from).seen = SeenFrom::both;
+  EXPECT_FALSE(validate::judge_reverse(delta_, back_).empty());
+}
+
+}  // namespace
+}  // namespace clues::test

@@ -1,0 +1,364 @@
+// D25: streams of the server are sound on every transition and on long routes; wrong ones are caught, with step and
+// sight line.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "fuzz/generators/random_scenes.h"
+#include "reference/delta/stream_server.h"
+#include "scene/messages/error.h"
+#include "scene/stream/route.h"
+#include "tests/app/program.h"
+#include "tests/reference/support.h"
+#include "tests/seed.h"
+#include "validate/stream/judge_stream.h"
+
+namespace clues::test {
+namespace {
+
+using scene::StreamMessage;
+using Kind = StreamMessage::Kind;
+
+// A scene with walls, and a grid of cells in it.
+class Town {
+ public:
+  Town(scene::TriangleMesh mesh, const std::string& grid)
+      : mesh_(std::move(mesh)), cells_(scene::parse_cells(grid)), neighbours_(scene::neighbours_of(cells_)) {
+    for (const auto& spec : cells_) {
+      const auto map = map_of(mesh_, exact::ConvexCell::from_doubles(spec.points));
+      lists_.push_back(map.visible);
+      truth_.push_back(validate::judge_pvs(mesh_, map, {}));
+    }
+  }
+
+  reference::StreamServer server(int horizon) const { return {mesh_, lists_, neighbours_, horizon}; }
+  validate::StreamVerdict judge(const std::vector<StreamMessage>& messages) const {
+    return validate::judge_stream(mesh_, cells_, messages,
+                                  [this](std::uint32_t c) -> const validate::Judgement& { return truth_[c]; });
+  }
+  std::vector<StreamMessage> stream(const std::vector<std::uint32_t>& route, int horizon) const {
+    std::vector<StreamMessage> all;
+    auto made = server(horizon);
+    for (const std::uint32_t cell : route) {
+      for (auto& message : made.enter(cell)) all.push_back(std::move(message));
+    }
+    return all;
+  }
+
+  const scene::TriangleMesh& mesh() const { return mesh_; }
+  const std::vector<std::vector<std::uint32_t>>& neighbours() const { return neighbours_; }
+  const std::vector<std::vector<std::uint32_t>>& lists() const { return lists_; }
+
+ private:
+  scene::TriangleMesh mesh_;
+  std::vector<scene::CellSpec> cells_;
+  std::vector<std::vector<std::uint32_t>> neighbours_, lists_;
+  std::vector<validate::Judgement> truth_;
+};
+
+// Boxes in the corners of a wide floor, and triangles behind them: 3x3x2 cells between see different ones.
+const Town& town() {
+  static const Town made = [] {
+    SceneBuilder scene;
+    scene.box({-4, -4, -1}, {-3, 4, 3});
+    scene.box({3, -1, -1}, {3.5, 1, 3});
+    scene.triangle({-6, -1, 0}, {-6, 1, 0}, {-6, 0, 1});
+    scene.triangle({6, -0.25, 0}, {6, 0.25, 0}, {6, 0, 1});
+    scene.triangle({-5, -6, 0}, {-4.5, -6, 0}, {-5, -6, 1});
+    scene.triangle({6, 3, 0}, {6, 3.5, 0}, {6, 3.25, 1});
+    return Town(scene.mesh(), "grid:3x3x2:box:-2.5,-2.5,0,2.5,2.5,2");
+  }();
+  return made;
+}
+
+TEST(Stream, CellsOfATownSeeDifferentTriangles) {
+  std::set<std::vector<std::uint32_t>> different(town().lists().begin(), town().lists().end());
+  EXPECT_GT(different.size(), 2U);
+}
+
+// What the client holds is a function of the cell. So all transitions, from all cells, are all routes of any length.
+TEST(Stream, EveryTransitionIsSoundSoEveryRouteIs) {
+  for (const int horizon : {0, 1, 2}) {
+    for (std::uint32_t a = 0; a < town().neighbours().size(); ++a) {
+      for (const std::uint32_t b : town().neighbours()[a]) {
+        const auto verdict = town().judge(town().stream({a, b, a}, horizon));
+        for (const auto& f : verdict.findings) ADD_FAILURE() << a << " to " << b << ": " << f.what;
+        EXPECT_EQ(verdict.cells_entered, 3U);
+        auto there = town().server(horizon), at_once = town().server(horizon);
+        there.enter(a);
+        there.enter(b);
+        at_once.enter(b);
+        EXPECT_EQ(there.mirror().triangles(), at_once.mirror().triangles());
+      }
+    }
+  }
+}
+
+TEST(Stream, MirrorsStayEqualOnRandomRoutes) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    auto server = town().server(static_cast<int>(seed % 3));
+    validate::StreamClient client(town().mesh());
+    for (const std::uint32_t cell : scene::random_route(town().neighbours(), 20, kSeed + seed)) {
+      for (const auto& message : server.enter(cell)) {
+        for (const auto& wrong : client.apply(message)) ADD_FAILURE() << wrong;
+      }
+      ASSERT_EQ(server.mirror().bytes(), client.bytes()) << "seed " << kSeed + seed;
+    }
+  }
+}
+
+TEST(Stream, RandomRoutesAreSound) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const auto route = scene::random_route(town().neighbours(), 20, kSeed + seed);
+    const auto verdict = town().judge(town().stream(route, static_cast<int>(seed % 2)));
+    for (const auto& f : verdict.findings) ADD_FAILURE() << f.what;
+    EXPECT_EQ(verdict.cells_entered, 21U);
+  }
+}
+
+// Ten scenes, grids in the middle of each, all transitions.
+void expect_sound(std::uint64_t per_kind, const std::string& grid) {
+  for (const fuzz::Kind kind : {fuzz::Kind::axis_boxes, fuzz::Kind::tetrahedra}) {
+    for (std::uint64_t i = 0; i < per_kind; ++i) {
+      const auto scene = fuzz::generate(kind, kSeed, i);
+      SCOPED_TRACE(scene.name);
+      const Town place(scene.mesh, grid);
+      for (std::uint32_t a = 0; a < place.neighbours().size(); ++a) {
+        for (const std::uint32_t b : place.neighbours()[a]) {
+          for (const auto& f : place.judge(place.stream({a, b}, 0)).findings) ADD_FAILURE() << f.what;
+        }
+      }
+    }
+  }
+}
+
+TEST(StreamLong, OfTenScenesIsSoundOnEveryTransition) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  expect_sound(5, "grid:3x3x2:box:-3,-3,-2,3,3,2");
+}
+
+// One wrong thing at a time, in a walk through all cells of the lower layer.
+// The link is cut after every message, and a server that knows nothing of the session takes over: no hole, nothing twice.
+TEST(Stream, IsTakenUpAfterACutAtEveryMessage) {
+  for (const int horizon : {0, 1}) {
+    const std::vector<std::uint32_t> route = scene::random_route(town().neighbours(), 20, kSeed);
+    const auto whole = town().stream(route, horizon);
+    for (std::size_t have = 0; have <= whole.size(); ++have) {
+      auto other = town().server(horizon);
+      std::vector<StreamMessage> joined(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(have));
+      for (auto& message : other.resume(route, have)) joined.push_back(std::move(message));
+      ASSERT_EQ(joined.size(), whole.size());
+      EXPECT_EQ(other.messages(), whole.size());
+      EXPECT_TRUE(town().judge(joined).findings.empty()) << "cut after " << have;
+      // And the viewer goes on from there.
+      for (auto& message : other.enter(town().neighbours()[route.back()][0])) joined.push_back(std::move(message));
+      EXPECT_TRUE(town().judge(joined).findings.empty()) << "cut after " << have;
+    }
+    EXPECT_THROW(town().server(horizon).resume(route, whole.size() + 1), scene::Error);
+  }
+}
+
+// A reconnection that begins anew, though the client has its list: everything comes twice.
+TEST(Stream, AServerThatForgetsTheClientIsCaught) {
+  const auto whole = town().stream({0, 1, 2}, 0);
+  auto joined = whole;
+  for (const auto& message : town().stream({2}, 0)) joined.push_back(message);
+  EXPECT_FALSE(town().judge(joined).findings.empty());
+}
+
+TEST(StreamRequests, ComeBackAsTheyWereWritten) {
+  scene::StreamRequest request;
+  request.cell = 3;
+  EXPECT_EQ(scene::parse_stream_request(scene::to_line(request), "x", 4).cell, 3U);
+  EXPECT_THROW(scene::parse_stream_request(scene::to_line(request), "x", 3), scene::Error);
+  request.resumes = true;
+  request.route = {0, 1};
+  request.have = 5;
+  const auto back = scene::parse_stream_request(scene::to_line(request), "x", 4);
+  EXPECT_TRUE(back.resumes);
+  EXPECT_EQ(back.route, request.route);
+  EXPECT_EQ(back.have, 5U);
+  for (const char* bad : {"{}", "[]", "{\"resume\": 3}", "{\"resume\": {\"route\": [9], \"have\": 0}}",
+                          "{\"resume\": {\"route\": []}}", "{\"enter\": 0, \"x\": 1}", "enter"}) {
+    EXPECT_THROW(scene::parse_stream_request(bad, "x", 4), scene::Error) << bad;
+  }
+  EXPECT_EQ(scene::parse_stream_end(scene::stream_end_line(7)), 7U);
+  EXPECT_FALSE(scene::parse_stream_end("{\"cell\": 7}"));
+}
+
+// The program as a server, and one that forgets what it sent.
+TEST(StreamServers, TheProgramIsOne) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  const std::string cells = "grid:2x2x1:box:-0.25,-0.25,-0.25,0.25,0.25,0";
+  const auto good =
+      tests::run_clues({"conform", "--stream-server", std::string(CLUES_PROGRAM) + " serve screen.off --cells " + cells,
+                        "--scene", "screen.off", "--cells", cells, "--steps", "6"},
+                       folder.path());
+  EXPECT_EQ(good.exit_code, 0) << good.out << good.err;
+  EXPECT_NE(good.out.find("sound: 7 cells entered"), std::string::npos) << good.out;
+  EXPECT_NE(good.out.find("was cut"), std::string::npos) << good.out;
+  const auto none = tests::run_clues(
+      {"conform", "--stream-server", "echo nothing", "--scene", "screen.off", "--cells", cells}, folder.path());
+  EXPECT_EQ(none.exit_code, 1) << none.out << none.err;
+}
+
+class PlantedStream : public ::testing::Test {
+ protected:
+  PlantedStream() : messages_(town().stream({0, 1, 2, 5, 4, 3, 6, 7, 8, 7, 4, 1, 0}, 0)) {}
+  validate::StreamVerdict judge() const { return town().judge(messages_); }
+  // The message of this kind that is not the first one, with something in it.
+  StreamMessage& later(Kind kind) {
+    return *std::find_if(messages_.begin() + 1, messages_.end(), [kind](const auto& m) { return m.kind == kind; });
+  }
+  bool has(Kind kind) {
+    return std::any_of(messages_.begin() + 1, messages_.end(), [kind](const auto& m) { return m.kind == kind; });
+  }
+  // Found, by a step; and where something is missing, by a sight line.
+  void expect_caught() const {
+    const auto verdict = judge();
+    ASSERT_FALSE(verdict.findings.empty());
+    EXPECT_GT(verdict.findings[0].message, 0U);
+  }
+  void expect_caught_by_a_sight_line() const {
+    const auto verdict = judge();
+    EXPECT_TRUE(std::any_of(verdict.findings.begin(), verdict.findings.end(), [](const auto& f) { return f.witness; }));
+  }
+
+  std::vector<StreamMessage> messages_;
+};
+
+TEST_F(PlantedStream, TheRightOneIsSound) {
+  EXPECT_TRUE(judge().findings.empty());
+  EXPECT_TRUE(has(Kind::plus));
+  EXPECT_TRUE(has(Kind::minus));
+}
+
+TEST_F(PlantedStream, OnePlusLost) {
+  messages_.erase(messages_.begin() + (&later(Kind::plus) - messages_.data()));
+  expect_caught();
+  expect_caught_by_a_sight_line();
+}
+
+TEST_F(PlantedStream, OneTriangleOfAPlusLost) {
+  messages_[0].plus.pop_back();
+  expect_caught();
+}
+
+TEST_F(PlantedStream, PlusAndMinusExchanged) {
+  for (auto& m : messages_) {
+    if (m.kind != Kind::plus || &m == &messages_[0]) continue;
+    StreamMessage turned;
+    turned.kind = Kind::minus;
+    for (const auto& t : m.plus) turned.minus.push_back(t.triangle);
+    m = turned;
+    break;
+  }
+  expect_caught();
+  expect_caught_by_a_sight_line();
+}
+
+TEST_F(PlantedStream, TheMinusBeforeTheCell) {
+  for (std::size_t i = 1; i + 1 < messages_.size(); ++i) {
+    if (messages_[i].kind == Kind::cell && messages_[i + 1].kind == Kind::minus)
+      std::swap(messages_[i], messages_[i + 1]);
+  }
+  expect_caught_by_a_sight_line();  // he still sees it from the cell that he leaves
+}
+
+TEST_F(PlantedStream, TheMinusOfTheWrongCell) {
+  auto& minus = later(Kind::minus);
+  const auto cell =
+      std::find_if(messages_.rbegin(), messages_.rend(), [](const auto& m) { return m.kind == Kind::cell; });
+  minus.minus = town().lists()[cell->cell];
+  expect_caught();
+}
+
+// FIG. 45C: a count that is decremented too often frees a vertex that is used.
+TEST_F(PlantedStream, AReferenceCountOneTooLow) {
+  auto& minus = later(Kind::minus);
+  const auto& stays = messages_[0].plus[0];
+  minus.unused.push_back(stays.corners[0]);
+  const auto verdict = judge();
+  ASSERT_FALSE(verdict.findings.empty());
+  EXPECT_NE(verdict.findings[0].what.find("unused"), std::string::npos);
+}
+
+TEST_F(PlantedStream, AReferenceCountOneTooHigh) {
+  for (auto& m : messages_) {
+    if (m.kind == Kind::minus && !m.unused.empty()) {
+      m.unused.pop_back();
+      break;
+    }
+  }
+  expect_caught();
+}
+
+TEST_F(PlantedStream, APrefetchThatStopsEarly) {
+  messages_ = town().stream({0, 1, 2, 5, 8}, 1);
+  EXPECT_TRUE(judge().findings.empty());
+  // All but the first cell's is cut off: the viewer goes on, and nothing comes.
+  bool first = true;
+  std::erase_if(messages_, [&](const auto& m) {
+    const bool cut = m.kind == Kind::plus && !first;
+    first = false;
+    return cut;
+  });
+  expect_caught();
+}
+
+TEST_F(PlantedStream, ATriangleSentTwice) {
+  StreamMessage again = messages_[0];
+  again.vertices.clear();
+  messages_.insert(messages_.begin() + 1, again);
+  expect_caught();
+}
+
+TEST_F(PlantedStream, AStepThroughACorner) {
+  messages_ = town().stream({0, 4}, 2);
+  const auto verdict = judge();
+  ASSERT_EQ(verdict.findings.size(), 1U);
+  EXPECT_NE(verdict.findings[0].what.find("whole face"), std::string::npos);
+}
+
+TEST_F(PlantedStream, AVertexThatIsRounded) {
+  messages_[0].vertices[0].at[0] += 1e-15;
+  expect_caught();
+}
+
+TEST_F(PlantedStream, SlotZeroIsNothing) {
+  messages_[0].plus[0].slot = 0;
+  expect_caught();
+}
+
+TEST(StreamFile, ComesBackAsItWasWritten) {
+  const tests::TestFolder folder;
+  const auto messages = town().stream({0, 1, 2, 5, 4, 3}, 1);
+  std::string text = scene::to_line(scene::StreamHeader{"abc", "grid", town().mesh().triangles.size(), 18});
+  for (const auto& m : messages) text += scene::to_line(m);
+  const auto back = scene::read_stream(folder.write("s.jsonl", text));
+  std::string again = scene::to_line(back.header);
+  for (const auto& m : back.messages) again += scene::to_line(m);
+  EXPECT_EQ(again, text);
+}
+
+TEST(StreamFile, RefusesWhatIsNone) {
+  const tests::TestFolder folder;
+  const std::string header = scene::to_line(scene::StreamHeader{"abc", "grid", 10, 2});
+  for (const std::string& bad :
+       {std::string(), std::string("{}\n"), std::string("{\"cell\": 0}\n"), header + "{\"cell\": 2}\n",
+        header + "{\"cell\": -1}\n", header + "{\"plus\": []}\n", header + "{\"minus\": [10], \"unused\": []}\n",
+        header + "{\"plus\": [[0,0,1,2,3]], \"vertices\": []}\n", header + "nonsense\n", header + "[1]\n",
+        header + "{\"plus\": [[0,1,1,2,3]], \"vertices\": [[1,1e999,0,0]]}\n",
+        header + "{\"plus\": [[0,1,1,2]], \"vertices\": []}\n", header + "{\"minus\": [], \"unused\": [0]}\n"}) {
+    EXPECT_THROW(scene::read_stream(folder.write("s.jsonl", bad)), scene::Error) << bad;
+  }
+  EXPECT_THROW(scene::read_route(folder.write("r.txt", "0 1 7"), 7), scene::Error);
+  EXPECT_THROW(scene::read_route(folder.write("r.txt", "# none\n"), 7), scene::Error);
+  EXPECT_THROW(scene::read_route(folder.write("r.txt", "1.5"), 7), scene::Error);
+}
+
+}  // namespace
+}  // namespace clues::test

@@ -1,0 +1,36 @@
+// The visible regions of a map as a sewn mesh (reference/delta/fragments.h), as files: exact (*.json,
+// "clues-fragments/1") or with coordinates rounded to doubles (*.obj, *.ply).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reference/visibility/map/visibility_map.h"
+
+namespace clues::validate {
+
+// Where input triangles coincide it stands for the first that counts.
+struct FileFragment {
+  std::array<std::uint64_t, 3> corners{};  // counter-clockwise from the side
+  std::uint32_t triangle = 0;
+  bool front = true;
+};
+
+struct FragmentsRecord {
+  std::string scene_file, scene_sha256;
+  std::uint64_t scene_triangles = 0;
+  std::vector<exact::Point3> exact;     // in the coordinates of the scene
+  std::vector<scene::Point> rounded;    // to about the nearest doubles
+  std::vector<FileFragment> fragments;  // by triangle, fronts first
+};
+
+// The map may be in its own range. File and hash are left to the caller. O(n log n).
+FragmentsRecord fragments_of(const reference::VisibilityMap& map);
+
+std::string to_obj_text(const FragmentsRecord& record);  // a group for each side of each triangle
+std::string to_ply_text(const FragmentsRecord& record);  // faces have "triangle", and "back": 0 or 1
+std::string to_json_text(const FragmentsRecord& record);
+
+}  // namespace clues::validate

@@ -1,0 +1,169 @@
+#include "validate/stream/judge_stream.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <set>
+
+#include "scene/stream/route.h"
+
+namespace clues::validate {
+namespace {
+
+using scene::StreamMessage;
+
+// Bit for bit: -0 is not 0.
+bool same_bits(const scene::Point& a, const scene::Point& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+  });
+}
+
+class StreamJudge {
+ public:
+  StreamJudge(const scene::TriangleMesh& mesh, const std::vector<scene::CellSpec>& cells, const CellTruth& truth,
+              std::size_t most)
+      : cells_(cells), truth_(truth), most_(most), client_(mesh) {}
+
+  StreamVerdict run(const std::vector<StreamMessage>& messages) {
+    for (const StreamMessage& message : messages) {
+      ++number_;
+      for (const std::string& what : client_.apply(message)) add({number_, what, cell_, {}});
+      verdict_.sent += message.plus.size();
+      verdict_.taken += message.minus.size();
+      verdict_.most_held = std::max<std::uint64_t>(verdict_.most_held, client_.size());
+      if (message.kind == StreamMessage::Kind::cell) enter(message.cell);
+      if (message.kind == StreamMessage::Kind::minus && cell_) require_visible(*cell_, "is taken away");
+      if (verdict_.findings.size() >= most_) break;
+    }
+    return std::move(verdict_);
+  }
+
+ private:
+  void add(StreamFinding finding) {
+    if (verdict_.findings.size() < most_) verdict_.findings.push_back(std::move(finding));
+  }
+
+  void enter(std::uint32_t cell) {
+    ++verdict_.cells_entered;
+    if (cell_ && !scene::may_follow(cells_[*cell_].points, cells_[cell].points))
+      add({number_, fmt::format("cell {} has no whole face in common with cell {}", cell, *cell_), cell, {}});
+    if (cell_) require_visible(*cell_, "is not there on the face to the next cell");
+    cell_ = cell;
+    require_visible(cell, "is not there");
+  }
+
+  void require_visible(std::uint32_t cell, const char* how) {
+    const Judgement& judgement = truth_(cell);
+    for (std::uint32_t t = 0; t < judgement.triangles.size(); ++t) {
+      const bool seen = judgement.triangles[t] == TriangleVerdict::missing_visible;
+      const bool open = judgement.triangles[t] == TriangleVerdict::missing_undecided;
+      if ((!seen && !open) || client_.holds(t)) continue;
+      if (open) {
+        ++verdict_.undecided;
+        continue;
+      }
+      StreamFinding finding{number_, fmt::format("triangle {} is visible from cell {} and {}", t, cell, how), cell, {}};
+      const auto at = std::find_if(judgement.witnesses.begin(), judgement.witnesses.end(),
+                                   [t](const Witness& w) { return w.triangle == t; });
+      if (at != judgement.witnesses.end()) finding.witness = *at;
+      add(std::move(finding));
+    }
+  }
+
+  const std::vector<scene::CellSpec>& cells_;
+  const CellTruth& truth_;
+  std::size_t most_;
+  StreamClient client_;
+  StreamVerdict verdict_;
+  std::uint64_t number_ = 0;
+  std::optional<std::uint32_t> cell_;
+};
+
+}  // namespace
+
+std::vector<std::string> StreamClient::apply(const StreamMessage& message) {
+  std::vector<std::string> wrong;
+  if (message.kind == StreamMessage::Kind::plus) apply_plus(message, wrong);
+  if (message.kind == StreamMessage::Kind::minus) apply_minus(message, wrong);
+  return wrong;
+}
+
+void StreamClient::apply_plus(const StreamMessage& message, std::vector<std::string>& wrong) {
+  for (const scene::StreamVertex& v : message.vertices) {
+    if (v.slot == 0 || vertices_.contains(v.slot))
+      wrong.push_back(fmt::format("a vertex is sent into slot {}, which is in use", v.slot));
+    vertices_[v.slot] = v.at;
+  }
+  for (const scene::StreamTriangle& t : message.plus) {
+    if (triangles_.contains(t.triangle)) {
+      wrong.push_back(fmt::format("triangle {} is sent, and is there already", t.triangle));
+      continue;
+    }
+    if (t.slot == 0 || slots_.contains(t.slot))
+      wrong.push_back(fmt::format("triangle {} is sent into slot {}, which is in use", t.triangle, t.slot));
+    slots_[t.slot] = t.triangle;
+    triangles_[t.triangle] = t;
+  }
+  // Of all triangles, because a vertex that is sent into the wrong slot changes others.
+  for (const auto& [id, t] : triangles_) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = vertices_.find(t.corners[i]);
+      if (at == vertices_.end() || !same_bits(at->second, mesh_->points[mesh_->triangles[id][i]])) {
+        wrong.push_back(fmt::format("corner {} of triangle {} is not that of the scene", i, id));
+        break;
+      }
+    }
+  }
+}
+
+void StreamClient::apply_minus(const StreamMessage& message, std::vector<std::string>& wrong) {
+  for (const std::uint32_t t : message.minus) {
+    const auto at = triangles_.find(t);
+    if (at == triangles_.end()) {
+      wrong.push_back(fmt::format("triangle {} is taken away, and is not there", t));
+      continue;
+    }
+    slots_.erase(at->second.slot);
+    triangles_.erase(at);
+  }
+  for (const std::uint32_t slot : message.unused) {
+    if (vertices_.erase(slot) == 0) wrong.push_back(fmt::format("slot {} is called unused, and is so already", slot));
+  }
+  std::set<std::uint32_t> used;
+  for (const auto& [id, t] : triangles_) {
+    for (const std::uint32_t slot : t.corners) {
+      used.insert(slot);
+      if (!vertices_.contains(slot))
+        wrong.push_back(fmt::format("slot {} is called unused, and triangle {} uses it", slot, id));
+    }
+  }
+  for (const auto& [slot, unused] : vertices_) {
+    if (!used.contains(slot))
+      wrong.push_back(fmt::format("slot {} is used by no triangle, and is not called unused", slot));
+  }
+}
+
+std::string StreamClient::bytes() const {
+  std::string text;
+  for (const auto& [slot, id] : slots_) {
+    const auto& c = triangles_.at(id).corners;
+    text += fmt::format("t {} {} {} {} {}\n", slot, id, c[0], c[1], c[2]);
+  }
+  for (const auto& [slot, at] : vertices_) {
+    StreamMessage one;
+    one.kind = StreamMessage::Kind::plus;
+    one.vertices.push_back({slot, at});
+    text += scene::to_line(one);
+  }
+  return text;
+}
+
+StreamVerdict judge_stream(const scene::TriangleMesh& mesh, const std::vector<scene::CellSpec>& cells,
+                           const std::vector<StreamMessage>& messages, const CellTruth& truth,
+                           std::size_t most_findings) {
+  return StreamJudge(mesh, cells, truth, most_findings).run(messages);
+}
+
+}  // namespace clues::validate

@@ -1,0 +1,72 @@
+// D25, judged by what the client holds and by nothing else: is every triangle that the viewer can see there, at every
+// step? Believes nobody: a triangle is missing only with a sight line that is checked, or because it meets the cell (D3).
+//
+// A stream is unsound where
+//   - a `cell` message comes while something visible from that cell, or from the one that the viewer comes from, is not
+//     there (he is on the face between them), or a later message takes away what is visible from his cell;
+//   - a triangle is sent that is there, or taken away though it is not there;
+//   - a slot is given to two triangles, or to none (slot 0); a vertex is sent into a slot that is in use; a slot is
+//     called unused while a triangle uses it, or not called unused though none does;
+//   - a triangle has corners other than the scene's, bit for bit;
+//   - the viewer steps into a cell that neither shares a whole face with his, nor holds it or is held by it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/cell_spec.h"
+#include "scene/mesh/mesh.h"
+#include "scene/stream/stream_file.h"
+#include "validate/verdicts/judge.h"
+
+namespace clues::validate {
+
+// A client's display list, made of nothing but the messages.
+class StreamClient {
+ public:
+  explicit StreamClient(const scene::TriangleMesh& mesh) : mesh_(&mesh) {}  // keeps a reference
+
+  // What is wrong with the message; it is carried out as far as it makes sense.
+  std::vector<std::string> apply(const scene::StreamMessage& message);
+
+  std::size_t size() const { return triangles_.size(); }
+  bool holds(std::uint32_t triangle) const { return triangles_.contains(triangle); }
+  std::string bytes() const;  // as DisplayList::bytes
+
+ private:
+  void apply_plus(const scene::StreamMessage& message, std::vector<std::string>& wrong);
+  void apply_minus(const scene::StreamMessage& message, std::vector<std::string>& wrong);
+
+  const scene::TriangleMesh* mesh_;
+  std::map<std::uint32_t, scene::StreamTriangle> triangles_;  // by id
+  std::map<std::uint32_t, std::uint32_t> slots_;              // of triangles: ids
+  std::map<std::uint32_t, scene::Point> vertices_;            // by slot
+};
+
+struct StreamFinding {
+  std::uint64_t message = 0;  // from 1; in a file it is on the line after that
+  std::string what;           // one line
+  std::optional<std::uint32_t> cell;
+  std::optional<Witness> witness;  // of a missing triangle
+};
+
+struct StreamVerdict {
+  std::vector<StreamFinding> findings;  // none: nothing visible was ever missing
+  std::uint64_t cells_entered = 0;
+  std::uint64_t undecided = 0;  // times that a triangle was missing of which nothing is proved
+  std::uint64_t sent = 0, taken = 0, most_held = 0;
+};
+
+// What is visible from a cell: the judgement of an empty list (judge.h).
+using CellTruth = std::function<const Judgement&(std::uint32_t cell)>;
+
+// At most `most_findings`. O(messages + triangles of a cell at each step).
+StreamVerdict judge_stream(const scene::TriangleMesh& mesh, const std::vector<scene::CellSpec>& cells,
+                           const std::vector<scene::StreamMessage>& messages, const CellTruth& truth,
+                           std::size_t most_findings = 20);
+
+}  // namespace clues::validate
