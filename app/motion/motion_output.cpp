@@ -1,5 +1,5 @@
 // Frames as text.
-#include "app/motion_output.h"
+#include "app/motion/motion_output.h"
 
 #include <fmt/format.h>
 

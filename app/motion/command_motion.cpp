@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/commands/motion_check.h"
 #include "app/common.h"
 #include "app/json_output.h"
-#include "app/motion_output.h"
+#include "app/motion/motion_check.h"
+#include "app/motion/motion_output.h"
 #include "app/progress.h"
 #include "fastpath/motion/walk.h"
 #include "scene/files/atomic_file.h"

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "app/commands.h"
-#include "app/commands/motion_check.h"
 #include "app/common.h"
 #include "app/json_output.h"
+#include "app/motion/motion_check.h"
 #include "app/progress.h"
 #include "scene/formats/number.h"
 #include "scene/messages/error.h"
