@@ -117,8 +117,8 @@ std::vector<Hole> holes_of(const std::vector<JudgedCell>& cells) {
 }
 
 struct Totals {
-  std::uint64_t listed = 0, ours = 0, witnessed = 0, with_holes = 0, holes = 0, undecided = 0, sight_lines = 0,
-                fallbacks = 0;
+  std::uint64_t listed = 0, ours = 0, witnessed = 0, with_holes = 0, holes = 0, undecided = 0, contradictions = 0,
+                sight_lines = 0, fallbacks = 0;
 };
 
 Totals totals_of(const std::vector<JudgedCell>& cells) {
@@ -131,6 +131,7 @@ Totals totals_of(const std::vector<JudgedCell>& cells) {
     t.with_holes += j.holes.empty() ? 0 : 1;
     t.holes += j.holes.size();
     t.undecided += j.undecided.size();
+    t.contradictions += j.contradictions.size();
     t.sight_lines += j.sight_lines;
     t.fallbacks += j.fallbacks;
   }
@@ -141,15 +142,19 @@ nlohmann::json exact_point(const exact::Point3& p) {
   return {exact::to_string_exact(p.x()), exact::to_string_exact(p.y()), exact::to_string_exact(p.z())};
 }
 
-nlohmann::json json_of(const JudgedCell& cell, const scene::FlaggedMesh& mesh) {
-  nlohmann::json holes = nlohmann::json::array();
-  for (const auto& w : cell.judgement.holes) {
-    holes.push_back({{"triangle", w.triangle},
-                     {"part", mesh.name_of(w.triangle)},
-                     {"side", w.front ? "front" : "back"},
-                     {"v", exact_point(w.v)},
-                     {"p", exact_point(w.p)}});
+nlohmann::json json_of(const std::vector<validate::Witness>& witnesses, const scene::FlaggedMesh& mesh) {
+  nlohmann::json all = nlohmann::json::array();
+  for (const auto& w : witnesses) {
+    all.push_back({{"triangle", w.triangle},
+                   {"part", mesh.name_of(w.triangle)},
+                   {"side", w.front ? "front" : "back"},
+                   {"v", exact_point(w.v)},
+                   {"p", exact_point(w.p)}});
   }
+  return all;
+}
+
+nlohmann::json json_of(const JudgedCell& cell, const scene::FlaggedMesh& mesh) {
   return {{"cell", cell.name},
           {"cluster", cell.group},
           {"points", cell.points},
@@ -157,7 +162,8 @@ nlohmann::json json_of(const JudgedCell& cell, const scene::FlaggedMesh& mesh) {
           {"may_be_seen", cell.judgement.may_be_seen.size()},
           {"witnessed", cell.judgement.witnessed},
           {"fallbacks", cell.judgement.fallbacks},
-          {"holes", holes},
+          {"holes", json_of(cell.judgement.holes, mesh)},
+          {"contradictions", json_of(cell.judgement.contradictions, mesh)},
           {"undecided", cell.judgement.undecided}};
 }
 
@@ -173,6 +179,7 @@ std::string json_text(const CheckCellsRequest& request, const std::string& sha25
              {"cells_with_holes", t.with_holes},
              {"holes", t.holes},
              {"undecided", t.undecided},
+             {"contradictions", t.contradictions},
              {"sight_lines", t.sight_lines},
              {"cells", cells}}
              .dump(1) +
@@ -187,6 +194,12 @@ std::string table_of(const Asked& asked, const scene::FlaggedMesh& mesh, const T
       "cells", "listed", "may be seen", "witnessed", "with holes", "holes", "undecided", asked.cells.size(),
       average(t.listed), average(t.ours), average(t.witnessed), t.with_holes, t.holes, t.undecided);
   if (asked.slivers > 0) text += fmt::format("{} slivers without an inner cell were not judged\n", asked.slivers);
+  text += fmt::format("{} sight lines decided exactly\n", t.sight_lines);
+  if (t.contradictions > 0)
+    text += fmt::format(
+        "CONTRADICTION: {} triangles that the fast kernel calls hidden are seen; please report this scene (--json has "
+        "the sight lines)\n",
+        t.contradictions);
   const auto holes = holes_of(asked.cells);
   if (!holes.empty()) text += fmt::format("the longest free sight lines to what is missing, of {}:\n", holes.size());
   for (std::size_t i = 0; i < std::min(holes.size(), shown_holes); ++i) {
@@ -210,6 +223,7 @@ int check_all_cells(const CheckCellsRequest& request) {
   const Totals totals = totals_of(asked.cells);
   if (request.json.asked()) request.json.write(json_text(request, sha256, asked, mesh, totals));
   if (!request.json.on_stdout()) print(table_of(asked, mesh, totals));
+  if (totals.contradictions > 0) return oracle_contradiction;
   return totals.holes > 0 ? findings : totals.undecided > 0 ? not_everything_ran : fine;
 }
 

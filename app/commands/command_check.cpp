@@ -143,7 +143,10 @@ void add_check_command(CLI::App& program, int& status) {
           "  decided exactly. A hole is one with a confirmed sight line from the inner cell of a leaf "
           "(docs/real-levels.md); "
           "what has\n"
-          "  none is undecided. A table, and the longest sight lines; --json has all of them.\n\n") +
+          "  none is undecided. Lines are aimed at what the kernel calls hidden, too: one that arrives is exit code 4. "
+          "A table, "
+          "and\n"
+          "  the longest sight lines; --json has all of them.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt\n"

@@ -10,8 +10,8 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/map/umbra_output.h"
 #include "app/progress.h"
-#include "app/umbra_output.h"
 #include "reference/delta/virtual_occluders.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"

@@ -21,7 +21,7 @@ namespace {
 using scene::Point;
 using Ids = std::vector<std::uint32_t>;
 
-constexpr int lines_to_listed = 64, lines_to_missing = 4096;
+constexpr int lines_to_listed = 64, lines_to_missing = 4096, lines_to_hidden = 128;
 
 class CellJudge {
  public:
@@ -31,45 +31,75 @@ class CellJudge {
         lines_(scene.blocking(), points, cell_, fastpath::SideMode::sheet),
         viewpoints_(lines_.viewpoints(cell_)) {}
 
-  // Triangles that block, of which a sight line reaches a point.
-  std::uint64_t count_reached(const Ids& ids, std::atomic<std::uint64_t>& sight_lines) const {
-    Ids blocking;
-    for (const auto t : ids) {
-      if (const auto at = scene_.find_blocking(t)) blocking.push_back(*at);
-    }
-    const auto reached = lines_.reach(blocking, viewpoints_, lines_to_listed);
-    const auto count = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 1));
-    sight_lines += 2 * count;  // at least: the lines that did not reach it are not counted
-    return count;
+  // Triangles of which a sight line reaches a point.
+  std::uint64_t count_reached(const Ids& blocking, const Ids& passing, std::atomic<std::uint64_t>& sight_lines) const {
+    Ids places;
+    for (const auto t : blocking) places.push_back(*scene_.find_blocking(t));
+    const auto reached = lines_.reach(places, viewpoints_, lines_to_listed);
+    const auto walls = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 1));
+    sight_lines += walls;  // at least: those that reached nothing are not counted
+    std::atomic<std::uint64_t> others{0};
+    tbb::parallel_for(std::size_t{0}, passing.size(), [&](std::size_t i) {
+      if (reaches_passing(passing[i], sight_lines)) ++others;
+    });
+    return walls + others;
   }
 
-  std::optional<Witness> find_witness(std::uint32_t id, std::atomic<std::uint64_t>& sight_lines) const {
-    const auto& corners = scene_.scene().mesh.triangles[id];
-    fastpath::Corners t{};
-    for (std::size_t i = 0; i < 3; ++i) t[i] = scene_.scene().mesh.points[corners[i]];
+  std::optional<Witness> find_witness(std::uint32_t id, int tries, std::atomic<std::uint64_t>& sight_lines) const {
+    const auto t = corners_of(id);
     fastpath::SegmentQueries queries(scene_.blocking());
     const auto at = scene_.find_blocking(id);
     const Ids itself = at ? Ids{*at} : Ids{};
     std::mt19937_64 random(id);
-    std::uniform_real_distribution<double> unit(0, 1);
-    for (int i = 0; i < lines_to_missing && !viewpoints_.empty(); ++i) {
-      const Point& v = viewpoints_[random() % viewpoints_.size()];
-      std::array<double, 3> w{unit(random), unit(random), unit(random)};
-      if (i % 2 == 1) w[random() % 3] += 30;  // what is seen of a triangle in part, is most often a corner
-      const double sum = w[0] + w[1] + w[2];
-      Point p{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        p[c] = (w[0] * t[0][c] + w[1] * t[1][c] + w[2] * t[2][c]) / sum;
-        p[c] += (p[c] - v[c]) * 0x1p-20;
-      }
+    for (int i = 0; i < tries && !viewpoints_.empty(); ++i) {
+      const Line line = line_to(t, i, random);
       ++sight_lines;
-      if (queries.any_hit({v, p}, {itself, &lines_.cell()})) continue;
-      if (auto witness = confirmed(id, v, p)) return witness;
+      if (queries.any_hit({line.v, line.p}, {itself, &lines_.cell()})) continue;
+      if (auto witness = confirmed(id, line.v, line.p)) return witness;
     }
     return std::nullopt;
   }
 
  private:
+  struct Line {
+    Point v, p;
+  };
+
+  // The i-th line to a triangle: a little beyond it, so that it crosses it or misses it.
+  Line line_to(const fastpath::Corners& t, int i, std::mt19937_64& random) const {
+    std::uniform_real_distribution<double> unit(0, 1);
+    Line line{viewpoints_[random() % viewpoints_.size()], {}};
+    std::array<double, 3> w{unit(random), unit(random), unit(random)};
+    if (i % 2 == 1) w[random() % 3] += 30;  // what is seen of a triangle in part, is most often a corner
+    const double sum = w[0] + w[1] + w[2];
+    for (std::size_t c = 0; c < 3; ++c) {
+      line.p[c] = (w[0] * t[0][c] + w[1] * t[1][c] + w[2] * t[2][c]) / sum;
+      line.p[c] += (line.p[c] - line.v[c]) * 0x1p-20;
+    }
+    return line;
+  }
+
+  fastpath::Corners corners_of(std::uint32_t id) const {
+    fastpath::Corners t{};
+    for (std::size_t i = 0; i < 3; ++i) t[i] = scene_.scene().mesh.points[scene_.scene().mesh.triangles[id][i]];
+    return t;
+  }
+
+  bool reaches_passing(std::uint32_t id, std::atomic<std::uint64_t>& sight_lines) const {
+    const auto t = corners_of(id);
+    fastpath::SegmentQueries walls(scene_.blocking()), others(scene_.passing());
+    std::mt19937_64 random(id);
+    for (int i = 0; i < lines_to_listed && !viewpoints_.empty(); ++i) {
+      const Line line = line_to(t, i, random);
+      ++sight_lines;
+      if (walls.any_hit({line.v, line.p}, {{}, &lines_.cell()})) continue;
+      const auto crossed = others.all_hits({line.v, line.p}, {{}, &lines_.cell()});
+      if (std::any_of(crossed.begin(), crossed.end(), [&](std::uint32_t k) { return scene_.passing_id(k) == id; }))
+        return true;
+    }
+    return false;
+  }
+
   // Where the line from v through p crosses the triangle, if the witness checker agrees.
   std::optional<Witness> confirmed(std::uint32_t id, const Point& v, const Point& p) const {
     const auto& corners = scene_.scene().mesh.triangles[id];
@@ -115,24 +145,36 @@ CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vect
   CellJudgement out;
   out.listed = list.size();
   out.fallbacks = seen.conservative_fallbacks;
-  std::merge(seen.blocking.begin(), seen.blocking.end(), seen.passing.begin(), seen.passing.end(),
-             std::back_inserter(out.may_be_seen));
-  std::erase_if(out.may_be_seen, [&](std::uint32_t t) { return !scene.scene().counting(t); });
+  Ids walls = seen.blocking;
+  std::erase_if(walls, [&](std::uint32_t t) { return !scene.scene().counting(t); });
+  std::merge(walls.begin(), walls.end(), seen.passing.begin(), seen.passing.end(), std::back_inserter(out.may_be_seen));
   std::atomic<std::uint64_t> sight_lines{0};
   const CellJudge judge(scene, cell);
-  out.witnessed = judge.count_reached(out.may_be_seen, sight_lines);
+  out.witnessed = judge.count_reached(walls, seen.passing, sight_lines);
   Ids missing;
   std::set_difference(out.may_be_seen.begin(), out.may_be_seen.end(), list.begin(), list.end(),
                       std::back_inserter(missing));
-  std::vector<std::optional<Witness>> found(missing.size());
-  tbb::parallel_for(std::size_t{0}, missing.size(),
-                    [&](std::size_t i) { found[i] = judge.find_witness(missing[i], sight_lines); });
+  const auto search = [&](const Ids& ids, int tries) {
+    std::vector<std::optional<Witness>> found(ids.size());
+    tbb::parallel_for(std::size_t{0}, ids.size(),
+                      [&](std::size_t i) { found[i] = judge.find_witness(ids[i], tries, sight_lines); });
+    return found;
+  };
+  const auto found = search(missing, lines_to_missing);
   for (std::size_t i = 0; i < missing.size(); ++i) {
     if (found[i]) {
       out.holes.push_back(*found[i]);
     } else {
       out.undecided.push_back(missing[i]);
     }
+  }
+  Ids hidden;
+  for (std::uint32_t t = 0; t < scene.scene().mesh.triangles.size(); ++t) {
+    if (scene.scene().counting(t) && !std::binary_search(out.may_be_seen.begin(), out.may_be_seen.end(), t))
+      hidden.push_back(t);
+  }
+  for (const auto& witness : search(hidden, lines_to_hidden)) {
+    if (witness) out.contradictions.push_back(*witness);
   }
   out.sight_lines = sight_lines;
   return out;

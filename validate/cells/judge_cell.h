@@ -13,11 +13,12 @@ namespace clues::validate {
 struct CellJudgement {
   std::vector<std::uint32_t> may_be_seen;  // counting triangles in the fast kernel's list for this cell, ascending
   std::uint64_t listed = 0;                // by the list that is judged
-  std::uint64_t witnessed = 0;           // of those that may be seen and block: with a free sight line, decided exactly
-  std::vector<Witness> holes;            // missing and visible, ascending by triangle
-  std::vector<std::uint32_t> undecided;  // missing, and no sight line was found, ascending
-  std::uint64_t sight_lines = 0;         // decided exactly
-  std::uint64_t fallbacks = 0;           // of the kernel
+  std::uint64_t witnessed = 0;             // of those that may be seen: with a free sight line, decided exactly
+  std::vector<Witness> holes;              // missing and visible, ascending by triangle
+  std::vector<std::uint32_t> undecided;    // missing, and no sight line was found, ascending
+  std::vector<Witness> contradictions;  // hidden, says the kernel, and yet with a confirmed sight line. Must stay empty
+  std::uint64_t sight_lines = 0;        // decided exactly
+  std::uint64_t fallbacks = 0;          // of the kernel
 };
 
 // `list` is ascending. The cell is W_in: who is accused of a hole has one. The same answer in every run and for any number of threads of the current arena.
