@@ -196,15 +196,41 @@ def store():
     for name, statements in (("whole", good), ("begun", tables[:2]), ("of_another_plan", good + ("UPDATE about SET value = 'other'",)),
                              ("trigger", good + ("CREATE TRIGGER t AFTER UPDATE ON about BEGIN DELETE FROM findings; END",)),
                              ("finding_is_none", good + ("UPDATE findings SET finding = '{}'",))):
-        with tempfile.TemporaryDirectory() as folder:
-            file = pathlib.Path(folder) / "store"
-            base = sqlite3.connect(file)
-            base.execute("PRAGMA page_size = 512")
-            for statement in statements:
-                base.execute(statement)
-            base.commit()
-            base.close()
-            put("store", name, file.read_bytes())
+        put("store", name, database(statements))
+
+
+def database(statements):
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "store"
+        base = sqlite3.connect(file)
+        base.execute("PRAGMA page_size = 512")
+        for statement in statements:
+            base.execute(statement)
+        base.commit()
+        base.close()
+        return file.read_bytes()
+
+
+def bake():
+    # A list of 12 triangles as zstd packs what it cannot make shorter: one raw block.
+    packed = lambda bits: "x'" + (b"\x28\xb5\x2f\xfd\x20" + bytes([len(bits), 8 * len(bits) + 1, 0, 0]) + bits).hex() + "'"
+    points = "x'" + struct.pack("<12d", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1).hex() + "'"
+    good = ("CREATE TABLE about (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
+            "CREATE TABLE nodes (id INTEGER PRIMARY KEY, node INTEGER NOT NULL, points BLOB NOT NULL,"
+            " list BLOB, listed INTEGER, fallbacks INTEGER, mapped INTEGER, passes INTEGER)",
+            "CREATE TABLE cells (id INTEGER PRIMARY KEY, name TEXT NOT NULL, node INTEGER NOT NULL, cluster INTEGER,"
+            " points BLOB NOT NULL, inner BLOB, list BLOB, listed INTEGER, fallbacks INTEGER, mapped INTEGER, passes INTEGER)",
+            "INSERT INTO about VALUES ('format', 'clues-bake/1'), ('scene', 'a.obj'), ('scene_sha256', '00'), ('triangles', '12'),"
+            " ('question', '{}'), ('note', ''), ('finished', 'yes')",
+            f"INSERT INTO nodes VALUES (1, 0, {points}, {packed(bytes([0xff, 0x0f]))}, 12, 0, 12, 1)",
+            f"INSERT INTO cells VALUES (0, 'a', 1, -1, {points}, NULL, {packed(bytes([0x81, 0x08]))}, 3, 0, 12, 1)",
+            f"INSERT INTO cells VALUES (1, 'b', 0, 7, {points}, {points}, {packed(bytes(2))}, 0, 2, 12, 1)")
+    for name, more in (("whole", ()), ("begun", ("UPDATE about SET value = 'no' WHERE name = 'finished'",)),
+                       ("list_of_another_length", (f"UPDATE cells SET list = {packed(bytes(3))}",)),
+                       ("triangle_that_is_none", (f"UPDATE cells SET list = {packed(bytes([1, 0x80]))}",)),
+                       ("point_at_infinity", ("UPDATE cells SET points = x'" + struct.pack("<3d", 0, float("inf"), 0).hex() + "'",)),
+                       ("view", ("CREATE VIEW v AS SELECT * FROM cells",))):
+        put("bake", name, database(good + more))
 
 
 def report():
@@ -224,5 +250,5 @@ def report():
     put("report", "of_another_version", '{"format": "clues-judgement/9"}')
 
 
-for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, report, scene_to_verdict):
+for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, report, scene_to_verdict):
     make()

@@ -11,6 +11,7 @@
 #include "fuzz/findings/store.h"
 #include "fuzz/report/html_report.h"
 #include "fuzz/shrinking/finding_folder.h"
+#include "scene/bakes/bake_store.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
 #include "scene/files/temporary_folder.h"
@@ -289,6 +290,21 @@ bool store(std::string_view bytes) {
   });
 }
 
+// What `clues check --bake` reads.
+bool bake(std::string_view bytes) {
+  const scene::TemporaryFolder folder;
+  scene::write_file_atomically(folder.file("of.bake"), bytes);
+  return accepted([&] {
+    const scene::FinishedBake opened(folder.file("of.bake"));
+    for (std::uint32_t c = 0; c < opened.plan().cells.size(); ++c) {
+      const auto list = opened.cell(c).list;
+      require(std::is_sorted(list.begin(), list.end()), "a list ascends");
+      require(list.empty() || list.back() < opened.plan().triangles, "triangles are those of the scene");
+      require(!opened.plan().cells[c].points.empty(), "a cell has points");
+    }
+  });
+}
+
 // A file in the folder of `clues report`: whatever it says is text on the page.
 bool report(std::string_view bytes) {
   bool is_result = false;
@@ -330,6 +346,7 @@ const std::vector<Target>& all_targets() {
       {"result", "a result file as an answer to a question", result},
       {"finding", "the files of a finding, and findings as the store keeps them", finding},
       {"store", "the database of a campaign", store},
+      {"bake", "a store of clues bake", bake},
       {"report", "what clues report finds in a folder", report},
       {"scene_to_verdict", "a small scene, mapped by the reference and judged by oracles of the fuzzer",
        scene_to_verdict}};
