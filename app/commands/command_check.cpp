@@ -153,6 +153,7 @@ void add_check_command(CLI::App& program, int& status) {
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs town.clues.json --json\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt --json judgement.json\n"
       "  clues check level.bsp --all-cells --json level.json\n"
+      "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 -o town.bake\n"
       "  clues check town.obj --all-cells --bake town.bake\n\n"
       "EXIT CODES\n"
       "  0 sound   1 unsound   2 bad usage or input   3 undecided   4 an oracle contradicted itself");

@@ -200,10 +200,12 @@ void BakeStore::finish() {
   const fs::path copy = file_.string() + ".finishing";
   std::error_code error;
   fs::remove(copy, error);
-  Statement(*db_, "VACUUM INTO ?").with(copy.string()).next();
-  {
-    const Database finished(copy, Database::Access::write, "the bake", "name another file");
+  try {
+    Statement(*db_, "VACUUM INTO ?").with(copy.string()).next();
+    const Database finished(copy, Database::Access::write, "the copy", "remove it");
     finished.run("UPDATE about SET value = 'yes' WHERE name = 'finished'");
+  } catch (const Error& cause) {
+    throw Error(cause.code(), db_->file() + ": is all there but cannot be written anew: " + cause.what());
   }
   db_.reset();
   fs::rename(copy, file_, error);
