@@ -77,10 +77,11 @@ scene::FlaggedMesh part_of(const scene::FlaggedMesh& scene, const Ids& ids) {
 
 // A scene to map in, with the ids that its triangles have in the whole.
 struct Part {
-  std::unique_ptr<CellLister> lister;
-  Ids ids;  // empty: the whole scene
+  std::unique_ptr<CellLister> lister;  // none: nothing is seen here
+  Ids ids;                             // empty: the whole scene
 
   CellList list(const std::vector<scene::Point>& cell, const Ids& guess) const {
+    if (!lister) return {};
     Ids local;
     for (const auto t : guess) {
       if (const auto at = std::lower_bound(ids.begin(), ids.end(), t); ids.empty()) {
@@ -173,8 +174,8 @@ class Baker {
       ids = found.visible;
       keep(PlaceKind::node, node, found, ids);
     }
-    if (ids.empty()) ids.push_back(0);  // a scene has a triangle; that one is hidden as before
-    map_below(node, std::make_shared<const Part>(Part{make_lister_(part_of(scene_, ids)), ids}), tasks);
+    auto lister = ids.empty() ? nullptr : make_lister_(part_of(scene_, ids));
+    map_below(node, std::make_shared<const Part>(Part{std::move(lister), std::move(ids)}), tasks);
   }
 
   // All that is visible, of which the store gets what counts.

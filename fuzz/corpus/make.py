@@ -225,7 +225,7 @@ def bake():
             f"INSERT INTO nodes VALUES (1, 0, {points}, {packed(bytes([0xff, 0x0f]))}, 12, 0, 12, 1)",
             f"INSERT INTO cells VALUES (0, 'a', 1, -1, {points}, NULL, {packed(bytes([0x81, 0x08]))}, 3, 0, 12, 1)",
             f"INSERT INTO cells VALUES (1, 'b', 0, 7, {points}, {points}, {packed(bytes(2))}, 0, 2, 12, 1)")
-    for name, more in (("whole", ()), ("begun", ("UPDATE about SET value = 'no' WHERE name = 'finished'",)),
+    for name, more in (("whole", ()), ("without_nodes", ("DELETE FROM nodes", "UPDATE cells SET node = 0")), ("begun", ("UPDATE about SET value = 'no' WHERE name = 'finished'",)),
                        ("list_of_another_length", (f"UPDATE cells SET list = {packed(bytes(3))}",)),
                        ("triangle_that_is_none", (f"UPDATE cells SET list = {packed(bytes([1, 0x80]))}",)),
                        ("point_at_infinity", ("UPDATE cells SET points = x'" + struct.pack("<3d", 0, float("inf"), 0).hex() + "'",)),

@@ -93,6 +93,23 @@ TEST(Bake, ShardsMergedAreTheWhole) {
     EXPECT_EQ(run_clues(bake("y", {"--shard", wrong}), folder.path()).exit_code, 2) << wrong;
 }
 
+// A group of cells that sees nothing at all: nor do its cells.
+TEST(Bake, InABoxThatSeesNothing) {
+  const TestFolder folder;
+  // The only triangles lie in one plane with all cells, so that they are never seen.
+  folder.write("flat.obj", "v 5 0 0\nv 7 0 0\nv 5 1 0\nv 7 1 0\nf 1 2 3\nf 2 4 3\n");
+  folder.write("cells.txt", "a box:0,0,0,1,1,0\nb box:2,0,0,3,1,0\n");
+  for (const char* group : {"1", "2"}) {
+    const std::string file = std::string("flat") + group;
+    const auto ran =
+        run_clues({"bake", "flat.obj", "--cells", "cells.txt", "--group", group, "-o", file}, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const scene::FinishedBake baked(folder.path() / file);
+    EXPECT_TRUE(baked.cell(0).list.empty());
+    EXPECT_TRUE(baked.cell(1).list.empty());
+  }
+}
+
 void change(const std::filesystem::path& store, const char* sql) {
   sqlite3* db = nullptr;
   ASSERT_EQ(sqlite3_open(store.c_str(), &db), SQLITE_OK);
