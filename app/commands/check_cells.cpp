@@ -17,6 +17,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/progress.h"
+#include "exact/sight/witness.h"
 #include "exact/threads.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/formats/file_bytes.h"
@@ -96,6 +97,28 @@ void judge(Asked& asked, const scene::FlaggedMesh& mesh, int threads) {
       bar.show("cells", ++done, asked.cells.size());
     });
   });
+}
+
+// To leave out what blocks makes more visible: fine for lists, but not for an accusation. So each sight line has to be free of all sides of hulls, too.
+void confirm_in_the_whole_level(Asked& asked, const std::string& file) {
+  const auto level = scene::parse_bsp(scene::read_file_bytes(file), file);
+  const auto whole = scene::scene_of_level(level, scene::HullSides::all).scene;
+  for (auto& cell : asked.cells) {
+    if (cell.judgement.holes.empty()) continue;
+    const auto points = exact::ConvexCell::from_doubles(cell.points);
+    std::erase_if(cell.judgement.holes, [&](const validate::Witness& w) {
+      Ids ids;
+      std::uint32_t place = 0;
+      for (std::uint32_t t = 0; t < whole.mesh.triangles.size(); ++t) {
+        if (t == w.triangle) place = static_cast<std::uint32_t>(ids.size());
+        if (t == w.triangle || whole.blocking(t)) ids.push_back(t);
+      }
+      if (exact::check_witness(scene::part_of(whole.mesh, ids), points, place, w.front, w.v, w.p).valid) return false;
+      cell.judgement.undecided.push_back(w.triangle);
+      return true;
+    });
+    std::sort(cell.judgement.undecided.begin(), cell.judgement.undecided.end());
+  }
 }
 
 struct Hole {
@@ -220,6 +243,7 @@ int check_all_cells(const CheckCellsRequest& request) {
   const auto mesh = scene::read_scene(request.scene);
   Asked asked = request.bake.empty() ? shipped_with(request) : baked_in(request, sha256);
   judge(asked, mesh, request.threads);
+  if (scene::lower_case_extension(request.scene) == ".bsp") confirm_in_the_whole_level(asked, request.scene);
   const Totals totals = totals_of(asked.cells);
   if (request.json.asked()) request.json.write(json_text(request, sha256, asked, mesh, totals));
   if (!request.json.on_stdout()) print(table_of(asked, mesh, totals));

@@ -31,7 +31,7 @@ std::vector<Corners> triangles_of_face(const BspFile& level, const BspFile::Face
 
 class SceneBuilder {
  public:
-  explicit SceneBuilder(const BspFile& level) : level_(level) {}
+  SceneBuilder(const BspFile& level, HullSides sides) : level_(level), sides_(sides) {}
 
   LevelScene build() {
     const auto& world = level_.models[0];
@@ -96,7 +96,7 @@ class SceneBuilder {
         ++out_.hull_sides;
         if (covered[i][k]) {
           ++out_.covered_sides;
-          continue;
+          if (sides_ == HullSides::uncovered) continue;
         }
         const auto& face = hulls_[i][k];
         for (std::size_t c = 1; c + 1 < face.size(); ++c) {
@@ -108,6 +108,7 @@ class SceneBuilder {
   }
 
   const BspFile& level_;
+  const HullSides sides_;
   FlaggedMeshBuilder builder_;
   std::vector<Corners> drawn_, opaque_;
   std::vector<std::uint32_t> brushes_;  // with a hull
@@ -117,7 +118,7 @@ class SceneBuilder {
 
 }  // namespace
 
-LevelScene scene_of_level(const BspFile& level) { return SceneBuilder(level).build(); }
+LevelScene scene_of_level(const BspFile& level, HullSides sides) { return SceneBuilder(level, sides).build(); }
 
 std::vector<std::uint32_t> shipped_set(const BspFile& level, const LevelScene& scene, std::uint32_t cluster) {
   std::vector<bool> listed(level.faces.size());

@@ -31,8 +31,12 @@ struct LevelScene {
   std::uint32_t thin_brushes = 0;                   // structural brushes that were left out: nothing is left of them
 };
 
+// Which sides of hulls are in the scene: those that nothing covers (bsp_covered.h), or all, for who is to be accused of missing something. Drawn triangles
+// have the same ids in both.
+enum class HullSides : std::uint8_t { uncovered, all };
+
 // Throws Error malformed where nothing is drawn.
-LevelScene scene_of_level(const BspFile& level);
+LevelScene scene_of_level(const BspFile& level, HullSides sides = HullSides::uncovered);
 
 // A leaf of the tree that belongs to a cluster, as a convex cell: where the viewer can be.
 struct LevelCell {
