@@ -180,6 +180,19 @@ bool make_folder(const std::filesystem::path& folder) {
   return made;
 }
 
+void make_empty_folder(const std::filesystem::path& folder) {
+  make_folder(folder);
+  if (std::filesystem::is_empty(folder)) return;
+  throw Error(ErrorCode::bad_argument,
+              folder.string() + ": is not empty; name a new folder, or remove what is in this one");
+}
+
+std::string points_text(const std::vector<scene::Point>& points) {
+  std::string text;
+  for (const auto& p : points) text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
+  return text;
+}
+
 Census take_census(const reference::VisibilityMap& map) {
   struct Flags {
     bool visible = false, hidden = false;

@@ -54,6 +54,11 @@ void require_apart(const std::vector<const std::string*>& outputs, const std::ve
 
 // Makes the folder where it does not exist (its parent must); throws Error file_unwritable. Returns whether it was made.
 bool make_folder(const std::filesystem::path& folder);
+// The same; throws Error bad_argument where something lies in it.
+void make_empty_folder(const std::filesystem::path& folder);
+
+// Vertices of an OBJ file, one a line, as short as they come back bit for bit.
+std::string points_text(const std::vector<scene::Point>& points);
 
 // Input triangles by what the cell sees of their sides that face it. Triangles meeting the cell are visible (D3).
 enum class Seen : std::uint8_t { hidden, partly, wholly };

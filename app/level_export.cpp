@@ -23,12 +23,6 @@ void write(const fs::path& path, const std::string& text) {
   if (!file) scene::fail_unwritable(path, "cannot write", errno != 0 ? errno : EIO);
 }
 
-std::string points_text(const std::vector<scene::Point>& points) {
-  std::string text;
-  for (const auto& p : points) text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
-  return text;
-}
-
 std::string scene_text(const scene::TriangleMesh& mesh) {
   std::string text = points_text(mesh.points);
   for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1);
@@ -50,11 +44,7 @@ std::string flags_text(const scene::FlaggedMesh& scene) {
 
 void export_level(const fs::path& folder, const scene::BspFile& level, const scene::LevelScene& scene,
                   const std::vector<scene::LevelCell>& cells, const std::string& about) {
-  make_folder(folder);
-  if (!fs::is_empty(folder)) {
-    throw scene::Error(scene::ErrorCode::bad_argument,
-                       folder.string() + ": is not empty; name a new folder, or remove what is in this one");
-  }
+  make_empty_folder(folder);
   make_folder(folder / "cells");
   make_folder(folder / "pvs");
   write(folder / "scene.obj", scene_text(scene.scene.mesh));

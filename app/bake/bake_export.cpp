@@ -123,12 +123,6 @@ std::uint64_t append(std::string& file, const std::vector<T>& values) {
   return offset;
 }
 
-std::string points_text(const std::vector<Point>& points) {
-  std::string text;
-  for (const auto& p : points) text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
-  return text;
-}
-
 }  // namespace
 
 std::string engine_file(const scene::FinishedBake& bake) {
@@ -174,11 +168,7 @@ std::string engine_file(const scene::FinishedBake& bake) {
 }
 
 void export_bake(const fs::path& folder, const scene::FinishedBake& bake, const scene::FlaggedMesh& scene) {
-  make_folder(folder);
-  if (!fs::is_empty(folder)) {
-    throw scene::Error(scene::ErrorCode::bad_argument,
-                       folder.string() + ": is not empty; name a new folder, or remove what is in this one");
-  }
+  make_empty_folder(folder);
   make_folder(folder / "pvs");
   make_folder(folder / "cells");
   std::string list = "# number name cluster (-1: none)\n";

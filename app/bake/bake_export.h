@@ -9,7 +9,7 @@
 
 namespace clues::app {
 
-// Throws Error unsupported where the lists have more than 2^32 entries in a cell's voxel, or a cell has no more than a plane.
+// Throws Error unsupported where there are more than 2^32 places of cells in voxels, or planes of cells.
 std::string engine_file(const scene::FinishedBake& bake);
 
 // cells.txt (number, name, cluster), pvs/NUMBER.txt, parts.txt (first triangle and name) where parts have names, engine.cluespvs. The folder must be new or empty.

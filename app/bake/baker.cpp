@@ -26,10 +26,9 @@ class FastLister : public CellLister {
  public:
   explicit FastLister(scene::FlaggedMesh scene) : scene_(std::move(scene)) {}
   CellList list(const std::vector<scene::Point>& cell, std::span<const std::uint32_t> guess) const override {
-    auto found = exact::by_threads(1, [&] { return fastpath::visible_through(scene_, cell, {}, guess); });
+    const auto found = exact::by_threads(1, [&] { return fastpath::visible_through(scene_, cell, {}, guess); });
     CellList out;
-    std::merge(found.blocking.begin(), found.blocking.end(), found.passing.begin(), found.passing.end(),
-               std::back_inserter(out.visible));
+    out.visible = found.all();
     out.fallbacks = static_cast<std::int64_t>(found.conservative_fallbacks);
     out.mapped = static_cast<std::int64_t>(found.mapped);
     out.passes = static_cast<std::int64_t>(found.passes);
@@ -64,16 +63,6 @@ class ExactLister : public CellLister {
  private:
   scene::FlaggedMesh scene_;
 };
-
-scene::FlaggedMesh part_of(const scene::FlaggedMesh& scene, const Ids& ids) {
-  scene::FlaggedMesh part;
-  part.mesh = scene::part_of(scene.mesh, ids);
-  for (const auto t : ids) {
-    part.blocks.push_back(scene.blocking(t) ? 1 : 0);
-    part.counts.push_back(scene.counting(t) ? 1 : 0);
-  }
-  return part;
-}
 
 // A scene to map in, with the ids that its triangles have in the whole.
 struct Part {
@@ -112,11 +101,11 @@ class Baker {
         below_(plan.nodes.size()) {
     for (std::uint32_t i = 1; i < plan.nodes.size(); ++i) below_[plan.nodes[i].node].nodes.push_back(i);
     for (std::uint32_t i = 0; i < plan.cells.size(); ++i) below_[plan.cells[i].node].cells.push_back(i);
-    for (std::uint32_t i = 0; i < plan.cells.size(); ++i) done_ += stored(PlaceKind::cell, i) ? 1 : 0;
+    for (std::uint32_t i = 0; i < plan.cells.size(); ++i) done_ += store.has(PlaceKind::cell, i) ? 1 : 0;
   }
 
   void run() {
-    if (is_done(0)) return;
+    if (done_ == plan_.cells.size()) return;
     tbb::task_group tasks;
     const auto whole = std::make_shared<const Part>(Part{make_lister_(scene_), {}});
     map_below(0, whole, tasks);
@@ -133,9 +122,13 @@ class Baker {
     const std::lock_guard lock(mutex_);
     return store_.find(kind, index);
   }
+  bool has_cell(std::uint32_t cell) const {
+    const std::lock_guard lock(mutex_);
+    return store_.has(PlaceKind::cell, cell);
+  }
   bool is_done(std::uint32_t node) const {
     return std::all_of(below_[node].cells.begin(), below_[node].cells.end(),
-                       [&](std::uint32_t c) { return stored(PlaceKind::cell, c).has_value(); }) &&
+                       [&](std::uint32_t c) { return has_cell(c); }) &&
            std::all_of(below_[node].nodes.begin(), below_[node].nodes.end(),
                        [&](std::uint32_t n) { return is_done(n); });
   }
@@ -174,7 +167,7 @@ class Baker {
       ids = found.visible;
       keep(PlaceKind::node, node, found, ids);
     }
-    auto lister = ids.empty() ? nullptr : make_lister_(part_of(scene_, ids));
+    auto lister = ids.empty() ? nullptr : make_lister_(scene::part_of(scene_, ids));
     map_below(node, std::make_shared<const Part>(Part{std::move(lister), std::move(ids)}), tasks);
   }
 

@@ -20,9 +20,7 @@
 #include "exact/sight/witness.h"
 #include "exact/threads.h"
 #include "scene/bakes/bake_store.h"
-#include "scene/formats/file_bytes.h"
 #include "scene/levels/bsp_scene.h"
-#include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
 #include "scene/scenes/scene_io.h"
@@ -51,12 +49,7 @@ struct Asked {
   std::uint64_t slivers = 0;  // without an inner cell
 };
 
-Asked shipped_with(const CheckCellsRequest& request) {
-  if (scene::lower_case_extension(request.scene) != ".bsp")
-    throw Error(ErrorCode::bad_argument,
-                request.scene + ": no level (.bsp), so no lists were shipped with it; name those to judge with --bake");
-  const auto level = scene::parse_bsp(scene::read_file_bytes(request.scene), request.scene);
-  const auto scene = scene::scene_of_level(level);
+Asked shipped_with(const scene::BspFile& level, const scene::LevelScene& scene) {
   Asked asked;
   std::map<std::uint32_t, Ids> lists;
   for (auto& leaf : scene::cells_of_level(level)) {
@@ -100,8 +93,9 @@ void judge(Asked& asked, const scene::FlaggedMesh& mesh, int threads) {
 }
 
 // To leave out what blocks makes more visible: fine for lists, but not for an accusation. So each sight line has to be free of all sides of hulls, too.
-void confirm_in_the_whole_level(Asked& asked, const std::string& file) {
-  const auto level = scene::parse_bsp(scene::read_file_bytes(file), file);
+void confirm_in_the_whole_level(Asked& asked, const scene::BspFile& level) {
+  if (std::all_of(asked.cells.begin(), asked.cells.end(), [](const auto& c) { return c.judgement.holes.empty(); }))
+    return;
   const auto whole = scene::scene_of_level(level, scene::HullSides::all).scene;
   for (auto& cell : asked.cells) {
     if (cell.judgement.holes.empty()) continue;
@@ -240,10 +234,15 @@ int check_all_cells(const CheckCellsRequest& request) {
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.bake});
   const auto sha256 = scene::sha256_of_file(request.scene);
-  const auto mesh = scene::read_scene(request.scene);
-  Asked asked = request.bake.empty() ? shipped_with(request) : baked_in(request, sha256);
+  const auto level = scene::read_level(request.scene);
+  if (!level && request.bake.empty())
+    throw Error(ErrorCode::bad_argument,
+                request.scene + ": no level (.bsp), so no lists were shipped with it; name those to judge with --bake");
+  const auto of_level = level ? scene::scene_of_level(*level) : scene::LevelScene{};
+  const auto mesh = level ? of_level.scene : scene::read_scene(request.scene);
+  Asked asked = request.bake.empty() ? shipped_with(*level, of_level) : baked_in(request, sha256);
   judge(asked, mesh, request.threads);
-  if (scene::lower_case_extension(request.scene) == ".bsp") confirm_in_the_whole_level(asked, request.scene);
+  if (level) confirm_in_the_whole_level(asked, *level);
   const Totals totals = totals_of(asked.cells);
   if (request.json.asked()) request.json.write(json_text(request, sha256, asked, mesh, totals));
   if (!request.json.on_stdout()) print(table_of(asked, mesh, totals));

@@ -14,7 +14,7 @@
 #include "app/bake/bake_cells.h"
 #include "app/bake/bake_export.h"
 #include "app/bake/baker.h"
-#include "app/bake/cell_tree.h"
+#include "app/bake/cell_groups.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/interrupt.h"
@@ -22,8 +22,8 @@
 #include "app/progress.h"
 #include "exact/threads.h"
 #include "scene/bakes/bake_store.h"
-#include "scene/formats/file_bytes.h"
 #include "scene/formats/number.h"
+#include "scene/levels/bsp_scene.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
@@ -72,14 +72,12 @@ scene::BakePlan plan_of(const BakeRequest& request, const std::string& sha256, c
   plan.question = question_of(request, cells);
   plan.note = std::move(cells.note);
   plan.cells = std::move(cells.cells);
-  std::vector<scene::CellSpec> specs;
-  for (const auto& cell : plan.cells) specs.push_back({cell.name, cell.points});
   // Without groups that are mapped, neighbours still help each other with guesses.
   const bool boxes = request.group > 1;
-  const auto tree = tree_over(specs, {boxes ? request.group : neighbours});
-  for (const auto& node : tree.nodes)
-    plan.nodes.push_back({"", node.parent, boxes ? node.box : std::vector<scene::Point>{}, {}, -1});
-  for (std::size_t i = 0; i < plan.cells.size(); ++i) plan.cells[i].node = tree.node_of[i];
+  auto groups = groups_of(plan.cells, boxes ? request.group : neighbours);
+  for (auto& box : groups.boxes)
+    plan.nodes.push_back({"", 0, boxes ? std::move(box) : std::vector<scene::Point>{}, {}, -1});
+  for (std::size_t i = 0; i < plan.cells.size(); ++i) plan.cells[i].node = groups.group_of[i];
   return plan;
 }
 
@@ -142,10 +140,8 @@ int run_bake(const BakeRequest& request) {
   require_writable_parent(request.json.file());
   require_apart({&request.out, &request.json.file()}, {&request.scene, &request.cells});
   const auto sha256 = scene::sha256_of_file(request.scene);
-  const auto scene = scene::read_scene(request.scene);
-  std::optional<scene::BspFile> level;
-  if (scene::lower_case_extension(request.scene) == ".bsp")
-    level = scene::parse_bsp(scene::read_file_bytes(request.scene), request.scene);
+  const auto level = scene::read_level(request.scene);
+  const auto scene = level ? scene::scene_of_level(*level).scene : scene::read_scene(request.scene);
   if (scene::sha256_of_file(request.scene) != sha256)
     throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
   const auto plan =

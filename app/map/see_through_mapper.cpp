@@ -31,11 +31,7 @@ class SeeThroughMapper : public CellMapper {
     if (request_.method.kernel == "fast") {
       const auto found = exact::by_threads(
           threads, [&] { return fastpath::visible_through(*fast_, spec.points, fastpath::LocalMapOptions{}); });
-      for (const auto t : found.blocking) {
-        if (scene_.counting(t)) visible.push_back(t);
-      }
-      visible.insert(visible.end(), found.passing.begin(), found.passing.end());
-      std::sort(visible.begin(), visible.end());
+      visible = found.counting(scene_);
       fallbacks = found.conservative_fallbacks;
     } else {
       visible = validate::visible_in_layers(

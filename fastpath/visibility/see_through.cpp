@@ -91,6 +91,18 @@ std::optional<std::uint32_t> SeeThroughScene::find_blocking(std::uint32_t id) co
   return static_cast<std::uint32_t>(at - blocking_ids_.begin());
 }
 
+std::vector<std::uint32_t> SeeThroughList::all() const {
+  std::vector<std::uint32_t> ids;
+  std::merge(blocking.begin(), blocking.end(), passing.begin(), passing.end(), std::back_inserter(ids));
+  return ids;
+}
+
+std::vector<std::uint32_t> SeeThroughList::counting(const scene::FlaggedMesh& scene) const {
+  auto ids = all();
+  std::erase_if(ids, [&](std::uint32_t t) { return !scene.counting(t); });
+  return ids;
+}
+
 SeeThroughList visible_through(const SeeThroughScene& scene, const std::vector<Point>& cell,
                                const LocalMapOptions& options, std::span<const std::uint32_t> guess) {
   return exact::by_dialed_threads(options.dials.threads, [&] {

@@ -44,6 +44,8 @@ class SeeThroughScene {
 struct SeeThroughList {
   // Ids of the scene, ascending: of S, whether they count or not, and of T.
   std::vector<std::uint32_t> blocking, passing;
+  std::vector<std::uint32_t> all() const;                                       // both, ascending
+  std::vector<std::uint32_t> counting(const scene::FlaggedMesh& scene) const;   // of these, what counts
   std::uint64_t mapped = 0, passes = 0, walks = 0, conservative_fallbacks = 0;  // of the closure of S
 };
 

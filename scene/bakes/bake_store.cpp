@@ -148,6 +148,12 @@ void BakeStore::require_same(const Database& db) const {
     throw Error(ErrorCode::malformed, db.file() + ": cells are missing; the store was damaged");
 }
 
+bool BakeStore::has(PlaceKind kind, std::uint32_t index) const {
+  Statement row(*db_, kind == PlaceKind::cell ? "SELECT 1 FROM cells WHERE id = ? AND list IS NOT NULL"
+                                              : "SELECT 1 FROM nodes WHERE id = ? AND list IS NOT NULL");
+  return row.with(static_cast<std::int64_t>(index)).next();
+}
+
 bool BakeStore::has_all_cells() const { return !Statement(*db_, "SELECT 1 FROM cells WHERE list IS NULL").next(); }
 
 std::optional<BakedPlace> BakeStore::find(PlaceKind kind, std::uint32_t index) const {
@@ -183,7 +189,7 @@ std::uint64_t BakeStore::take_from(const fs::path& file) {
   std::vector<Done> taken;
   std::uint64_t cells = 0;
   const auto take = [&](PlaceKind kind, std::uint32_t index) {
-    if (find(kind, index)) return;
+    if (has(kind, index)) return;
     auto place = find_place(other, kind, index, plan_.triangles);
     if (!place) return;
     taken.push_back({kind, index, std::move(*place)});

@@ -49,6 +49,7 @@ class BakeStore {
   BakeStore(const std::filesystem::path& file, const BakePlan& plan);
 
   bool is_finished() const { return finished_; }
+  bool has(PlaceKind kind, std::uint32_t index) const;  // whether it is mapped; its list is not unpacked
   bool has_all_cells() const;
   // Empty: not mapped yet.
   std::optional<BakedPlace> find(PlaceKind kind, std::uint32_t index) const;

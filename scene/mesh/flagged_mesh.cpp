@@ -43,6 +43,16 @@ TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>&
   return part;
 }
 
+FlaggedMesh part_of(const FlaggedMesh& scene, const std::vector<std::uint32_t>& ids) {
+  FlaggedMesh part;
+  part.mesh = part_of(scene.mesh, ids);
+  for (const auto id : ids) {
+    part.blocks.push_back(scene.blocking(id) ? 1 : 0);
+    part.counts.push_back(scene.counting(id) ? 1 : 0);
+  }
+  return part;
+}
+
 void FlaggedMeshBuilder::grow() {
   std::vector<std::uint32_t> bigger(table_.empty() ? 1024 : 2 * table_.size());
   for (const auto entry : table_) {

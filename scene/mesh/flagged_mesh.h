@@ -32,6 +32,9 @@ struct FlaggedMesh {
 // The triangles of these ids (ascending), with all points.
 TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ids);
 
+// The same, with their flags and without names.
+FlaggedMesh part_of(const FlaggedMesh& scene, const std::vector<std::uint32_t>& ids);
+
 // Triangles that may repeat points, with their flags, one after the other. Points with the same 192 bits share an index.
 class FlaggedMeshBuilder {
  public:

@@ -12,9 +12,14 @@
 
 namespace clues::scene {
 
+std::optional<BspFile> read_level(const std::filesystem::path& path) {
+  if (lower_case_extension(path) != ".bsp") return std::nullopt;
+  return parse_bsp(read_file_bytes(path), path.string());
+}
+
 FlaggedMesh read_scene(const std::filesystem::path& path) {
+  if (const auto level = read_level(path)) return scene_of_level(*level).scene;
   const std::string extension = lower_case_extension(path), file = path.string();
-  if (extension == ".bsp") return scene_of_level(parse_bsp(read_file_bytes(path), file)).scene;
   if (extension != ".gltf" && extension != ".glb") {
     FlaggedMesh scene;
     scene.mesh = read_mesh(path);

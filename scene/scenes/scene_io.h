@@ -3,8 +3,9 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <optional>
 
+#include "scene/levels/bsp_file.h"
 #include "scene/mesh/flagged_mesh.h"
 
 namespace clues::scene {
@@ -13,6 +14,9 @@ inline constexpr const char* scene_formats = "OBJ, OFF, PLY, STL, glTF (.gltf, .
 
 // By the file's extension. Throws as read_mesh, and for the others malformed, unsupported, non_finite, index_out_of_range. At least one triangle counts.
 FlaggedMesh read_scene(const std::filesystem::path& path);
+
+// The level, where the file is one by its extension (.bsp), for whoever asks more of it than its scene (scene_of_level). Throws as parse_bsp.
+std::optional<BspFile> read_level(const std::filesystem::path& path);
 
 // For whoever takes every triangle for opaque and asks about each. Throws Error unsupported for a scene in which one does not block, or does not count:
 // to take it for opaque would hide what is seen.

@@ -32,9 +32,15 @@ class CellJudge {
         viewpoints_(lines_.viewpoints(cell_)) {}
 
   // Triangles of which a sight line reaches a point.
-  std::uint64_t count_reached(const Ids& blocking, const Ids& passing, std::atomic<std::uint64_t>& sight_lines) const {
-    Ids places;
-    for (const auto t : blocking) places.push_back(*scene_.find_blocking(t));
+  std::uint64_t count_reached(const Ids& ids, std::atomic<std::uint64_t>& sight_lines) const {
+    Ids places, passing;
+    for (const auto t : ids) {
+      if (const auto at = scene_.find_blocking(t)) {
+        places.push_back(*at);
+      } else {
+        passing.push_back(t);
+      }
+    }
     const auto reached = lines_.reach(places, viewpoints_, lines_to_listed);
     const auto walls = static_cast<std::uint64_t>(std::count(reached.begin(), reached.end(), 1));
     sight_lines += walls;  // at least: those that reached nothing are not counted
@@ -145,12 +151,10 @@ CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vect
   CellJudgement out;
   out.listed = list.size();
   out.fallbacks = seen.conservative_fallbacks;
-  Ids walls = seen.blocking;
-  std::erase_if(walls, [&](std::uint32_t t) { return !scene.scene().counting(t); });
-  std::merge(walls.begin(), walls.end(), seen.passing.begin(), seen.passing.end(), std::back_inserter(out.may_be_seen));
+  out.may_be_seen = seen.counting(scene.scene());
   std::atomic<std::uint64_t> sight_lines{0};
   const CellJudge judge(scene, cell);
-  out.witnessed = judge.count_reached(walls, seen.passing, sight_lines);
+  out.witnessed = judge.count_reached(out.may_be_seen, sight_lines);
   Ids missing;
   std::set_difference(out.may_be_seen.begin(), out.may_be_seen.end(), list.begin(), list.end(),
                       std::back_inserter(missing));
