@@ -19,6 +19,7 @@
 #include "validate/conform/program_subject.h"
 #include "validate/stream/conform_server.h"
 #include "validate/stream/judge_stream.h"
+#include "validate/verdicts/judge_report.h"
 #include "validate/visible_set/settle.h"
 
 namespace clues::app {
@@ -26,11 +27,6 @@ namespace {
 
 using scene::Error;
 using scene::ErrorCode;
-
-std::string words_of(const exact::Point3& p) {
-  return fmt::format("({}, {}, {})", exact::to_string_exact(p.x()), exact::to_string_exact(p.y()),
-                     exact::to_string_exact(p.z()));
-}
 
 std::string name_of(const ConformStreamRequest& request) { return request.stream.empty() ? "message" : request.stream; }
 
@@ -60,8 +56,8 @@ std::string text_of(const validate::StreamFinding& f, const ConformStreamRequest
   std::string text =
       fmt::format("UNSOUND {}:{}: {}\n", name_of(request), f.message + (request.stream.empty() ? 0 : 1), f.what);
   if (f.witness) {
-    text += fmt::format("  sight line from {} to {}, {}\n", words_of(f.witness->v), words_of(f.witness->p),
-                        f.witness->front ? "front" : "back");
+    text += fmt::format("  sight line from {} to {}, {}\n", validate::to_string_exact(f.witness->v),
+                        validate::to_string_exact(f.witness->p), f.witness->front ? "front" : "back");
   }
   return text;
 }

@@ -11,7 +11,6 @@
 #include "app/common.h"
 #include "app/json_output.h"
 #include "app/progress.h"
-#include "exact/area.h"
 #include "reference/delta/delta.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
@@ -19,6 +18,7 @@
 #include "scene/result.h"
 #include "scene/scenes/scene_io.h"
 #include "validate/stream/judge_delta.h"
+#include "validate/verdicts/area.h"
 
 namespace clues::app {
 namespace {
@@ -41,15 +41,10 @@ void require_given(const std::string& value, const char* what) {
   if (value.empty()) throw Error(ErrorCode::bad_argument, fmt::format("{} is required (see --help)", what));
 }
 
-double area_estimate(const scene::TriangleMesh& mesh, std::uint32_t t) {
-  const auto corner = [&](std::size_t i) { return exact::to_exact(mesh.points[mesh.triangles[t][i]]); };
-  return exact::area_estimate(corner(0), corner(1), corner(2));
-}
-
 std::string table_of(const reference::Delta& delta, const scene::TriangleMesh& mesh) {
   double exposed = 0, occluded = 0;
   for (const reference::UnifiedRegion& r : delta.regions) {
-    const double area = area_estimate(mesh, r.side.triangle) * CGAL::to_double(r.area_fraction);
+    const double area = validate::area_estimate(mesh, r.side.triangle) * CGAL::to_double(r.area_fraction);
     if (r.seen == reference::SeenFrom::to) exposed += area;
     if (r.seen == reference::SeenFrom::from) occluded += area;
   }

@@ -15,6 +15,7 @@
 #include "reference/delta/virtual_occluders.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
+#include "scene/formats/number.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
@@ -42,12 +43,8 @@ struct PlaneAcross {
 
 PlaneAcross plane_of(const std::string& text) {
   if (text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=') {
-    try {
-      // As a point, so that numbers are read as those of cells are.
-      const auto spec = scene::parse_cell(fmt::format("box:{0},0,0,{0},0,0", text.substr(2)));
-      return {text[0] - 'x', spec.points[0][0]};
-    } catch (const Error&) {
-    }
+    const auto number = scene::parse_number(text.substr(2));
+    if (number.kind == scene::NumberKind::finite) return {text[0] - 'x', number.value};
   }
   throw Error(ErrorCode::bad_argument, "--plane " + text + ": write x=NUMBER, y=NUMBER or z=NUMBER");
 }

@@ -5,6 +5,7 @@
 
 #include "exact/cell/standard_range.h"
 #include "reference/visibility/first_order.h"
+#include "reference/visibility/map/side_faces.h"
 
 namespace clues::reference {
 
@@ -47,7 +48,7 @@ std::vector<UnifiedRegion> unified_map(const std::vector<InputSide>& sides, cons
   std::vector<UnifiedRegion> regions;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const TriangleFrame frame = frame_of(mesh, sides[i].triangle);
-    const FlatSet whole(frame.twice_area(), {Face2{frame.outline()}});
+    const FlatSet whole = whole_of(frame);
     const FlatSet &a = from[i], &b = to[i];
     add_regions(sides[i], SeenFrom::neither, subtract(whole, unite(a, b)), frame, regions);
     add_regions(sides[i], SeenFrom::from, subtract(a, b), frame, regions);

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "exact/box_tree.h"
-#include "exact/complex/complex_internal.h"
+#include "reference/visibility/planar/plane_frame.h"
 #include "scene/messages/error.h"
 
 namespace clues::reference {
@@ -45,20 +45,8 @@ Vector3 area_vector(const Rings3& rings) {
   return sum;
 }
 
-// Two coordinates in the plane with this normal, in which what turns counter-clockwise about it does so.
-class Flattened {
- public:
-  explicit Flattened(const Vector3& normal)
-      : axis_(exact::dominant_axis(normal)), flip_(CGAL::is_negative(normal[axis_])) {}
-  Point2 operator()(const Point3& p) const {
-    const Point2 q = exact::drop_axis(p, axis_);
-    return flip_ ? Point2(q.y(), q.x()) : q;
-  }
-
- private:
-  int axis_;
-  bool flip_;
-};
+// Of the plane, only its direction counts.
+PlaneFrame frame_of(const Vector3& normal) { return PlaneFrame(exact::Plane3(normal.x(), normal.y(), normal.z(), 0)); }
 
 // The points inside of sides.
 class Cuts {
@@ -132,7 +120,7 @@ void mark_inside(Triangulation& t) {
   }
 }
 
-void triangulate(const std::vector<Side>& borders, const Flattened& flat, Index region, SewnMesh& mesh) {
+void triangulate(const std::vector<Side>& borders, const PlaneFrame& flat, Index region, SewnMesh& mesh) {
   Triangulation t;
   std::map<Index, Triangulation::Vertex_handle> corners;
   for (const auto& [a, b] : borders) {
@@ -182,7 +170,7 @@ SewnMesh sew(const std::vector<Rings3>& regions) {
       for (const Point3& p : ring) indices.push_back(number.at(p));
       rings.push_back(with_cuts(indices, cuts));
     }
-    triangulate(borders_of(rings), Flattened(area_vector(regions[r])), r, mesh);
+    triangulate(borders_of(rings), frame_of(area_vector(regions[r])), r, mesh);
   }
   return mesh;
 }

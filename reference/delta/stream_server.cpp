@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "reference/delta/delta.h"
 #include "scene/messages/error.h"
 
 namespace clues::reference {
@@ -85,7 +86,7 @@ StreamServer::StreamServer(const scene::TriangleMesh& mesh, std::vector<std::vec
                            std::vector<std::vector<std::uint32_t>> neighbours, int horizon)
     : lists_(std::move(lists)), neighbours_(std::move(neighbours)), mesh_(&mesh), horizon_(horizon), mirror_(mesh) {}
 
-std::set<std::uint32_t> StreamServer::wanted_in(std::uint32_t cell) const {
+std::vector<std::uint32_t> StreamServer::wanted_in(std::uint32_t cell) const {
   std::set<std::uint32_t> reached{cell}, wanted;
   std::vector<std::uint32_t> rim{cell};
   for (int step = 0; step < horizon_; ++step) {
@@ -98,24 +99,17 @@ std::set<std::uint32_t> StreamServer::wanted_in(std::uint32_t cell) const {
     rim = std::move(next);
   }
   for (const std::uint32_t c : reached) wanted.insert(lists_[c].begin(), lists_[c].end());
-  return wanted;
+  return {wanted.begin(), wanted.end()};
 }
 
 std::vector<StreamMessage> StreamServer::enter(std::uint32_t cell) {
-  const std::set<std::uint32_t> wanted = wanted_in(cell);
-  std::vector<std::uint32_t> more, less;
-  for (const std::uint32_t t : wanted) {
-    if (!mirror_.holds(t)) more.push_back(t);
-  }
-  for (const std::uint32_t t : mirror_.triangles()) {
-    if (!wanted.contains(t)) less.push_back(t);
-  }
+  const DeltaPackets packets = packets_of(mirror_.triangles(), wanted_in(cell));
   std::vector<StreamMessage> messages;
-  if (!more.empty()) messages.push_back(mirror_.plus(more));
+  if (!packets.plus.empty()) messages.push_back(mirror_.plus(packets.plus));
   StreamMessage entered;
   entered.cell = cell;
   messages.push_back(entered);
-  if (!less.empty()) messages.push_back(mirror_.minus(less));
+  if (!packets.minus.empty()) messages.push_back(mirror_.minus(packets.minus));
   messages_ += messages.size();
   return messages;
 }

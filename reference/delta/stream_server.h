@@ -33,7 +33,6 @@ class DisplayList {
  public:
   explicit DisplayList(const scene::TriangleMesh& mesh) : mesh_(&mesh) {}  // keeps a reference
 
-  bool holds(std::uint32_t triangle) const { return triangles_.contains(triangle); }
   std::vector<std::uint32_t> triangles() const;  // ids, ascending
 
   // FIG. 44: of triangles that it does not hold. FIG. 45: of triangles that it holds. O(log n) each.
@@ -74,7 +73,7 @@ class StreamServer {
   const DisplayList& mirror() const { return mirror_; }
 
  private:
-  std::set<std::uint32_t> wanted_in(std::uint32_t cell) const;
+  std::vector<std::uint32_t> wanted_in(std::uint32_t cell) const;  // ascending
 
   std::vector<std::vector<std::uint32_t>> lists_, neighbours_;
   const scene::TriangleMesh* mesh_;

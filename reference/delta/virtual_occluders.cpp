@@ -16,16 +16,16 @@ scene::Point doubles_of(const exact::Point3& p) {
   return out;
 }
 
-void append(const SewnMesh& mesh, scene::TriangleMesh& to) {
-  const auto first = static_cast<std::uint32_t>(to.points.size());
-  std::uint32_t face = to.face_of.empty() ? 0 : to.face_of.back() + 1;
-  for (const exact::Point3& p : mesh.points) to.points.push_back(doubles_of(p));
-  for (const SewnMesh::Triangle& t : mesh.triangles) {
+scene::TriangleMesh mesh_of(const SewnMesh& sewn) {
+  scene::TriangleMesh mesh;
+  for (const exact::Point3& p : sewn.points) mesh.points.push_back(doubles_of(p));
+  for (const SewnMesh::Triangle& t : sewn.triangles) {
     scene::Triangle corners{};
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = first + static_cast<std::uint32_t>(t.corners[i]);
-    to.triangles.push_back(corners);
-    to.face_of.push_back(face++);
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = static_cast<std::uint32_t>(t.corners[i]);
+    mesh.face_of.push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+    mesh.triangles.push_back(corners);
   }
+  return mesh;
 }
 
 FT area_of(const std::vector<Ring2>& face) {
@@ -58,7 +58,7 @@ VirtualOccluder virtual_occluder(const Umbra& umbra, int axis, double at) {
     out.rounded_area += area_of(*rounded);
   }
   out.exact = sew(exact_faces);
-  append(sew(rounded_faces), out.rounded);
+  out.rounded = mesh_of(sew(rounded_faces));
   return out;
 }
 

@@ -51,20 +51,18 @@ std::string words_of(const SideOf& side) {
   return fmt::format("triangle {}, {}", side.first, side.second ? "front" : "back");
 }
 
-void compare_lists(const Ids& given, const Ids& expected, const std::string& what, std::vector<DeltaFinding>& out) {
-  Ids missing, extra;
-  std::set_difference(expected.begin(), expected.end(), given.begin(), given.end(), std::back_inserter(missing));
-  std::set_difference(given.begin(), given.end(), expected.begin(), expected.end(), std::back_inserter(extra));
-  if (!missing.empty())
-    out.push_back({fmt::format("{}: lacks triangle {} ({} in all)", what, missing[0], missing.size())});
-  if (!extra.empty())
-    out.push_back({fmt::format("{}: triangle {} is too much ({} in all)", what, extra[0], extra.size())});
-}
-
 Ids difference(const Ids& a, const Ids& b) {
   Ids out;
   std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
   return out;
+}
+
+void compare_lists(const Ids& given, const Ids& expected, const std::string& what, std::vector<DeltaFinding>& out) {
+  const Ids missing = difference(expected, given), extra = difference(given, expected);
+  if (!missing.empty())
+    out.push_back({fmt::format("{}: lacks triangle {} ({} in all)", what, missing[0], missing.size())});
+  if (!extra.empty())
+    out.push_back({fmt::format("{}: triangle {} is too much ({} in all)", what, extra[0], extra.size())});
 }
 
 // The corners of a side, as it turns.

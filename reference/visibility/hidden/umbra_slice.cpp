@@ -95,26 +95,13 @@ void mark_depths(SliceArrangement& arrangement) {
   }
 }
 
-// The point of the plane that the frame lays there.
-Point3 lifted(const Plane3& plane, const Point2& q) {
-  const int axis = exact::dominant_axis(plane.orthogonal_vector());
-  const FT n[3] = {plane.a(), plane.b(), plane.c()};
-  const bool flip = CGAL::is_negative(n[axis]);
-  const int u = (axis + 1) % 3, w = (axis + 2) % 3;
-  FT x[3];
-  x[u] = flip ? q.y() : q.x();
-  x[w] = flip ? q.x() : q.y();
-  x[axis] = -(n[u] * x[u] + n[w] * x[w] + plane.d()) / n[axis];
-  return exact::collapsed(Point3(x[0], x[1], x[2]));
-}
-
 }  // namespace
 
 std::vector<std::vector<Point3>> in_space(const Plane3& plane, const std::vector<Ring2>& face) {
   std::vector<std::vector<Point3>> rings;
   for (const Ring2& ring : face) {
     rings.emplace_back();
-    for (const Point2& q : ring) rings.back().push_back(lifted(plane, q));
+    for (const Point2& q : ring) rings.back().push_back(lifted_onto(plane, q));
   }
   return rings;
 }

@@ -102,8 +102,8 @@ TriangleFrame::TriangleFrame(const exact::Complex& complex, std::uint32_t piece)
                complex.points[complex.pieces[piece].corners[2]]},
       flat_(frame_(corners_[0]), frame_(corners_[1]), frame_(corners_[2])) {}
 
-TriangleFrame::TriangleFrame(const std::array<Point3, 3>& corners, double unit)
-    : frame_(exact::Plane3(corners[0], corners[1], corners[2]), unit),
+TriangleFrame::TriangleFrame(const std::array<Point3, 3>& corners)
+    : frame_(exact::Plane3(corners[0], corners[1], corners[2])),
       corners_(corners),
       flat_(frame_(corners_[0]), frame_(corners_[1]), frame_(corners_[2])) {}
 

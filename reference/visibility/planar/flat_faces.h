@@ -30,8 +30,8 @@ exact::Point2 inner_point(const std::vector<Ring2>& rings, std::size_t which);
 class TriangleFrame {
  public:
   TriangleFrame(const exact::Complex& complex, std::uint32_t piece);
-  // Not without area; in units of `unit`, a power of two.
-  explicit TriangleFrame(const std::array<exact::Point3, 3>& corners, double unit = 1);
+  // Not without area.
+  explicit TriangleFrame(const std::array<exact::Point3, 3>& corners);
   const PlaneFrame& frame() const { return frame_; }
   const std::array<exact::Point3, 3>& corners() const { return corners_; }
   const exact::Kernel::Triangle_2& flat() const { return flat_; }

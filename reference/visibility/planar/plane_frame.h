@@ -25,4 +25,7 @@ class PlaneFrame {
   double unit_;
 };
 
+// The point of the plane that its frame, without a unit, lays there.
+exact::Point3 lifted_onto(const exact::Plane3& plane, const exact::Point2& q);
+
 }  // namespace clues::reference

@@ -97,18 +97,6 @@ PlaneCut::PlaneCut(const exact::Plane3& plane) : plane_(plane), frame_(plane), c
 
 PlaneCut::~PlaneCut() = default;
 
-Point3 PlaneCut::lift(const Point2& q) const {
-  const int axis = exact::dominant_axis(plane_.orthogonal_vector());
-  const FT n[3] = {plane_.a(), plane_.b(), plane_.c()};
-  const bool flip = CGAL::is_negative(n[axis]);
-  const int u = (axis + 1) % 3, w = (axis + 2) % 3;
-  FT x[3];
-  x[u] = flip ? q.y() : q.x();
-  x[w] = flip ? q.x() : q.y();
-  x[axis] = -(n[u] * x[u] + n[w] * x[w] + plane_.d()) / n[axis];
-  return exact::collapsed(Point3(x[0], x[1], x[2]));
-}
-
 void PlaneCut::add_polygon(const std::vector<Point3>& corners) {
   std::vector<Point2> flat;
   for (const Point3& p : corners) flat.push_back(frame_(p));
@@ -203,7 +191,7 @@ const std::vector<PlaneCut::Component>& PlaneCut::components() {
     sizes[i] = size;
     components_[i].flat = inside(a, b, c);
   }
-  for (Component& c : components_) c.inner = lift(c.flat);
+  for (Component& c : components_) c.inner = lifted_onto(plane_, c.flat);
   collect_marks();
   return components_;
 }
@@ -272,7 +260,8 @@ std::vector<PlaneCut::Facet> PlaneCut::facets(const std::vector<int>& of) const 
       if (f->vertex(i)->info() < f->vertex(first)->info()) first = i;
     }
     Facet facet{f->info(), {}};
-    for (int i = 0; i < 3; ++i) facet.corners[static_cast<std::size_t>(i)] = lift(f->vertex((first + i) % 3)->point());
+    for (int i = 0; i < 3; ++i)
+      facet.corners[static_cast<std::size_t>(i)] = lifted_onto(plane_, f->vertex((first + i) % 3)->point());
     facets.push_back(std::move(facet));
   }
   std::sort(facets.begin(), facets.end(), [](const Facet& x, const Facet& y) {

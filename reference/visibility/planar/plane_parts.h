@@ -54,7 +54,6 @@ class PlaneCut {
     Trace trace;
   };
 
-  exact::Point3 lift(const exact::Point2& q) const;
   void insert_segments();
   void collect_marks();
 
