@@ -36,8 +36,15 @@ double unit_of(const std::vector<Point3>& points) {
   return std::abs(exponent) <= 64 ? 1 : std::ldexp(1.0, exponent);
 }
 
-FT collapsed(const FT& x) { return FT(x.exact()); }
+// What knows its exact value has let go of its operands.
+FT collapsed(const FT& x) {
+  x.exact();
+  return x;
+}
 
-Point3 collapsed(const Point3& p) { return Point3(collapsed(p.x()), collapsed(p.y()), collapsed(p.z())); }
+Point3 collapsed(const Point3& p) {
+  p.exact();
+  return p;
+}
 
 }  // namespace clues::exact

@@ -180,13 +180,14 @@ Point3 ConvexCell::interior_point(const std::vector<int>& weights) const {
   if (weights.size() != vertices_.size() || std::any_of(weights.begin(), weights.end(), [](int w) { return w <= 0; })) {
     throw scene::Error(scene::ErrorCode::internal, "interior_point needs one positive weight for each cell vertex");
   }
-  Vector3 sum(0, 0, 0);
-  FT total(0);
+  std::array<FT::Exact_type, 3> sum;
+  FT::Exact_type total = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    sum = sum + (vertices_[i] - CGAL::ORIGIN) * FT(weights[i]);
-    total += FT(weights[i]);
+    const auto& v = CGAL::exact(vertices_[i]);
+    for (int axis = 0; axis < 3; ++axis) sum[static_cast<std::size_t>(axis)] += v[axis] * weights[i];
+    total += weights[i];
   }
-  return collapsed(CGAL::ORIGIN + sum / total);
+  return {FT(sum[0] / total), FT(sum[1] / total), FT(sum[2] / total)};
 }
 
 namespace {

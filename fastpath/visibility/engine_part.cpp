@@ -18,6 +18,9 @@ class EnginePart : public PartialMap {
   SetLabel label_of_inside(const Corners& triangle, const Box& about) const override {
     return map_.label_of_inside(triangle, about);
   }
+  SetLabel label_beside(const Corners& triangle, const Box& about) const override {
+    return map_.label_beside(triangle, about);
+  }
 
   const LocalMap& map() const { return map_; }
 

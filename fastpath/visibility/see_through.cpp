@@ -62,7 +62,7 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
       scene.blocking(), cell, options, hull_of(outside_of(scene.blocking()), outside_of(scene.passing())), guessed);
   SeeThroughList list;
   for (const auto t : closed.map().visible()) list.blocking.push_back(scene.blocking_id(closed.closure.part[t]));
-  auto passing = not_proved_dark(scene.passing(), closed.closure, scene.blocking());
+  auto passing = not_proved_dark(scene.passing(), closed.closure, scene.blocking(), Cell(cell));
   const auto met = meeting_the_cell(scene.passing(), cell);
   std::vector<std::uint32_t> all;
   std::set_union(passing.begin(), passing.end(), met.begin(), met.end(), std::back_inserter(all));

@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <numeric>
 
 #include "fastpath/queries/bvh.h"
+#include "fastpath/visibility/first_order.h"
 #include "fuzz/generators/city.h"
+#include "fuzz/generators/parts.h"
+#include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
 #include "reference/visibility/first_order.h"
 #include "scene/cell_spec.h"
@@ -21,10 +25,20 @@ struct Both {
   fastpath::Closure closure;
 };
 
-fastpath::Closure close(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell, PartBug bug) {
+// No ray is cast, and one triangle of which the proof failed is mapped at a time.
+const exact::Dials kByProofsAlone = [] {
+  exact::Dials dials;
+  dials.first_guess = exact::Dials::FirstGuess::nothing;
+  dials.sight_rays = 0;
+  dials.batch = 1;
+  return dials;
+}();
+
+fastpath::Closure close(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell, PartBug bug,
+                        const exact::Dials& dials = {}) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   const fastpath::Bvh bvh(mesh);
-  return fastpath::close_over_visible(bvh, fastpath::Cell(cell), reference_parts(exact_cell, bug), 0);
+  return fastpath::close_over_visible(bvh, fastpath::Cell(cell), reference_parts(exact_cell, bug), 0, dials);
 }
 
 Both both(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) {
@@ -87,6 +101,83 @@ TEST(Closure, FindsWhatRaysMissAndIsNoBetterThanItsProofs) {
   EXPECT_GT(closure.counts.passes, 1);
   for (const PartBug bug : {PartBug::dark_everywhere, PartBug::wedges_touch_nothing}) {
     EXPECT_EQ(close(mesh, cell, bug).visible.size(), whole.size() - 1);
+  }
+}
+
+// A plate over the cell, and a second face in it: light from below meets both. The plate is mapped first; the second has to fail its proof, which asks on both
+// sides of the plane.
+TEST(Closure, AFaceInThePlaneOfALitOneIsAskedAboutOnBothSides) {
+  scene::TriangleMesh mesh;
+  mesh.points = {{-2, -2, 2}, {2, -2, 2}, {0, 3, 2}, {0, 0, 2}, {0.5, 0, 2}, {0.5, 0.5, 2}};
+  mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  mesh.face_of = {0, 1};
+  const auto cell = scene::parse_cell("box:-1,-1,-1,1,1,0").points;
+  EXPECT_EQ(close(mesh, cell, PartBug::none, kByProofsAlone).visible, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(close(mesh, cell, PartBug::dark_below, kByProofsAlone).visible.size(), 1);
+}
+
+// Blocks of whole numbers that stand flush on a floor, in rows, with tops of a few heights, and cells of whole numbers among them: what light does not meet it
+// grazes, mostly.
+struct Blocks {
+  scene::TriangleMesh mesh;
+  std::vector<scene::Point> cell;
+};
+
+Blocks blocks(std::uint64_t seed, int rows) {
+  fuzz::Random random(seed);
+  Blocks out;
+  const auto quad = [&](const std::vector<scene::Point>& p, std::array<std::size_t, 4> corner) {
+    const auto first = static_cast<std::uint32_t>(out.mesh.points.size());
+    for (const std::size_t i : corner) out.mesh.points.push_back(p[i]);
+    out.mesh.triangles.push_back({first, first + 1, first + 2});
+    out.mesh.triangles.push_back({first, first + 2, first + 3});
+  };
+  const double half = 3.0 * rows;
+  quad({{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}}, {0, 1, 2, 3});
+  for (int x = -rows; x < rows; ++x) {
+    for (int y = -rows; y < rows; ++y) {
+      if (x == 0 && y == 0) continue;  // the cell's place
+      const double height = 1 + static_cast<double>(random.next() % 4);
+      const auto p = fuzz::box_of({3.0 * x, 3.0 * y, 0}, {3.0 * x + 2, 3.0 * y + 2, height});
+      for (const auto& q : {std::array<std::size_t, 4>{0, 2, 3, 1},
+                            {4, 5, 7, 6},
+                            {0, 1, 5, 4},
+                            {2, 6, 7, 3},
+                            {0, 4, 6, 2},
+                            {1, 3, 7, 5}})
+        quad(p, q);
+    }
+  }
+  out.mesh.face_of.resize(out.mesh.triangles.size());
+  std::iota(out.mesh.face_of.begin(), out.mesh.face_of.end(), 0U);
+  const double low = static_cast<double>(random.next() % 2);
+  out.cell = fuzz::box_of({0, 0, low}, {1 + static_cast<double>(random.next() % 2), 2, low + 1});
+  return out;
+}
+
+TEST(Closure, WhatLightOnlyGrazesIsHidden) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    SCOPED_TRACE(seed);
+    const Blocks scene = blocks(seed, 1);
+    const auto [whole, closure] = both(scene.mesh, scene.cell);
+    EXPECT_EQ(closure.visible, whole);
+  }
+  // The engine, from a guess by rays and from none, against itself without a closure.
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    const Blocks scene = blocks(seed, 2 + static_cast<int>(seed % 2));
+    const fastpath::Bvh bvh(scene.mesh);
+    using Guess = exact::Dials::FirstGuess;
+    std::vector<std::uint32_t> whole;
+    for (const Guess guess : {Guess::everything, Guess::seen, Guess::nothing}) {
+      fastpath::LocalMapOptions options;
+      options.dials.first_guess = guess;
+      const fastpath::FirstOrder answer = fastpath::first_order_visibility(bvh, scene.cell, options);
+      if (guess == Guess::everything) whole = answer.visible;
+      EXPECT_EQ(answer.visible, whole);
+      EXPECT_EQ(answer.conservative_fallbacks, 0);
+      EXPECT_EQ(answer.part.size() < scene.mesh.triangles.size(), guess != Guess::everything);
+    }
   }
 }
 

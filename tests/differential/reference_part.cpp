@@ -58,23 +58,40 @@ class ReferencePart : public fastpath::PartialMap {
     if (touches(triangle.bbox(), triangle)) return SetLabel::visible;
     return wedge_may_touch(about) ? SetLabel::elsewhere : label_at(about, corners);
   }
+  SetLabel label_beside(const fastpath::Corners& t, const fastpath::Box& about) const override {
+    const std::vector<Point3> corners{exact::to_exact(t[0]), exact::to_exact(t[1]), exact::to_exact(t[2])};
+    const Triangle3 triangle(corners[0], corners[1], corners[2]);
+    const exact::Plane3 plane = triangle.supporting_plane();
+    const auto in_plane = [&](const Triangle3& piece) {
+      return plane.has_on(piece[0]) && plane.has_on(piece[1]) && plane.has_on(piece[2]);
+    };
+    if (bug_ == PartBug::dark_below && plane.has_on_negative_side(exact::to_exact(fastpath::middle_of(about))))
+      return SetLabel::hidden;
+    if (touches(triangle.bbox(), triangle, in_plane)) return SetLabel::visible;
+    return touches(to_bbox(about), box_of(about), in_plane) ? SetLabel::elsewhere : label_at(about, corners);
+  }
 
  private:
   // In the middle of the box, for all of the corners' hull.
   SetLabel label_at(const fastpath::Box& box, const std::vector<Point3>& corners) const {
     if (bug_ == PartBug::dark_everywhere) return SetLabel::hidden;
-    const Point3 p = CGAL::midpoint(exact::to_exact(box.low), exact::to_exact(box.high));
+    const Point3 p = exact::to_exact(fastpath::middle_of(box));
     if (walker_.label({.p = p, .surface = std::nullopt}, fixpoint_.wedges, 1).visible) return SetLabel::visible;
     return fixpoint_.left_out.may_reach(corners) ? SetLabel::visible : SetLabel::hidden;
   }
-  bool wedge_may_touch(const fastpath::Box& box) const {
-    return touches(to_bbox(box), exact::Kernel::Iso_cuboid_3(exact::to_exact(box.low), exact::to_exact(box.high)));
+  bool wedge_may_touch(const fastpath::Box& box) const { return touches(to_bbox(box), box_of(box)); }
+  static exact::Kernel::Iso_cuboid_3 box_of(const fastpath::Box& box) {
+    return {exact::to_exact(box.low), exact::to_exact(box.high)};
   }
   template <class Shape>
   bool touches(const CGAL::Bbox_3& box, const Shape& shape) const {
+    return touches(box, shape, [](const Triangle3&) { return false; });
+  }
+  template <class Shape, class But>
+  bool touches(const CGAL::Bbox_3& box, const Shape& shape, const But& but) const {
     if (bug_ == PartBug::wedges_touch_nothing) return false;
     for (const std::uint32_t i : tree_.candidates([&](const CGAL::Bbox_3& b) { return CGAL::do_overlap(b, box); })) {
-      if (CGAL::do_intersect(shape, triangles_[i])) return true;
+      if (!but(triangles_[i]) && CGAL::do_intersect(shape, triangles_[i])) return true;
     }
     return false;
   }

@@ -9,8 +9,8 @@
 
 namespace clues::tests {
 
-// What a planted bug does to the answers.
-enum class PartBug { none, dark_everywhere, wedges_touch_nothing };
+// What a planted bug does to the answers. dark_below: so is what is right beside a triangle, on the side from which it is clockwise.
+enum class PartBug { none, dark_everywhere, wedges_touch_nothing, dark_below };
 
 fastpath::PartialMapMaker reference_parts(const exact::ConvexCell& cell, PartBug bug = PartBug::none);
 

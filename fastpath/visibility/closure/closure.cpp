@@ -8,6 +8,7 @@
 #include <span>
 
 #include "exact/box_tree.h"
+#include "fastpath/predicates/estimated_vectors.h"
 #include "fastpath/visibility/closure/sight_rays.h"
 #include "fastpath/visibility/wedges/contact.h"
 
@@ -15,8 +16,8 @@ namespace clues::fastpath {
 namespace {
 
 // How many rays at a time look for a first guess, at most, and how many times, while they find what is new; and how many triangles whose
-// proof failed are looked at before the map is made anew.
-constexpr std::size_t kRays = 4096, kTimes = 6, kFailures = 512;
+// proof failed are looked at before the map is made anew: as many as this, or as the map has, times two. (Of a scene behind a hole in K all proofs may fail.)
+constexpr std::size_t kRays = 4096, kTimes = 6, kFailures = 512, kFailuresPerMapped = 2;
 
 Box box_of(std::span<const Point> points) {
   Box box{points[0], points[0]};
@@ -63,19 +64,23 @@ class LitTriangles {
     tree_ = exact::BoxTree(std::move(boxes));
   }
 
-  // Conservative: a box and the plane of a triangle beside it.
-  bool may_touch(const Box& box) const {
+  // Conservative: a box and the plane of a triangle beside it. Those in the plane of `aside` are not asked about.
+  bool may_touch(const Box& box, const Corners* aside = nullptr) const {
     for (const std::uint32_t i : near(box)) {
-      if (plane_may_touch(corners_[i], box)) return true;
+      if (plane_may_touch(corners_[i], box) && !(aside && in_plane_of(*aside, corners_[i]))) return true;
     }
     return false;
   }
-  // Whether one may have a point inside t; not asked about itself.
-  bool may_meet_inside(const Corners& t) const {
+  // Whether one may have a point inside t, which is none of them: only some that lie in its plane, or others.
+  enum class Meets : std::uint8_t { nothing, in_plane, across };
+  Meets may_meet_inside(const Corners& t) const {
+    Meets meets = Meets::nothing;
     for (const std::uint32_t i : near(box_of(t))) {
-      if (may_meet_inside_conservative(t, corners_[i])) return true;
+      if (!may_meet_inside_conservative(t, corners_[i])) continue;
+      if (!in_plane_of(t, corners_[i])) return Meets::across;
+      meets = Meets::in_plane;
     }
-    return false;
+    return meets;
   }
 
  private:
@@ -103,7 +108,8 @@ class LitTriangles {
 // Proofs that triangles lie outside Omega(K).
 class Darkness {
  public:
-  Darkness(const PartialMap& map, LitTriangles lit) : map_(map), lit_(std::move(lit)) {}
+  Darkness(const PartialMap& map, LitTriangles lit, std::span<const Point> cell)
+      : map_(map), lit_(std::move(lit)), cell_(cell) {}
 
   // The triangles of the tree for which there is none, but for those that are skipped; no more levels of the tree are opened once there are `enough`.
   template <class Skip>
@@ -113,22 +119,74 @@ class Darkness {
  private:
   bool dark(const Box& box) const { return !lit_.may_touch(box) && map_.label(box) == SetLabel::hidden; }
   bool dark(const Corners& t) const;
+  bool dark_inside(const Corners& t) const;
+  bool dark_beside(const Corners& t, int side) const;
+  bool cell_on_one_side(const Corners& t) const;
 
   const PartialMap& map_;
   LitTriangles lit_;
+  std::span<const Point> cell_;
 };
 
-// The inside of a triangle, by a place about one of its points.
+constexpr std::array<std::array<double, 3>, 3> kInside{
+    {{0.3125, 0.375, 0.3125}, {0.25, 0.25, 0.5}, {0.5, 0.1875, 0.3125}}};
+
 bool Darkness::dark(const Corners& t) const {
-  if (lit_.may_meet_inside(t)) return false;
-  for (const std::array<double, 3>& weight :
-       {std::array{0.3125, 0.375, 0.3125}, {0.25, 0.25, 0.5}, {0.5, 0.1875, 0.3125}}) {
+  const LitTriangles::Meets meets = lit_.may_meet_inside(t);
+  if (meets == LitTriangles::Meets::across) return false;
+  if (meets == LitTriangles::Meets::nothing && dark_inside(t)) return true;
+  return cell_on_one_side(t) && dark_beside(t, 1) && dark_beside(t, -1);
+}
+
+// By a place about a point of the inside.
+bool Darkness::dark_inside(const Corners& t) const {
+  for (const std::array<double, 3>& weight : kInside) {
     const Box about = about_inside(t, weight);
     if (lit_.may_touch(about)) continue;
     const SetLabel label = map_.label_of_inside(t, about);
     if (label != SetLabel::elsewhere) return label == SetLabel::hidden;
   }
   return false;
+}
+
+// What only grazes t, in its plane, is no light: a lit floor on which t stands flush, a wedge that runs along a row of fronts. Then what is right
+// beside the inside of t is cut by nothing and has one label on either side. Claim: if both are hidden and the cell is on one side of the plane of t, no
+// point x of the inside is in Omega(K). Proof: t is not in K. Were x in Omega(K) and on no triangle of K, its continuations in K would run on beyond it
+// and be in Omega(K): right beside t, away from the cell. Were it on one, that lies in the plane; light that meets x comes off the plane, as int V is,
+// so it has just been in what is right beside t.
+// The place: in a box that holds a point of the inside, with the middle on the side asked about, which nothing touches that is not in the plane.
+bool Darkness::dark_beside(const Corners& t, int side) const {
+  const Point n = cross_of(minus(t[1], t[0]), minus(t[2], t[0]));
+  const Box all = box_of(t);
+  double extent = 0, largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    extent = std::max(extent, all.high[i] - all.low[i]);
+    largest = std::max(largest, std::fabs(n[i]));
+  }
+  if (!(largest > 0)) return false;
+  for (const std::array<double, 3>& weight : kInside) {
+    for (const double step : {0x1p-6, 0x1p-12, 0x1p-20}) {
+      Box about = about_inside(t, weight);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double by = side * (n[i] / largest) * step * extent;
+        (by > 0 ? about.high : about.low)[i] += by;
+      }
+      if (side_of_plane(t, middle_of(about)) != side || lit_.may_touch(about, &t)) continue;
+      const SetLabel label = map_.label_beside(t, about);
+      if (label != SetLabel::elsewhere) return label == SetLabel::hidden;
+    }
+  }
+  return false;
+}
+
+bool Darkness::cell_on_one_side(const Corners& t) const {
+  bool negative = false, positive = false;
+  for (const Point& v : cell_) {
+    const int side = side_of_plane(t, v);
+    negative |= side < 0;
+    positive |= side > 0;
+  }
+  return negative != positive;
 }
 
 template <class Skip>
@@ -185,7 +243,7 @@ class Closer {
   Closer(const Bvh& bvh, const Cell& cell, const exact::Dials& dials)
       : bvh_(bvh),
         cell_(cell),
-        failures_(dials.batch > 0 ? dials.batch : kFailures),
+        failures_(dials.batch),
         rays_(bvh, cell, dials.sight_rays),
         in_part_(bvh.mesh().triangles.size(), 0) {}
 
@@ -216,7 +274,7 @@ class Closer {
 
   const Bvh& bvh_;
   const Cell& cell_;
-  std::size_t failures_;
+  std::size_t failures_;  // a dial; 0: our own number
   SightRays rays_;
   std::vector<std::uint8_t> in_part_;
   std::vector<std::uint32_t> part_;
@@ -305,10 +363,11 @@ void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
 }
 
 bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible) {
-  const Darkness darkness(map, LitTriangles(bvh_, visible));
+  const Darkness darkness(map, LitTriangles(bvh_, visible), cell_.vertices());
+  const std::size_t enough = failures_ > 0 ? failures_ : std::max(kFailures, kFailuresPerMapped * part_.size());
   std::vector<std::uint32_t> failed = darkness.not_proved(
-      bvh_, [&](std::uint32_t t) { return in_part_[t] != 0; }, failures_, counts);
-  if (failures_ < kFailures) failed.resize(std::min(failed.size(), failures_));
+      bvh_, [&](std::uint32_t t) { return in_part_[t] != 0; }, enough, counts);
+  if (failures_ > 0) failed.resize(std::min(failed.size(), failures_));
   add_front_of(failed);
   return !failed.empty();
 }
@@ -326,8 +385,9 @@ Box about_inside(const Corners& t, const std::array<double, 3>& weight) {
   return box;
 }
 
-std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene) {
-  const Darkness darkness(*closure.map, LitTriangles(scene, closure.visible));
+std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene,
+                                           const Cell& cell) {
+  const Darkness darkness(*closure.map, LitTriangles(scene, closure.visible), cell.vertices());
   ClosureCounts uncounted;
   auto left = darkness.not_proved(
       others, [](std::uint32_t) { return false; }, others.mesh().triangles.size(), uncounted);

@@ -37,8 +37,11 @@ class PartialMap {
   virtual std::vector<std::uint32_t> visible() const = 0;
   // hidden only if all of the closed box is outside Omega, where no visible triangle touches it.
   virtual SetLabel label(const Box& box) const = 0;
-  // The same for the inside of a triangle that no visible one meets. It is asked in `about`, which holds a point of the inside, and which no visible triangle touches.
+  // The same for the inside of a triangle that no visible one meets. It is asked at middle_of(about); `about` holds a point of the inside, and no visible triangle touches it.
   virtual SetLabel label_of_inside(const Corners& triangle, const Box& about) const = 0;
+  // The same for what is right beside the inside of a triangle, on the side of middle_of(about), which is not in its plane. Visible ones may meet the inside, or touch `about`, only if they
+  // lie in that plane.
+  virtual SetLabel label_beside(const Corners& triangle, const Box& about) const = 0;
 };
 
 // Makes the map of a part of the scene, for the same cell. `ids` are those of the part's triangles in the scene, ascending.
@@ -72,8 +75,9 @@ inline constexpr std::size_t kMappedWhole = 64;
 
 // Triangles that stop no light (D22), as a tree of their own: those that are not proved to lie outside Omega of the scene that was closed, ids of the
 // tree's mesh, ascending. All that the closure's proofs use of a triangle outside K is that it is one; whether it would stop light, were it lit, does not matter to them.
-// `scene` is the tree that was closed; the map has to answer for places all over `others` (make_map, `outside`).
-std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene);
+// `scene` is the tree that was closed, for `cell`; the map has to answer for places all over `others` (make_map, `outside`).
+std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene,
+                                           const Cell& cell);
 
 // Deterministic for any number of threads of the current arena. Scenes of up to `whole` triangles are mapped as they are, unless the first guess is on a dial.
 // `guess`: triangles that are mapped from the start, for instance what a neighbour sees; whatever it is, the answer is a closed one.

@@ -12,10 +12,6 @@ constexpr std::uint64_t kLabelSeed = 0x1d;
 IntervalBox to_intervals(const Point& p) { return {Interval(p[0]), Interval(p[1]), Interval(p[2])}; }
 IntervalBox to_intervals(const Box& b) { return hull(to_intervals(b.low), to_intervals(b.high)); }
 
-Point middle_of(const Box& b) {
-  return {b.low[0] / 2 + b.high[0] / 2, b.low[1] / 2 + b.high[1] / 2, b.low[2] / 2 + b.high[2] / 2};
-}
-
 std::array<IntervalBox, 3> to_intervals(const Corners& t) {
   return {to_intervals(t[0]), to_intervals(t[1]), to_intervals(t[2])};
 }
@@ -83,14 +79,48 @@ SetLabel OneLabel::of_inside(const Corners& triangle, const Box& about) const {
   return of_uncut(to_intervals(triangle), ExactPoint(middle_of(about)));
 }
 
+SetLabel OneLabel::of_beside(const Corners& triangle, const Box& about) const {
+  const std::array<IntervalBox, 3> corner = to_intervals(triangle);
+  const IntervalBox all = hull(hull(corner[0], corner[1]), corner[2]), place = to_intervals(about);
+  const auto touches_across = [&](const auto& what) {
+    return [&](std::size_t i) { return piece_touches(i, what) && !piece_in_plane(i, triangle); };
+  };
+  if (pieces_.any([&](const IntervalBox& b) { return overlap(b, all); }, touches_across(corner)))
+    return SetLabel::visible;
+  if (pieces_.any([&](const IntervalBox& b) { return overlap(b, place); }, touches_across(place)))
+    return SetLabel::elsewhere;
+  return of_uncut(corner, ExactPoint(middle_of(about)));
+}
+
+bool OneLabel::piece_in_plane(std::size_t piece, const Corners& triangle) const {
+  const Plane& h = *pieces_.pieces()[piece].on->plane;
+  return std::all_of(triangle.begin(), triangle.end(), [&](const Point& p) { return h.side(ExactPoint(p)) == 0; });
+}
+
+bool OneLabel::piece_touches(std::size_t i, const IntervalBox& box) const {
+  const PieceBounds& piece = piece_bounds_[i];
+  return may_be_zero(piece.plane.at(box)) && std::all_of(piece.inward.begin(), piece.inward.end(),
+                                                         [&](const HalfSpace& h) { return h.at(box).sup() >= 0; });
+}
+
+// Apart if all corners are strictly on one side of the piece's plane, or strictly outside one of its bounds.
+bool OneLabel::piece_touches(std::size_t i, const std::array<IntervalBox, 3>& corner) const {
+  const PieceBounds& piece = piece_bounds_[i];
+  bool above = true, below = true;
+  for (const IntervalBox& c : corner) {
+    const Interval x = piece.plane.at(c);
+    above &= x.inf() > 0;
+    below &= x.sup() < 0;
+  }
+  if (above || below) return false;
+  return std::none_of(piece.inward.begin(), piece.inward.end(), [&](const HalfSpace& h) {
+    return std::all_of(corner.begin(), corner.end(), [&](const IntervalBox& c) { return h.at(c).sup() < 0; });
+  });
+}
+
 bool OneLabel::piece_may_touch(const IntervalBox& box) const {
   return pieces_.any([&](const IntervalBox& b) { return overlap(b, box); },
-                     [&](std::size_t i) {
-                       const PieceBounds& piece = piece_bounds_[i];
-                       return may_be_zero(piece.plane.at(box)) &&
-                              std::all_of(piece.inward.begin(), piece.inward.end(),
-                                          [&](const HalfSpace& h) { return h.at(box).sup() >= 0; });
-                     });
+                     [&](std::size_t i) { return piece_touches(i, box); });
 }
 
 bool OneLabel::piece_may_touch(const Corners& triangle) const {
@@ -98,21 +128,7 @@ bool OneLabel::piece_may_touch(const Corners& triangle) const {
   const IntervalBox box = hull(hull(corner[0], corner[1]), corner[2]);
   const IntervalBox normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
   return pieces_.any([&](const IntervalBox& b) { return overlap(b, box) && may_be_zero(dot(normal, b - corner[0])); },
-                     [&](std::size_t i) {
-                       const PieceBounds& piece = piece_bounds_[i];
-                       // Apart if all corners are strictly on one side of the piece's plane, or strictly outside one of its bounds.
-                       bool above = true, below = true;
-                       for (const IntervalBox& c : corner) {
-                         const Interval x = piece.plane.at(c);
-                         above &= x.inf() > 0;
-                         below &= x.sup() < 0;
-                       }
-                       if (above || below) return false;
-                       return std::none_of(piece.inward.begin(), piece.inward.end(), [&](const HalfSpace& h) {
-                         return std::all_of(corner.begin(), corner.end(),
-                                            [&](const IntervalBox& c) { return h.at(c).sup() < 0; });
-                       });
-                     });
+                     [&](std::size_t i) { return piece_touches(i, corner); });
 }
 
 }  // namespace clues::fastpath

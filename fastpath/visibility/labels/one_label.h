@@ -15,6 +15,7 @@
 // strictly in front of one, in intervals. (Where A(x) lies in a plane, as for x in the plane of a flat cell, that plane is all that is asked.)
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <span>
 #include <vector>
@@ -35,6 +36,9 @@ class OneLabel {
   SetLabel of_box(const Box& box) const;
   // Of the inside of a triangle that no such surface meets, asked at the middle of `about`: a box that holds a point of the inside and that no such surface touches.
   SetLabel of_inside(const Corners& triangle, const Box& about) const;
+  // Of what is right beside the inside, on the side on which the middle of `about` is. Surfaces and pieces in the triangle's own plane do not cut that; other surfaces that light meets
+  // must not meet the inside, nor touch the box.
+  SetLabel of_beside(const Corners& triangle, const Box& about) const;
   // Of the hull of what the boxes enclose, which neither surface nor piece cuts, as the caller knows, at a point of it, or beside it with nothing between.
   SetLabel of_uncut(std::span<const IntervalBox> hull, const ExactPoint& p) const;
 
@@ -57,6 +61,9 @@ class OneLabel {
     std::vector<HalfSpace> inward;
   };
   static PieceBounds bounds_of(const ValidPiece& piece);
+  bool piece_touches(std::size_t piece, const IntervalBox& box) const;
+  bool piece_touches(std::size_t piece, const std::array<IntervalBox, 3>& corner) const;
+  bool piece_in_plane(std::size_t piece, const Corners& triangle) const;
   bool outside_of_left_out(std::span<const IntervalBox> hull) const;
 
   const Walker& walker_;

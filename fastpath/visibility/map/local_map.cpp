@@ -198,6 +198,11 @@ LocalMap::Label LocalMap::label_of_inside(const Corners& triangle, const Box& ab
   return parts_->one_label->of_inside(triangle, about);
 }
 
+LocalMap::Label LocalMap::label_beside(const Corners& triangle, const Box& about) const {
+  const RoundedUp rounded_up;
+  return parts_->one_label->of_beside(triangle, about);
+}
+
 bool LocalMap::piece_may_touch(const Box& box) const {
   const RoundedUp rounded_up;
   return parts_->one_label->piece_may_touch(to_box(box));

@@ -54,12 +54,13 @@ class LocalMap {
   // The regions of all sides that count, made anew at each call. O(k^2) labels for k pieces that cross a triangle.
   std::vector<LocalRegion> regions() const;
 
-  // Of a point in free space, not on a surface; of a closed box; of the inside of a triangle asked at the middle of a box about one of its points. No surface that light meets may touch the
+  // Of a point in free space, not on a surface; of a closed box; of the inside of a triangle, or what is right beside it, asked at the middle of a box about one of its points. No surface that light meets may touch the
   // boxes or meet the inside (one_label.h). `hidden` is a proof; a case that stays undecided is called visible and counted in conservative_labels(). Any number of threads may
   // ask.
   Label label(const Point& p) const;
   Label label(const Box& box) const;
   Label label_of_inside(const Corners& triangle, const Box& about) const;
+  Label label_beside(const Corners& triangle, const Box& about) const;
   std::uint64_t conservative_labels() const;
 
   // False only if no valid piece meets the closed box (the closed triangle).

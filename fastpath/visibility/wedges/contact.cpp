@@ -80,4 +80,11 @@ bool may_meet_inside_conservative(const Corners& t, const Corners& other) {
   return true;
 }
 
+bool in_plane_of(const Corners& t, const Corners& other) {
+  const PlaneSigns plane(t[0], t[1], t[2]);
+  return std::all_of(other.begin(), other.end(), [&](const Point& p) { return plane(p) == 0; });
+}
+
+int side_of_plane(const Corners& t, const Point& p) { return PlaneSigns(t[0], t[1], t[2])(p); }
+
 }  // namespace clues::fastpath

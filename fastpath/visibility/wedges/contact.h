@@ -10,4 +10,8 @@ namespace clues::fastpath {
 // are apart, that share a corner or an edge and nothing more, and when t stands on `other`.
 bool may_meet_inside_conservative(const Corners& t, const Corners& other);
 
+// Exactly: whether all corners of `other` lie in the plane of t; and on which side of it p is (1: counterclockwise from there, 0: in it).
+bool in_plane_of(const Corners& t, const Corners& other);
+int side_of_plane(const Corners& t, const Point& p);
+
 }  // namespace clues::fastpath
