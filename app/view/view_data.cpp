@@ -3,20 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "app/view/page_json.h"
+#include "app/view/page_stores.h"
 #include "fuzz/findings/json_fields.h"
 #include "fuzz/report/html_report.h"
 #include "fuzz/shrinking/finding_folder.h"
 #include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
-#include "scene/mesh_io.h"
 #include "scene/messages/error.h"
+#include "scene/multires/hierarchy_file.h"
+#include "scene/scenes/scene_io.h"
 #include "validate/certificates/umbra_file.h"
+#include "validate/stream/delta_file.h"
 #include "validate/vectors/reader.h"
 
 namespace clues::app {
@@ -44,6 +48,21 @@ std::string text_of(const json& object, const char* key) {
 
 std::string dumped(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
+enum class Content : std::uint8_t { scene, finding, bake, walk, maps, document };
+
+// By how the file begins; a name decides only between JSON and scenes.
+Content content_of(const fs::path& file) {
+  constexpr std::size_t enough = 200;
+  std::string begin(enough, '\0');
+  std::ifstream input(file, std::ios::binary);
+  input.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(input.gcount()));
+  if (begin.starts_with("SQLite format 3")) return Content::bake;
+  if (scene::is_hierarchy_text(begin)) return Content::maps;
+  if (begin.substr(0, begin.find('\n')).find("\"clues-motion-walk/") != std::string::npos) return Content::walk;
+  return file.extension() == ".json" || file.extension() == ".jsonl" ? Content::document : Content::scene;
+}
+
 // The folder itself, or those of a campaign, by name.
 std::vector<fs::path> findings_in(const fs::path& folder) {
   if (fuzz::holds_a_finding(folder)) return {folder};
@@ -63,14 +82,16 @@ struct ViewData::Parts {
   std::set<fs::path> read;  // scenes, by canonical path
   json files = json::array();
 
-  std::size_t add_scene(const std::string& name, const scene::TriangleMesh& mesh, const std::string& sha256) {
-    files.push_back({{"path", name}, {"sha256", sha256}, {"mesh", mesh_for_page(mesh)}});
-    scenes.push_back({name, sha256, mesh.triangles.size()});
+  std::size_t add_scene(const std::string& name, json mesh, std::size_t triangles, const std::string& sha256) {
+    files.push_back({{"path", name}, {"sha256", sha256}, {"mesh", std::move(mesh)}});
+    scenes.push_back({name, sha256, triangles});
     return scenes.size() - 1;
   }
   std::size_t read_scene(const fs::path& file) {
     read.insert(fs::weakly_canonical(file));
-    return add_scene(file.filename().string(), scene::read_mesh(file), scene::sha256_of_file(file));
+    const scene::FlaggedMesh mesh = scene::read_scene(file);
+    return add_scene(file.filename().string(), mesh_for_page(mesh), mesh.mesh.triangles.size(),
+                     scene::sha256_of_file(file));
   }
   // One that was given, by its hash or else its name; or the file itself, where it is named or beside.
   const KnownScene& scene_of(const Named& named, const fs::path& about) {
@@ -99,6 +120,9 @@ struct ViewData::Parts {
     files.push_back({{"path", file.filename().string()}, {"json", std::move(value)}});
   }
 
+  void add_bake(const fs::path& file);
+  void add_walk(const fs::path& file);
+  void add_maps(const fs::path& file);
   void add_json(const fs::path& file);
   void add_finding(const fs::path& folder);
   void add_conformance(const fs::path& file, json report);
@@ -155,6 +179,30 @@ void ViewData::Parts::add_conformance(const fs::path& file, json report) {
   put(file, std::move(report));
 }
 
+void ViewData::Parts::add_bake(const fs::path& file) {
+  const scene::FinishedBake bake(file);
+  const scene::BakePlan& plan = bake.plan();
+  const KnownScene& scene = scene_of({plan.scene_file, plan.scene_sha256}, file);
+  if (plan.triangles != scene.triangles) {
+    throw Error(ErrorCode::malformed, fmt::format("{}: is about {} triangles, and {} has {}", file.string(),
+                                                  plan.triangles, scene.name, scene.triangles));
+  }
+  put(file, bake_for_page(bake));
+}
+
+// Both are texts that the page reads as they are.
+void ViewData::Parts::add_walk(const fs::path& file) {
+  json bounds = walk_for_page(file);
+  files.push_back(
+      {{"path", file.filename().string()}, {"text", scene::read_file_bytes(file)}, {"bounds", std::move(bounds)}});
+}
+
+void ViewData::Parts::add_maps(const fs::path& file) {
+  std::string text = scene::read_file_bytes(file);
+  scene::parse_hierarchy(text, file.string());
+  files.push_back({{"path", file.filename().string()}, {"text", std::move(text)}});
+}
+
 void ViewData::Parts::add_json(const fs::path& file) {
   const std::string bytes = scene::read_file_bytes(file);
   json value = scene::parse_json(bytes, file.string());
@@ -171,6 +219,12 @@ void ViewData::Parts::add_json(const fs::path& file) {
       validate::read_umbra(file, scene.triangles);
       value.erase("vertices");
       put(file, std::move(value));
+    } else if (format == "clues-delta/1") {
+      const json about = value.value("scene", json::object());
+      const auto& scene = scene_of({text_of(about, "file"), text_of(about, "sha256")}, file);
+      validate::read_delta(file, scene.triangles);
+      if (value.contains("fragments")) value["fragments"].erase("vertices_exact");
+      put(file, std::move(value));
     } else if (format == "clues-judgement/1") {
       fuzz::section_of(bytes, file, false);
       const auto& scene = scene_of({text_of(value, "scene"), ""}, file);
@@ -185,9 +239,11 @@ void ViewData::Parts::add_json(const fs::path& file) {
     } else if (format.starts_with("clues-finding/")) {
       add_finding(file.has_parent_path() ? file.parent_path() : fs::path("."));
     } else {
-      throw Error(ErrorCode::unsupported, file.string() +
-                                              ": is none of the files that can be viewed: results, judgements, umbrae, "
-                                              "conformance reports, findings and scenes");
+      throw Error(ErrorCode::unsupported,
+                  file.string() +
+                      ": is none of the files that can be viewed: results, bakes, deltas, walks, "
+                      "hierarchies, judgements, umbrae, conformance reports, findings and "
+                      "scenes");
     }
   };
   fuzz::reading_fields(add, [&](const std::string& what) {
@@ -201,7 +257,7 @@ ViewData::ViewData(ViewData&&) noexcept = default;
 ViewData& ViewData::operator=(ViewData&&) noexcept = default;
 
 void ViewData::add_scene(const std::string& name, const scene::TriangleMesh& mesh, const std::string& sha256) {
-  parts_->add_scene(name, mesh, sha256);
+  parts_->add_scene(name, mesh_for_page(mesh), mesh.triangles.size(), sha256);
 }
 
 void ViewData::add_result(const std::string& name, const scene::Result& result) {
@@ -210,24 +266,27 @@ void ViewData::add_result(const std::string& name, const scene::Result& result) 
 }
 
 void ViewData::add_files(const std::vector<fs::path>& files) {
-  std::vector<fs::path> others;
+  struct Other {
+    fs::path file;
+    Content content;
+  };
+  std::vector<Other> others;
   for (const fs::path& file : files) {
     std::error_code error;
     if (fs::is_directory(file, error)) {
-      for (const fs::path& finding : findings_in(file)) others.push_back(finding);
-    } else if (file.extension() == ".json") {
-      others.push_back(file);
+      for (const fs::path& finding : findings_in(file)) others.push_back({finding, Content::finding});
+    } else if (const Content content = content_of(file); content != Content::scene) {
+      others.push_back({file, content});
     } else if (!parts_->read.contains(fs::weakly_canonical(file))) {
       parts_->read_scene(file);
     }
   }
-  for (const fs::path& file : others) {
-    std::error_code error;
-    if (fs::is_directory(file, error)) {
-      parts_->add_finding(file);
-    } else {
-      parts_->add_json(file);
-    }
+  for (const auto& [file, content] : others) {
+    if (content == Content::finding) parts_->add_finding(file);
+    if (content == Content::bake) parts_->add_bake(file);
+    if (content == Content::walk) parts_->add_walk(file);
+    if (content == Content::maps) parts_->add_maps(file);
+    if (content == Content::document) parts_->add_json(file);
   }
 }
 

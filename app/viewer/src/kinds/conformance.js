@@ -28,6 +28,7 @@ function readCases(json, file) {
 
 export default {
   id: 'conformance',
+  name: 'the outcome',
   formats: ['clues-conformance/1'],
   readCases,
   title: ({ data }) => (data.case ? `${data.name}: ${data.case.id}` : `conformance of ${data.name}`),

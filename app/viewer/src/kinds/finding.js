@@ -27,6 +27,7 @@ function readFolder(json, file, beside) {
 
 export default {
   id: 'finding',
+  name: 'the finding',
   formats: ['clues-finding/2'],
   readFolder,
   title: ({ data }) => `finding, ${data.words}: ${data.verdict}`,

@@ -29,6 +29,7 @@ function sight({ data }, t) {
 
 export default {
   id: 'judgement',
+  name: 'the verdict',
   formats: ['clues-judgement/1'],
   read,
   title: (part) => `verdict on a list for ${part.scene.file}`,

@@ -7,6 +7,7 @@ export function writeAddress(app) {
   words.set('view', app.view);
   if (app.case.scene) words.set('cam', app.camera.write());
   if (app.camera.up !== 'z') words.set('up', app.camera.up);
+  if (app.stepper()) words.set('at', app.stepper().kind.state(app.stepper()));
   if (app.triangle !== null) words.set('tri', app.triangle);
   if (app.alone) words.set('alone', 1);
   if (app.viewpoint > 0) words.set('vp', app.viewpoint);
@@ -14,7 +15,7 @@ export function writeAddress(app) {
   if (app.colourings()[0] && app.colourBy !== app.colourings()[0].id) words.set('colours', app.colourBy);
   const switched = [...app.switched].map(([id, on]) => (on ? id : `-${id}`));
   if (switched.length > 0) words.set('layers', switched.join());
-  const text = `#${words.toString().replaceAll('%2C', ',')}`;
+  const text = `#${words.toString().replaceAll('%2C', ',').replaceAll('%3A', ':')}`;
   if (text !== location.hash) history.replaceState(null, '', text);
 }
 
@@ -25,8 +26,12 @@ export function readAddress(app, hash = location.hash) {
   if (words.get('up') === 'y') app.camera.up = 'y';
   if (words.get('glare') === '0') app.glare = false;
   app.choose(Math.min(whole('case') ?? 0, app.workspace.cases.length - 1));
-  if (app.colourings().some((c) => c.id === words.get('colours'))) app.setColours(words.get('colours'));
+  if (words.has('at') && app.stepper()) {
+    app.stepper().kind.restore(app.stepper(), words.get('at'));
+    app.setStep(app.stepper().at);
+  }
   app.setView(words.get('view') ?? app.view);
+  if (app.colourings().some((c) => c.id === words.get('colours'))) app.setColours(words.get('colours'));
   if (!app.case.scene) return;
   if (whole('tri') !== null) app.select(whole('tri'));
   if (words.get('alone') === '1') app.setAlone(true);
