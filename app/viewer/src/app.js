@@ -373,9 +373,10 @@ export class App {
   }
   compare(width = 0, height = 0, most = undefined) {
     const r = this.stage.pictures()[0];
-    const { points, triangles } = this.case.scene.mesh;
-    const doubles = Float64Array.from(points, (x, i) => (x - this.frame.centre[i % 3]) / this.frame.radius);
-    this.comparison = compare(this.stage, { width: width || Math.round(r.width), height: height || Math.round(r.height), places: doubles, triangles, listed: this.listed, most });
+    this.comparison = compare(this.stage, {
+      width: width || Math.round(r.width), height: height || Math.round(r.height), mesh: this.case.scene.mesh, listed: this.listed, most,
+      solid: this.case.parts.some((p) => p.mode === 'solid'), eye: viewpoint(this.case.cell, this.viewpoint),
+    });
     this.stage.draw();
     return this.comparison;
   }

@@ -46,7 +46,7 @@ test('a click on a triangle says how much of it is visible, and the proof', () =
   const [x, y] = await onPage(page, [10.3, 1.3, 4]);
   await page.mouse.move(x, y);
   await settled(page);
-  assert.match(await text(page, '#tip'), /triangle 4 · front · visible · town.obj/);
+  assert.match(await text(page, '#tip'), /triangle 4 · front · visible from the cell · town.obj/);
   await page.mouse.click(x, y);
   await settled(page);
   assert.equal((await state(page)).triangle, 4);

@@ -69,7 +69,7 @@ export class Workspace {
       if (textKindOf(file)) await attempt(() => this.addText(file));
       else if (beginOf(file).startsWith('SQLite format 3')) flaws.push(`${file.path}: is a store of \`clues bake\`; the page that \`clues view ${nameOf(file.path)}\` writes shows it`);
       else if (file.json !== undefined || extension(file.path) === 'json') await attempt(() => this.addJson(file));
-      else if (MESHES[extension(file.path)]) await attempt(async () => this.scenes.push({ name: nameOf(file.path), mesh: parseMesh(file, true), sha256: file.sha256 ?? (await sha256(file.bytes)) }));
+      else if (file.mesh || MESHES[extension(file.path)]) await attempt(async () => this.scenes.push({ name: nameOf(file.path), mesh: parseMesh(file, true), sha256: file.sha256 ?? (await sha256(file.bytes)) }));
       else if (!folders.some((f) => file.path.startsWith(folderOf(f.path)))) flaws.push(`${file.path}: is no file that this page knows (of clues: *.json, walks, hierarchies; or a scene: OBJ, OFF, PLY, STL; glTF, levels and bakes are put into a page by "clues view")`);
     }
     await attempt(() => { flaws.push(...this.combine()); });
