@@ -78,10 +78,14 @@ std::vector<fs::path> findings_in(const fs::path& folder) {
 }  // namespace
 
 struct ViewData::Parts {
+  fs::path root;
   std::vector<KnownScene> scenes;
   std::set<fs::path> read;  // scenes, by canonical path
   json files = json::array();
 
+  std::string name_of(const fs::path& file) const {
+    return root.empty() ? file.filename().string() : file.lexically_relative(root).string();
+  }
   std::size_t add_scene(const std::string& name, json mesh, std::size_t triangles, const std::string& sha256) {
     files.push_back({{"path", name}, {"sha256", sha256}, {"mesh", std::move(mesh)}});
     scenes.push_back({name, sha256, triangles});
@@ -93,6 +97,11 @@ struct ViewData::Parts {
     return add_scene(file.filename().string(), mesh_for_page(mesh), mesh.mesh.triangles.size(),
                      scene::sha256_of_file(file));
   }
+  // Of a scene that is named without its hash: that of the file, where all files are looked for.
+  std::string hash_of(const std::string& file) const {
+    std::error_code error;
+    return !root.empty() && fs::is_regular_file(file, error) ? scene::sha256_of_file(file) : "";
+  }
   // One that was given, by its hash or else its name; or the file itself, where it is named or beside.
   const KnownScene& scene_of(const Named& named, const fs::path& about) {
     const std::string name = fs::path(named.file).filename().string();
@@ -103,6 +112,7 @@ struct ViewData::Parts {
     for (const KnownScene& s : scenes) {
       if (s.name != name) continue;
       if (named.sha256.empty()) return s;
+      if (!root.empty()) continue;
       throw Error(ErrorCode::malformed,
                   about.string() + ": is about another version of " + name + " (the SHA-256 of the file differs)");
     }
@@ -116,9 +126,7 @@ struct ViewData::Parts {
                 fmt::format("{}: is about the scene {}, which is not beside it{}; name that file too", about.string(),
                             name, named.sha256.empty() ? "" : " in the same version"));
   }
-  void put(const fs::path& file, json value) {
-    files.push_back({{"path", file.filename().string()}, {"json", std::move(value)}});
-  }
+  void put(const fs::path& file, json value) { files.push_back({{"path", name_of(file)}, {"json", std::move(value)}}); }
 
   void add_bake(const fs::path& file);
   void add_walk(const fs::path& file);
@@ -131,7 +139,8 @@ struct ViewData::Parts {
 // From what was compared with its hashes, and not from the files once more.
 void ViewData::Parts::add_finding(const fs::path& folder) {
   const auto saved = fuzz::load_finding(folder);
-  const std::string base = fs::weakly_canonical(folder).filename().string() + "/";
+  const fs::path known = root.empty() ? fs::weakly_canonical(folder).filename() : folder.lexically_relative(root);
+  const std::string base = known == "." ? "" : known.string() + "/";
   const auto& about = saved.finding;
   files.push_back({{"path", base + "finding.json"},
                    {"json",
@@ -227,11 +236,13 @@ void ViewData::Parts::add_json(const fs::path& file) {
       put(file, std::move(value));
     } else if (format == "clues-judgement/1") {
       fuzz::section_of(bytes, file, false);
-      const auto& scene = scene_of({text_of(value, "scene"), ""}, file);
+      const std::string named = text_of(value, "scene");
+      const auto& scene = scene_of({named, hash_of(named)}, file);
       if (value.at("triangles").size() != scene.triangles) {
         throw Error(ErrorCode::malformed, fmt::format("{}: is about {} triangles, and {} has {}", file.string(),
                                                       value.at("triangles").size(), scene.name, scene.triangles));
       }
+      value["scene_sha256"] = scene.sha256;
       put(file, std::move(value));
     } else if (format == "clues-conformance/1") {
       fuzz::section_of(bytes, file, false);
@@ -251,7 +262,7 @@ void ViewData::Parts::add_json(const fs::path& file) {
   });
 }
 
-ViewData::ViewData() : parts_(std::make_unique<Parts>()) {}
+ViewData::ViewData(fs::path root) : parts_(std::make_unique<Parts>()) { parts_->root = std::move(root); }
 ViewData::~ViewData() = default;
 ViewData::ViewData(ViewData&&) noexcept = default;
 ViewData& ViewData::operator=(ViewData&&) noexcept = default;

@@ -15,7 +15,8 @@ namespace clues::app {
 
 class ViewData {
  public:
-  ViewData();
+  // Files are named without their folders, or as seen from `root`.
+  explicit ViewData(std::filesystem::path root = {});
   ~ViewData();
   ViewData(ViewData&&) noexcept;
   ViewData& operator=(ViewData&&) noexcept;

@@ -240,15 +240,11 @@ export class App {
 
   // From the cell along the sight line to the triangle.
   showRow(row) {
-    if (row.goto) {
-      const at = this.workspace.cases.findIndex((c) => c.scene?.name === row.goto);
-      if (at >= 0 && this.workspace.cases[at] !== this.case) {
-        this.choose(at);
-        this.changed('files');
-        const again = this.able('rows').flatMap((p) => p.kind.rows(p)).find((r) => r.name === row.name);
-        if (again) this.showRow({ ...again, goto: null });
-        return;
-      }
+    if (row.goto && !this.case.parts.some((p) => p.data === row.goto)) {
+      this.choose(this.workspace.cases.findIndex((c) => c.parts.some((p) => p.data === row.goto)));
+      this.setView('verdicts');
+      this.changed('files');
+      row = this.able('rows').flatMap((p) => p.kind.rows(p)).find((r) => r.name === row.name) ?? row;
     }
     if (row.triangle === null || row.triangle === undefined || !this.case.scene) return;
     this.triangle = row.triangle;
@@ -267,6 +263,17 @@ export class App {
       this.flyTo(start, () => this.flyTo(end));
     }
     this.changed('state');
+  }
+
+  // For a page that holds this one: a row of a file, or its first.
+  showRowOf(file, name) {
+    const at = this.workspace.cases.findIndex((c) => c.parts.some((p) => p.file === file));
+    if (at < 0) return;
+    this.choose(at);
+    this.setView('verdicts');
+    this.changed('files');
+    const rows = this.able('rows').filter((p) => p.file === file).flatMap((p) => p.kind.rows(p));
+    this.showRow(rows.find((r) => r.name === name) ?? rows[0]);
   }
 
   // Moves the camera; at once for who wants no motion.

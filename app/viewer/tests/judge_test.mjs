@@ -44,6 +44,12 @@ const look = (page, viewpoints, until = false) => page.evaluate(([count, size, s
   const sum = { pictures: 0, pixels: 0, surface: 0, differ: 0, real: 0, missing: [], seen: [] }, seen = new Map();
   cluesView.setView('stand');
   cluesView.camera.perspective.fov = 90;
+  // Seen edge-on a triangle is drawn where no ray through the middle of a pixel meets it.
+  const edgeOn = (t) => {
+    const [a, b, c] = cluesView.corners(t), eye = cluesView.frame.world(cluesView.camera.eye), less = (p, q) => p.map((x, k) => x - q[k]), dot = (p, q) => p.reduce((sum, x, k) => sum + x * q[k], 0);
+    const [u, v, w] = [less(b, a), less(c, a), less(a, eye)], n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+    return Math.abs(dot(n, w)) < 0.02 * Math.sqrt(dot(n, n) * dot(w, w));
+  };
   const directions = [[0, 0], [1.5708, 0], [3.1416, 0], [-1.5708, 0], [0, 1.5], [0, -1.5]];
   for (let i = 0; i < count && !(stop && sum.real > 0); ++i) {
     cluesView.stand(i);
@@ -53,7 +59,7 @@ const look = (page, viewpoints, until = false) => page.evaluate(([count, size, s
       ++sum.pictures;
       for (const key of ['pixels', 'surface', 'differ', 'real']) sum[key] += c[key];
       sum.missing.push(...c.missing);
-      for (const [t, n] of c.seen) seen.set(t, Math.max(seen.get(t) ?? 0, n));
+      for (const [t, n] of c.seen) if (n < 25 || !edgeOn(t)) seen.set(t, Math.max(seen.get(t) ?? 0, n));
     }
   }
   sum.missing = [...new Set(sum.missing)];

@@ -63,14 +63,14 @@ export async function browser() {
 export async function close() { await running?.close(); running = null; }
 
 // Opens a page, runs the test with it, and fails on anything that the page complains of or fetches.
-export async function withPage(name, test, { width = 1280, height = 800, hash = '', picture = true, media = {} } = {}) {
+export async function withPage(name, test, { width = 1280, height = 800, hash = '', ready = true, picture = true, media = {} } = {}) {
   const context = await (await browser()).newContext({ viewport: { width, height }, acceptDownloads: true, reducedMotion: 'reduce', colorScheme: 'light', ...media });
   const page = await context.newPage(), complaints = [];
   page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall due to ReadPixels/.test(message.text())) complaints.push(message.text()); });
   page.on('pageerror', (problem) => complaints.push(problem.stack));
   page.on('request', (request) => { if (!/^(file|blob|data):/.test(request.url())) complaints.push(`fetched ${request.url()}`); });
   await page.goto(`file://${file(name)}${hash}`);
-  await page.waitForSelector('body[data-ready]');
+  if (ready) await page.waitForSelector('body[data-ready]');
   if (picture) await page.waitForSelector('body[data-drawn]');
   try {
     const out = await test(page);

@@ -16,7 +16,7 @@ function read(json, file) {
   const fractions = top.list('first_order_fractions');
   const measured = top.object('triangles_measured');
   const meets = new Set(top.wholes('meet_cell', last));
-  const scene = { file: top.text('scene').split('/').pop(), sha256: null, triangles: words.length };
+  const scene = { file: top.text('scene').split('/').pop(), sha256: top.has('scene_sha256') ? top.text('scene_sha256') : null, triangles: words.length };
   return { scene, cell: top.points('cell'), mode: null, data: { words, witnesses, chains, fractions, meets, verdict: top.text('verdict'), measured: measured.json } };
 }
 

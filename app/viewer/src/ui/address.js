@@ -1,6 +1,6 @@
 // What is shown, in the fragment of the address: the permalink.
 export function writeAddress(app) {
-  if (!app.case) return;
+  if (!app.case || location.protocol === 'about:') return;  // within another page there is no address
   const words = new URLSearchParams();
   const index = app.workspace.cases.indexOf(app.case);
   if (index > 0) words.set('case', index);
