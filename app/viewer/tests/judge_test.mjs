@@ -3,7 +3,7 @@
 //
 // CLUES_LEVELS: a folder with levels (*.bsp) for the long form; without it, and in the short form, two small ones of the corpus are taken.
 import assert from 'node:assert/strict';
-import { copyFileSync, readdirSync, readFileSync } from 'node:fs';
+import { copyFileSync, readdirSync, readFileSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { close, clues, CLUES_SOURCE, drop, file, LONG, read, withPage, write } from './support.mjs';
@@ -115,6 +115,7 @@ test(`${LEVELS} levels, the leaves of each, ${VIEWPOINTS} viewpoints in each of 
   assert.equal(levels.length, LEVELS);
   for (const level of levels) {
     copyFileSync(join(folder, level), file(level));
+    if (folder === own) rmSync(file(`${level}.bake`), { force: true });
     clues(0, 'bake', level, '--cells', 'leaves', '-o', `${level}.bake`);
     clues(0, 'view', `${level}.bake`, '-o', `${level}.html`);
     await withPage(`${level}.html`, async (page) => {

@@ -1,16 +1,19 @@
 // Views that are gone through step by step: bakes, transitions, walks and hierarchies, made by the program; and what is not whole of them.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, rmSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { close, clues, colours, drop, dropped, file, makeTown, read, settled, withPage, write } from './support.mjs';
 
+const CELLS = 'grid:4x2x1:box:0,0,0,12,2,1';
 const MADE = ['town.bake', 'town.delta.json', 'town.walk.jsonl', 'ball.maps'];
 
 before(() => {
   makeTown();
+  write('boards.obj', boards());
   write('room.obj', room());
   write('ball.off', ball(12));
-  clues(0, 'bake', 'town.obj', '--cells', 'grid:4x2x1:box:-8,-4,0,12,8,2', '--group', '4', '-o', 'town.bake');
+  for (const old of ['town.bake', 'plain']) rmSync(file(old), { force: true, recursive: true });
+  clues(0, 'bake', 'boards.obj', '--cells', CELLS, '--group', '4', '-o', 'town.bake');
   clues(0, 'delta', 'town.obj', '--from', 'box:0,0,1,1,2,2', '--to', 'box:1,0,1,2,2,2', '--fragments', '-o', 'town.delta.json');
   clues(0, 'motion', 'room.obj', '--path', 'walk:-1,0,0:1,0,0', '--frames', '8', '--samples', '300', '--walk-out', 'town.walk.jsonl', '--json', 'walk.json');
   clues(0, 'maps', 'ball.off', '--base', '20', '-o', 'ball.maps');
@@ -19,6 +22,16 @@ before(() => {
 });
 after(close);
 
+// Four boards beside the cells, and behind each a small triangle that it hides from the cells nearby.
+function boards() {
+  const points = [], faces = [];
+  for (const x of [1.5, 4.5, 7.5, 10.5]) {
+    const a = points.length + 1;
+    points.push([x - 1, 4, -5], [x + 1, 4, -5], [x + 1, 4, 5], [x - 1, 4, 5], [x - 0.1, 4.5, 0.4], [x + 0.1, 4.5, 0.4], [x, 4.5, 0.6]);
+    faces.push([a, a + 1, a + 2], [a, a + 2, a + 3], [a + 4, a + 5, a + 6]);
+  }
+  return `${points.map((p) => `v ${p.join(' ')}`).join('\n')}\n${faces.map((f) => `f ${f.join(' ')}`).join('\n')}\n`;
+}
 // A box from inside, with a board in it.
 function room() {
   const corner = (i) => `v ${i & 1 ? 4 : -4} ${i & 2 ? 4 : -4} ${i & 4 ? 4 : -4}`;
@@ -48,19 +61,24 @@ test('a bake: the path through cells, + and -, bytes, the tree', () => withPage(
   await page.click('#view-bake');
   await settled(page);
   const side = await text(page, '#side');
-  for (const words of ['8 cells', 'bytes of +', 'group 1', 'listed in this cell', 'cells, coloured by the length']) assert(side.includes(words), words);
+  for (const words of ['8 cells', 'bytes of +', 'group 1', 'listed in this cell', 'not listed', 'cells, coloured by the length']) assert(side.includes(words), words);
   const count = await part(page, 'part.kind.steps(part)');
   assert.equal(count, 5, 'from one corner of 4 by 2 cells to the other in four steps');
   // What the page says of each step is what the plain lists of the program say.
-  clues(0, 'bake', 'town.obj', '--cells', 'grid:4x2x1:box:-8,-4,0,12,8,2', '--group', '4', '-o', 'town.bake', '--export', 'plain');
-  const lists = await part(page, 'part.data.cells.map((c) => [...Array(5).keys()].filter((t) => (c.bits[t >> 3] >> (t & 7)) & 1))');
+  clues(0, 'bake', 'boards.obj', '--cells', CELLS, '--group', '4', '-o', 'town.bake', '--export', 'plain');
+  const lists = await part(page, 'part.data.cells.map((c) => [...Array(12).keys()].filter((t) => (c.bits[t >> 3] >> (t & 7)) & 1))');
   lists.forEach((list, i) => assert.deepEqual(list, read(`plain/pvs/${i}.txt`).split('\n').filter((l) => /^\d/.test(l)).map(Number), `cell ${i}`));
   const path = await part(page, 'part.data.path');
+  let plusses = 0, minuses = 0;
   for (let at = 1; at < count; ++at) {
     await slide(page, at);
     const [a, b] = [lists[path[at - 1]], lists[path[at]]], plus = b.filter((t) => !a.includes(t)).length, minus = a.filter((t) => !b.includes(t)).length;
     assert((await text(page, '#side')).includes(`${b.length} listed; + ${plus}, − ${minus}`));
+    assert.equal(await page.locator(`#bars rect[data-step="${at}"] title`).textContent(), `step ${at}, cell ${await part(page, `part.data.cells[${path[at]}].name`)}: + ${4 * plus} bytes, − ${4 * minus} bytes`);
+    plusses += plus;
+    minuses += minus;
   }
+  assert(plusses > 0 && minuses > 0, 'the path changes lists both ways');
   assert.equal(await page.locator('#bars rect[data-step]').count(), count);
   await page.locator('#bars rect[data-step="1"]').click();
   assert.equal(await part(page, 'part.at'), 1);
@@ -137,8 +155,10 @@ test('a walk: frames, what is examined, made and removed, bounds', () => withPag
   await settled(page);
   assert((await text(page, '#legend')).includes('as in the frame before'));
   await page.click('#play');
-  await page.waitForFunction(() => cluesView.stepper().at > 5);
-  await page.click('#play');
+  await page.waitForFunction(() => cluesView.stepper().at === 8 && !cluesView.playing);
+  await page.keyboard.press('p');
+  await page.keyboard.press('p');
+  assert.equal(await page.evaluate(() => cluesView.playing), 0);
   await page.getByText('From the viewpoint').click();
   await settled(page);
   assert.deepEqual(await page.evaluate(() => cluesView.frame.world(cluesView.camera.eye).map((x) => Math.round(100 * x) / 100)), (await part(page, 'part.data.frames[part.at].viewpoint')).map((x) => Math.round(100 * x) / 100));

@@ -101,11 +101,11 @@ export default {
   layers(part, frame) {
     const { data } = part, { cells, path } = data;
     return [
-      { id: 'cells', name: 'cells, coloured by the length of their lists', colour: LABELS[NUMBER['scale-4']].colour, on: true, count: cells.length, make() {
+      { id: 'cells', name: 'cells, coloured by the length of their lists', colour: LABELS[NUMBER['scale-4']].colour, on: true, count: cells.length, make(ink) {
         const group = new Group();
         for (let bin = 0; bin < SCALE; ++bin) {
           const of = cells.filter((c, i) => i !== path[part.at] && binOf(data, c.count) === bin), { colour } = LABELS[NUMBER[`scale-${bin}`]];
-          group.add(hulls(frame, of.map((c) => c.points), colour, 0.3, 1.2));
+          group.add(hulls(frame, of.map((c) => c.points), colour, 0.35, ink));
         }
         return group;
       } },

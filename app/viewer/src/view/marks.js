@@ -70,11 +70,11 @@ export function hull(frame, points, colour) {
   return group;
 }
 
-// Many of them at once, each a list of points.
-export function hulls(frame, cells, colour, opacity, width) {
+// Many of them at once, each a list of points; their edges in another colour.
+export function hulls(frame, cells, colour, opacity, ink) {
   const group = new THREE.Group(), parts = cells.map((points) => hullParts(frame, points)), triangles = parts.flatMap((p) => p.triangles), pairs = parts.flatMap((p) => p.pairs);
   if (triangles.length > 0) group.add(body(frame, triangles, colour, opacity));
-  if (pairs.length > 0) group.add(lines(frame, pairs, colour, width));
+  if (pairs.length > 0) group.add(lines(frame, pairs, ink, 0.7));
   return group;
 }
 
