@@ -44,11 +44,12 @@ const look = (page, viewpoints, until = false) => page.evaluate(([count, size, s
   const sum = { pictures: 0, pixels: 0, surface: 0, differ: 0, real: 0, missing: [], seen: [] }, seen = new Map();
   cluesView.setView('stand');
   cluesView.camera.perspective.fov = 90;
-  // Seen edge-on a triangle is drawn where no ray through the middle of a pixel meets it.
-  const edgeOn = (t) => {
-    const [a, b, c] = cluesView.corners(t), eye = cluesView.frame.world(cluesView.camera.eye), less = (p, q) => p.map((x, k) => x - q[k]), dot = (p, q) => p.reduce((sum, x, k) => sum + x * q[k], 0);
-    const [u, v, w] = [less(b, a), less(c, a), less(a, eye)], n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-    return Math.abs(dot(n, w)) < 0.02 * Math.sqrt(dot(n, n) * dot(w, w));
+  // Triangles that fill a block of 3 by 3 pixels of the picture: not slivers, which are drawn where no ray through the middle of a pixel meets them.
+  const blocks = () => {
+    const bytes = new Uint32Array(cluesView.stage.numbers(cluesView.stage.whole, { width: size, height: size }).buffer), found = new Set();
+    for (let i = size; i + size + 3 <= bytes.length; ++i)
+      if (i % size <= size - 3 && [-size, 0, size].every((row) => [0, 1, 2].every((k) => bytes[i + row + k] === bytes[i]))) found.add(bytes[i] & 0xffffff);
+    return found;
   };
   const directions = [[0, 0], [1.5708, 0], [3.1416, 0], [-1.5708, 0], [0, 1.5], [0, -1.5]];
   for (let i = 0; i < count && !(stop && sum.real > 0); ++i) {
@@ -59,7 +60,8 @@ const look = (page, viewpoints, until = false) => page.evaluate(([count, size, s
       ++sum.pictures;
       for (const key of ['pixels', 'surface', 'differ', 'real']) sum[key] += c[key];
       sum.missing.push(...c.missing);
-      for (const [t, n] of c.seen) if (n < 25 || !edgeOn(t)) seen.set(t, Math.max(seen.get(t) ?? 0, n));
+      const filled = stop ? new Set() : blocks();
+      for (const [t, n] of c.seen) if (filled.has(t)) seen.set(t, Math.max(seen.get(t) ?? 0, n));
     }
   }
   sum.missing = [...new Set(sum.missing)];
@@ -69,15 +71,15 @@ const look = (page, viewpoints, until = false) => page.evaluate(([count, size, s
 
 const KEYS = ['pictures', 'pixels', 'surface', 'differ', 'real'];
 
-// What the page shows now: its list is judged, and then without one triangle. `isListed` and `takeOut` speak of triangles. Returns sums, or null where nothing is seen.
+// What the page shows now: its list is judged, and then without one triangle. `isListed` and `takeOut` speak of triangles. Returns sums, or null where nothing is large enough to be seen.
 async function judge(page, name, isListed, takeOut) {
   const sound = await look(page, VIEWPOINTS);
   if (sound.surface === 0) return null;
   if (LONG || sound.differ > 0) console.log(`${name}: ${sound.differ} of ${sound.surface} pixels of surface are drawn differently, ${sound.real} differ`);
   assert.equal(sound.real, 0, `${name}: a list that is sound lacks triangles ${sound.missing}`);
-  // The smallest of those that cover 25 pixels of some picture, for fewer can be a part of an edge; or else the largest.
   const seen = sound.seen.filter(([t]) => isListed(t)).sort((a, b) => a[1] - b[1] || a[0] - b[0]);
-  const [gone] = seen.find(([, n]) => n >= 25) ?? seen.at(-1);
+  if (seen.length === 0) return null;
+  const [gone] = seen[0];
   await takeOut(gone);
   const other = await look(page, VIEWPOINTS, true);
   assert(other.real > 0 && other.missing.includes(gone), `${name}: nobody misses triangle ${gone}`);

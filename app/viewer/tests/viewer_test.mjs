@@ -279,6 +279,21 @@ test('the program refuses what it cannot read, and writes nothing', () => {
   assert.throws(() => readFileSync(file('no.html')));
 });
 
+test('a level: its faces have names, and what does not block is drawn too', async () => {
+  copyFileSync(join(CLUES_SOURCE, 'fuzz/corpus/bsp/two_rooms.bsp'), file('two_rooms.bsp'));
+  clues(0, 'view', 'two_rooms.bsp', '-o', 'level.html');
+  await withPage('level.html', async (page) => {
+    const { flags, parts } = await page.evaluate(() => { const { flags: f, parts: p } = cluesView.case.scene.mesh; return { flags: [...f], parts: p }; });
+    assert.deepEqual([flags.length, flags.filter((f) => f & 2).length, flags.filter((f) => f & 1).length], [62, 40, 26], 'as `clues level` counts them');
+    const { width, height } = await page.locator('#canvas').boundingBox(), box = await page.locator('#canvas').boundingBox();
+    await page.mouse.move(box.x + width / 2, box.y + height / 2);
+    await settled(page);
+    const words = (await text(page, '#tip')).split(' · ');
+    assert.match(words[0], /^triangle \d+$/);
+    assert(parts.some(([, name]) => words.includes(name)), words.join());
+  });
+});
+
 test('names of files are text', async () => {
   const name = '<img src=x onerror=window.broken=1>.obj';
   write(name, read('town.obj'));
