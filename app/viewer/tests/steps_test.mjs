@@ -164,6 +164,19 @@ test('a walk: frames, what is examined, made and removed, bounds', () => withPag
   assert.deepEqual(await page.evaluate(() => cluesView.frame.world(cluesView.camera.eye).map((x) => Math.round(100 * x) / 100)), (await part(page, 'part.data.frames[part.at].viewpoint')).map((x) => Math.round(100 * x) / 100));
 }));
 
+test('bounds in the page are those of the walk', async () => {
+  write('still.txt', '-1 0 0\n-1 0 0\n');
+  clues(0, 'motion', 'room.obj', '--path', 'still.txt', '--samples', '200', '--walk-out', 'still.jsonl', '--bounds-out', 'still.bounds.json');
+  clues(0, 'view', 'still.jsonl', '-o', 'still.html');
+  // Without a way a step is 1. Null: nothing can fail.
+  const wanted = JSON.parse(read('still.bounds.json')).bounds.map((b) => (b === null ? 7 : [0.25, 0.5, 1, 2, 4, 8, 16].findIndex((limit) => b < limit))).map((b) => (b < 0 ? 7 : b));
+  await withPage('still.html', async (page) => {
+    assert.deepEqual(await part(page, '[...part.data.bounds.frames[0]]'), wanted);
+    assert.deepEqual(await part(page, '[...part.data.bounds.frames[1]]'), wanted);
+    assert.equal(await part(page, '[...part.data.triangles].filter((c, i) => i % 3 === 0 && c !== 0xffffffff).length'), wanted.length);
+  });
+});
+
 test('a hierarchy: levels, patches, the checkerboard, distances, the overlay when near', () => withPage('ball.maps.html', async (page) => {
   const levels = JSON.parse((clues(0, 'maps', 'verify', 'ball.maps', '--json', 'verdict.json'), read('verdict.json'))).levels.map((l) => l.triangles);
   await flat(page);

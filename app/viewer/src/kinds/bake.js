@@ -7,7 +7,7 @@ import { hull, hulls, lines } from '../view/marks.js';
 import { Group } from 'three';
 
 const BYTES = 4;  // of a triangle's number in a message
-const MOST_CHOICES = 2000;
+const MOST_SHOWN = 2000;  // cells in lists of the panel
 
 function read(json, file) {
   const top = new Fields(json, file), scene = top.object('scene'), triangles = scene.whole('triangles');
@@ -19,7 +19,7 @@ function read(json, file) {
     return { name: c.text('name'), node: c.whole('node', nodes.length - 1), fallbacks: c.whole('fallbacks'), points, ...list, low: bound(points, Math.min), high: bound(points, Math.max) };
   });
   if (cells.length === 0) top.wrong('cells', 'has none');
-  const data = { nodes, cells, note: top.text('note'), most: Math.max(...cells.map((c) => c.count)), least: Math.min(...cells.map((c) => c.count)), path: [0] };
+  const data = { nodes, cells, note: top.text('note'), near: joined(cells), most: Math.max(...cells.map((c) => c.count)), least: Math.min(...cells.map((c) => c.count)), path: [0] };
   const part = { scene: { file: scene.text('file'), sha256: scene.text('sha256'), triangles }, cell: cells[0].points, mode: null, data, at: 0 };
   data.path = longest(data);
   return part;
@@ -27,21 +27,26 @@ function read(json, file) {
 
 const bound = (points, least) => [0, 1, 2].map((k) => points.reduce((x, p) => least(x, p[k]), points[0][k]));
 
-// Cells whose boxes share more than an edge: in them one goes from cell to cell.
-function neighbours({ cells }, i) {
-  const a = cells[i], out = [];
-  cells.forEach((b, j) => {
-    if (j === i) return;
-    const wide = [0, 1, 2].map((k) => Math.min(a.high[k], b.high[k]) - Math.max(a.low[k], b.low[k]));
-    if (wide.every((w) => w >= 0) && wide.filter((w) => w === 0).length <= 1) out.push(j);
+// For each cell the others whose boxes share more than an edge with its own: in them one goes from cell to cell. In the order of their beginnings only those that begin
+// before a cell ends are looked at.
+function joined(cells) {
+  const order = cells.map((_, i) => i).sort((i, j) => cells[i].low[0] - cells[j].low[0]), out = cells.map(() => []);
+  order.forEach((i, at) => {
+    for (let next = at + 1; next < order.length && cells[order[next]].low[0] <= cells[i].high[0]; ++next) {
+      const j = order[next], wide = [0, 1, 2].map((k) => Math.min(cells[i].high[k], cells[j].high[k]) - Math.max(cells[i].low[k], cells[j].low[k]));
+      if (!wide.every((w) => w >= 0) || wide.filter((w) => w === 0).length > 1) continue;
+      out[i].push(j);
+      out[j].push(i);
+    }
   });
+  for (const list of out) list.sort((a, b) => a - b);
   return out;
 }
 
 // Fewest steps from a cell to every other: where each was come to from; -1: not at all.
 function ways(data, from) {
   const before = new Map([[from, -1]]), queue = [from];
-  for (const i of queue) for (const j of neighbours(data, i)) if (!before.has(j)) { before.set(j, i); queue.push(j); }
+  for (const i of queue) for (const j of data.near[i]) if (!before.has(j)) { before.set(j, i); queue.push(j); }
   return { before, last: queue.at(-1) };
 }
 function way(data, from, to) {
@@ -141,7 +146,7 @@ export default {
     const { data } = part, { cells, path } = data, cell = here(part), step = stepAt(part, part.at);
     const sizes = path.map((i, k) => { const s = stepAt(part, k); return s ? [BYTES * s.plus.length, BYTES * s.minus.length] : [BYTES * cells[i].count, 0]; });
     const sent = sizes.reduce((sum, [a, b]) => sum + a + b, 0), whole = path.reduce((sum, i) => sum + BYTES * cells[i].count, 0);
-    const near = neighbours(data, path[part.at]);
+    const near = data.near[path[part.at]];
     return {
       title: `Cell ${cell.name}`,
       lines: [
@@ -150,10 +155,10 @@ export default {
       ],
       bars: sizes.map((values, k) => ({ values, title: `step ${k}, cell ${cells[path[k]].name}: + ${values[0]} bytes, − ${values[1]} bytes` })),
       barNames: ['bytes of +', 'bytes of −'],
-      choices: cells.length > 1 && cells.length <= MOST_CHOICES ? [{ id: 'go', name: 'On to', value: '', options: [{ id: '', name: '(a cell)' }, ...cells.map((c, i) => ({ id: String(i), name: `${c.name}: ${c.count}` }))], set: (id) => { if (id !== '') go(part, app, Number(id)); } }] : [],
+      choices: cells.length > 1 && cells.length <= MOST_SHOWN ? [{ id: 'go', name: 'On to', value: '', options: [{ id: '', name: '(a cell)' }, ...cells.map((c, i) => ({ id: String(i), name: `${c.name}: ${c.count}` }))], set: (id) => { if (id !== '') go(part, app, Number(id)); } }] : [],
       buttons: [...near.slice(0, 12).map((j) => ({ name: cells[j].name, title: `on to the neighbour ${cells[j].name}`, does: () => go(part, app, j) })), { name: 'Begin here', title: 'a new path, from this cell', does: () => { data.path = [path[part.at]]; app.setStep(0); } }],
       lists: step ? [{ name: '+', ids: step.plus }, { name: '−', ids: step.minus }] : [],
-      tree: tree(data),
+      tree: cells.length <= MOST_SHOWN ? tree(data) : null,
       choose: (i) => go(part, app, i),
     };
   },

@@ -40,7 +40,12 @@ export function dots(frame, points, colour, size) {
 }
 
 // The faces of the hull of points of a solid cell as triangles, and its edges as pairs; of a flat cell all pairs.
+const known = new WeakMap();
 function hullParts(frame, points) {
+  if (!known.has(points)) known.set(points, makeHull(frame, points));
+  return known.get(points);
+}
+function makeHull(frame, points) {
   const local = points.map((p) => new THREE.Vector3(...frame.local(p)));
   const size = new THREE.Box3().setFromPoints(local).getSize(new THREE.Vector3());
   if (points.length < 4 || !spansSpace(local, Math.max(size.x, size.y, size.z))) return { triangles: [], pairs: points.flatMap((p, i) => points.slice(i + 1).map((q) => [p, q])) };
