@@ -17,13 +17,13 @@ using nlohmann::json;
 constexpr std::uint8_t due = 64;
 constexpr int most_bin = 7;
 
-// The least b with left < step * 2^(b - 2).
+// The least b with left < step * 4^(b - 1).
 std::uint8_t bin_of(double left, double step) {
   double limit = step / 4;
   int bin = 0;
   while (bin < most_bin && !(left < limit)) {
     ++bin;
-    limit *= 2;
+    limit *= 4;
   }
   return static_cast<std::uint8_t>(bin);
 }

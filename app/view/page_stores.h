@@ -17,7 +17,7 @@ nlohmann::json bake_for_page(const scene::FinishedBake& bake);
 std::string run_lengths(const std::vector<std::uint32_t>& list, std::uint32_t triangles);
 
 // Of every frame one byte for each triangle, in order, in base64: how much of its bound (D29; facing, edges and separations, as the fast path has them, computed where it
-// was used up or the triangle is new) is left at this viewpoint, as the least b below 7 with bound < step * 2^(b - 2), or 7; 64 is added where it had been used up by the
+// was used up or the triangle is new) is left at this viewpoint, as the least b below 7 with bound < step * 4^(b - 1), or 7; 64 is added where it had been used up by the
 // way. `step`: the mean of all steps. Throws Error as WalkReader; malformed for a walk without frames. O(size of all frames).
 nlohmann::json walk_for_page(const std::filesystem::path& file);
 

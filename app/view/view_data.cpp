@@ -50,8 +50,10 @@ std::string dumped(const json& value) { return value.dump(-1, ' ', false, json::
 
 enum class Content : std::uint8_t { scene, finding, bake, walk, maps, document };
 
-// By how the file begins; a name decides only between JSON and scenes.
+// By how the file begins. What is no regular file is for the readers of scenes to refuse: nobody waits for a pipe.
 Content content_of(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return Content::scene;
   constexpr std::size_t enough = 200;
   std::string begin(enough, '\0');
   std::ifstream input(file, std::ios::binary);
@@ -60,7 +62,9 @@ Content content_of(const fs::path& file) {
   if (begin.starts_with("SQLite format 3")) return Content::bake;
   if (scene::is_hierarchy_text(begin)) return Content::maps;
   if (begin.substr(0, begin.find('\n')).find("\"clues-motion-walk/") != std::string::npos) return Content::walk;
-  return file.extension() == ".json" || file.extension() == ".jsonl" ? Content::document : Content::scene;
+  const auto first = begin.find_first_not_of(" \t\r\n");
+  const bool is_object = first != std::string::npos && begin[first] == '{' && file.extension() != ".gltf";
+  return is_object || file.extension() == ".json" ? Content::document : Content::scene;
 }
 
 // The folder itself, or those of a campaign, by name.
@@ -111,8 +115,8 @@ struct ViewData::Parts {
       if (!named.sha256.empty() && s.sha256 == named.sha256) return s;
     for (const KnownScene& s : scenes) {
       if (s.name != name) continue;
+      if (!root.empty()) continue;  // many files about many scenes: a name says nothing
       if (named.sha256.empty()) return s;
-      if (!root.empty()) continue;
       throw Error(ErrorCode::malformed,
                   about.string() + ": is about another version of " + name + " (the SHA-256 of the file differs)");
     }

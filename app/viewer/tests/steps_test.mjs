@@ -1,6 +1,7 @@
 // Views that are gone through step by step: bakes, transitions, walks and hierarchies, made by the program; and what is not whole of them.
 import assert from 'node:assert/strict';
-import { readFileSync, rmSync } from 'node:fs';
+import { execFileSync } from 'node:child_process';
+import { copyFileSync, readFileSync, rmSync } from 'node:fs';
 import { after, before, test } from 'node:test';
 import { close, clues, colours, drop, dropped, file, makeTown, read, settled, withPage, write } from './support.mjs';
 
@@ -169,7 +170,7 @@ test('bounds in the page are those of the walk', async () => {
   clues(0, 'motion', 'room.obj', '--path', 'still.txt', '--samples', '200', '--walk-out', 'still.jsonl', '--bounds-out', 'still.bounds.json');
   clues(0, 'view', 'still.jsonl', '-o', 'still.html');
   // Without a way a step is 1. Null: nothing can fail.
-  const wanted = JSON.parse(read('still.bounds.json')).bounds.map((b) => (b === null ? 7 : [0.25, 0.5, 1, 2, 4, 8, 16].findIndex((limit) => b < limit))).map((b) => (b < 0 ? 7 : b));
+  const wanted = JSON.parse(read('still.bounds.json')).bounds.map((b) => (b === null ? 7 : [0.25, 1, 4, 16, 64, 256, 1024].findIndex((limit) => b < limit))).map((b) => (b < 0 ? 7 : b));
   await withPage('still.html', async (page) => {
     assert.deepEqual(await part(page, '[...part.data.bounds.frames[0]]'), wanted);
     assert.deepEqual(await part(page, '[...part.data.bounds.frames[1]]'), wanted);
@@ -227,11 +228,19 @@ test('walks, hierarchies and transitions are dropped; what is not whole is a sen
   assert.equal(await page.evaluate(() => cluesView.workspace.cases.length), 3);
 }, { picture: false }));
 
-test('the program refuses what is not whole of them, and writes nothing', () => {
+test('the program refuses what is not whole of them, and writes nothing; names do not matter', () => {
   for (const name of MADE) {
     const bytes = readFileSync(file(name)), half = name.replace('town', 'half').replace('ball', 'half');
     write(half, bytes.subarray(0, Math.floor(bytes.length * 0.6)));
     assert.match(clues(2, 'view', half, '-o', 'no.html'), new RegExp(half.replaceAll('.', '\\.')));
   }
+  rmSync(file('pipe'), { force: true });
+  execFileSync('mkfifo', [file('pipe')]);
+  assert.match(clues(2, 'view', 'pipe', '-o', 'no.html'), /pipe/);
   assert.throws(() => readFileSync(file('no.html')));
+  // What a file is called does not matter.
+  for (const [i, name] of MADE.entries()) {
+    copyFileSync(file(name), file(`called.${i}`));
+    clues(0, 'view', `called.${i}`, '-o', 'called.html');
+  }
 });

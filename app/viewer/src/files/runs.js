@@ -28,9 +28,9 @@ export function bitsOfRuns(base64, triangles) {
 export const bitOf = (bits, t) => ((bits[t >> 3] >> (t & 7)) & 1) === 1;
 
 // Triangles that are in the one and not in the other, ascending.
-export function without(one, other, most = Infinity) {
+export function without(one, other) {
   const out = [];
-  for (let i = 0; i < one.length && out.length < most; ++i) {
+  for (let i = 0; i < one.length; ++i) {
     const rest = one[i] & ~other[i];
     for (let k = 0; rest >> k !== 0; ++k) if ((rest >> k) & 1) out.push(8 * i + k);
   }

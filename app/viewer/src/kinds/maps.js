@@ -159,7 +159,7 @@ export default {
     const { data, at } = part, mesh = meshAt(part), place = (i) => [...data.flat.subarray(3 * i, 3 * i + 3)];
     const edges = edgesOf(mesh.triangles).map((e) => e.map(place)), next = (data.removals[at] ?? []).map((r) => place(r.vertex));
     const out = [
-      { id: 'edges', name: at === data.removals.length ? 'edges of the base domain' : 'edges of this level', colour: 'ink', on: edges.length < 60000, count: edges.length, make: (ink) => lines(frame, edges, ink, isEnd(part) && at > 0 ? 2.4 : 0.7) },
+      { id: 'edges', name: at === data.removals.length ? 'edges of the base domain' : 'edges of this level', colour: 'ink', on: edges.length < 20000, count: edges.length, make: (ink) => lines(frame, edges, ink, isEnd(part) && at > 0 ? 2.4 : 0.7) },
       { id: 'next', name: 'vertices that the next level takes away', colour: '#ff00d4', on: !isEnd(part), count: next.length, make: () => dots(frame, next, '#ff00d4', 5) },
     ];
     if (isEnd(part)) {

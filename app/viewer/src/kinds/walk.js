@@ -111,7 +111,8 @@ function removed({ data }) {
   for (const t of data.made) if (data.before[3 * t] !== FREE) out.push([0, 1, 2].map((k) => data.before[3 * t + k]));
   return out;
 }
-const spread = (bin) => (bin === 0 ? 'less than 1/4 of a step' : bin === 7 ? '16 steps or more' : `${['1/4', '1/2', '1', '2', '4', '8'][bin - 1]} to ${['1/2', '1', '2', '4', '8', '16'][bin - 1]} steps`);
+const LIMITS = ['1/4', '1', '4', '16', '64', '256', '1024'];  // in steps, of all but the last
+const spread = (bin) => (bin === 0 ? 'less than 1/4 of a step' : bin === LIMITS.length ? '1024 steps or more' : `${LIMITS[bin - 1]} to ${LIMITS[bin]} steps`);
 
 // Numbers of every frame, from the changes alone.
 function counts(data) {
@@ -154,7 +155,7 @@ export default {
     }
     const way = data.frames.slice(1).map((f, i) => [data.frames[i].viewpoint, f.viewpoint]);
     return [
-      { id: 'edges', name: 'edges', colour: 'ink', on: edges.length < 30000, count: edges.length, make: (ink) => lines(frame, edges, ink, 0.6) },
+      { id: 'edges', name: 'edges', colour: 'ink', on: edges.length < 20000, count: edges.length, make: (ink) => lines(frame, edges, ink, 0.6) },
       { id: 'removed', name: 'triangles removed in this frame', colour: '#ff00d4', on: true, count: gone.length, make: () => lines(frame, gone.flatMap((t) => loop(t.map(place))), '#ff00d4', 1.6, { over: true }) },
       { id: 'way', name: 'the way of the viewpoint', colour: '#00c853', on: true, count: data.frames.length, make() {
         const made = dots(frame, [data.frames[at].viewpoint], '#00c853', 9);
