@@ -1,5 +1,5 @@
-// Large scenes and small pages: bytes, the time until the first picture, the time of a picture. There is no graphics card here; the processor draws. Bounds are of processor
-// time, in all processes of the browser: on a machine with nothing else to do no less passes by the clock, but what others take does not count.
+// Large scenes and small pages: bytes, the time until the first picture, the time of a picture. There is no graphics card here; the processor draws. What is bounded is
+// processor time, in all processes of the browser, and what the triangles add to it: the rest is the browser's, and the clock counts what others do on the machine.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
@@ -12,7 +12,7 @@ before(() => {
 after(close);
 
 const opened = async (page, worked) => ({ first: Number(await page.getAttribute('body', 'data-drawn')), worked });
-const MOST = 2000;  // ms until the first picture of 100,000 triangles
+const MOST = 2000;  // ms that the first picture of 100,000 triangles may take longer than that of five
 
 // Hills of two triangles a square, a third of them listed.
 function makeHills(name, side) {
@@ -49,8 +49,12 @@ test('a page of a scene of 300 triangles is below 2 MB', () => {
 
 for (const [name, side] of LONG ? [['hills', 224], ['mountains', 708]] : [['hills', 224]]) {
   test(`${2 * (side - 1) ** 2} triangles: first picture, and pictures after it`, async () => {
-    const triangles = makeHills(name, side), five = await withPage('town.html', opened);
+    const triangles = makeHills(name, side);
+    await withPage('town.html', opened);  // the browser starts
+    const five = await withPage('town.html', opened);
+    let added = 0;
     await withPage(`${name}.html`, async (page, worked) => {
+      added = worked - five.worked;
       const { first } = await opened(page, worked), before = processorTime();
       const times = await page.evaluate(() => Array.from({ length: 9 }, () => {
         const begin = performance.now();
@@ -62,10 +66,6 @@ for (const [name, side] of LONG ? [['hills', 224], ['mountains', 708]] : [['hill
       const each = Math.round((processorTime() - before) / times.length);
       console.log(`${triangles} triangles: first picture after ${worked} ms of processor time (${first} ms by the clock; of 5 triangles ${five.worked} and ${five.first}), then one in ${each} ms (${times[4]} by the clock: ${times.join(', ')})`);
     });
-    if (triangles > 100000) return;
-    const each = [];
-    for (let i = 0; i < 3; ++i) each.push((await withPage(`${name}.html`, opened)).worked);
-    console.log(`opened three times more: ${each.join(', ')} ms of processor time`);
-    assert(Math.min(...each) < MOST, `${each} ms`);
+    if (triangles < 100000) assert(added < MOST, `${added} ms`);
   });
 }
