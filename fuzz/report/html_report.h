@@ -1,4 +1,4 @@
-// One HTML page of what clues wrote: judgements, conformance reports and findings of the fuzzer. Self-contained: style, script and pictures are in it, nothing is
+// One HTML page of what clues wrote: judgements, conformance reports and findings of the fuzzer. Self-contained: style, script, pictures and views are in it, nothing is
 // fetched. The same files give the same bytes.
 #pragma once
 
