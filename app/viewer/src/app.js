@@ -25,6 +25,7 @@ export class App {
     this.colourBy = 'map';
     this.layers = [];
     this.switched = new Map();  // layers that the user switched
+    this.away = new Set();  // labels whose surface is not drawn
     this.triangle = null;
     this.alone = false;
     this.shading = true;
@@ -125,6 +126,7 @@ export class App {
       u.hatching.value = this.hatching ? 1 : 0;
       u.patternSize.value = 9 * ratio;
       u.alone.value = this.alone && this.triangle !== null ? this.triangle : -1;
+      u.hidden.value = LABELS.map((label) => (this.view !== 'stand' && this.away.has(label.id) ? 1 : 0));
       u.mode.value = this.view === 'stand' ? Draw.stand : Draw.colours;
       u.solid.value = mesh === this.stage.whole && this.case.parts.some((p) => p.mode === 'solid') ? 1 : 0;
     }
@@ -203,6 +205,11 @@ export class App {
         for (const t of this.grazing()) this.stage.marks.add(lines(frame, loop(this.corners(t)), '#e69f00', 2.2, { over: true }));
     }
     this.stage.draw();
+  }
+  switchLabels(ids, on) {
+    for (const id of ids) this.away[on ? 'delete' : 'add'](id);
+    this.uniforms();
+    this.changed('state');
   }
   switchLayer(id, on) {
     this.switched.set(id, on);

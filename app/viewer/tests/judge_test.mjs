@@ -71,19 +71,24 @@ const look = (page, viewpoints, until = false) => page.evaluate(([count, size, s
 
 const KEYS = ['pictures', 'pixels', 'surface', 'differ', 'real'];
 
-// What the page shows now: its list is judged, and then without one triangle. `isListed` and `takeOut` speak of triangles. Returns sums, or null where nothing is large enough to be seen.
-async function judge(page, name, isListed, takeOut) {
+// What the page shows now: its list is judged, and then without one triangle. `isListed` and `putOut` (of the list, or back) speak of triangles; `tries`:
+// how many may be in vain. Returns sums, or null where nothing is large enough to be seen.
+async function judge(page, name, isListed, putOut, tries = 1) {
   const sound = await look(page, VIEWPOINTS);
   if (sound.surface === 0) return null;
   if (LONG || sound.differ > 0) console.log(`${name}: ${sound.differ} of ${sound.surface} pixels of surface are drawn differently, ${sound.real} differ`);
   assert.equal(sound.real, 0, `${name}: a list that is sound lacks triangles ${sound.missing}`);
   const seen = sound.seen.filter(([t]) => isListed(t)).sort((a, b) => a[1] - b[1] || a[0] - b[0]);
   if (seen.length === 0) return null;
-  const [gone] = seen[0];
-  await takeOut(gone);
-  const other = await look(page, VIEWPOINTS, true);
-  assert(other.real > 0 && other.missing.includes(gone), `${name}: nobody misses triangle ${gone}`);
-  return sound;
+  // Levels have surfaces in one place, and then nobody misses one of them: another one is tried.
+  for (const [gone] of seen.slice(0, tries)) {
+    await putOut(gone, true);
+    const other = await look(page, VIEWPOINTS, true);
+    await putOut(gone, false);
+    if (other.real > 0 && other.missing.includes(gone)) return sound;
+    console.log(`${name}: nobody misses triangle ${gone}`);
+  }
+  return assert.fail(`${name}: nobody misses what is taken out`);
 }
 
 test(`${SCENES} scenes, ${VIEWPOINTS} viewpoints each`, { timeout: 7200000 }, () => withPage('judge.html', async (page) => {
@@ -102,7 +107,7 @@ test(`${SCENES} scenes, ${VIEWPOINTS} viewpoints each`, { timeout: 7200000 }, ()
       return at >= 0;
     }, result.scene.file);
     const sound = await judge(page, `${c.id}, ${result.scene.triangles} triangles, ${result.visible.length} listed`, (t) => result.visible.includes(t),
-      (gone) => page.evaluate((t) => { cluesView.list().data.listed.delete(t); cluesView.paint(); }, gone));
+      (t, out) => page.evaluate(([gone, how]) => { cluesView.list().data.listed[how](gone); cluesView.paint(); }, [t, out ? 'delete' : 'add']));
     if (!sound) continue;
     ++total.scenes;
     for (const key of KEYS) total[key] += sound[key];
@@ -131,7 +136,7 @@ test(`${LEVELS} levels, the leaves of each, ${VIEWPOINTS} viewpoints in each of 
         }, i);
         if (listed.length < 3) continue;
         const sound = await judge(page, `${level}, cell ${i}, ${listed.length} listed`, (t) => listed.includes(t),
-          (gone) => page.evaluate((t) => { const part = cluesView.stepper(); part.data.cells[part.data.path[0]].bits[t >> 3] &= ~(1 << (t & 7)); cluesView.paint(); }, gone));
+          (t) => page.evaluate((gone) => { const part = cluesView.stepper(); part.data.cells[part.data.path[0]].bits[gone >> 3] ^= 1 << (gone & 7); cluesView.paint(); }, t), 5);
         if (!sound) continue;
         ++total.cells;
         for (const key of KEYS) total[key] += sound[key];

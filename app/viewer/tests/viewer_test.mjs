@@ -33,6 +33,12 @@ test('the map: labels, layers, the legend', () => withPage('town.html', async (p
   await page.click('#layer-cell');
   await settled(page);
   assert.equal((await state(page)).marks, before - 1);
+  const orange = async () => { await page.evaluate(() => { cluesView.shading = cluesView.hatching = false; cluesView.uniforms(); cluesView.fit(); }); const count = (await colours(page))['213,94,0'] ?? 0; await page.evaluate(() => { cluesView.shading = cluesView.hatching = true; cluesView.uniforms(); }); return count; };
+  assert(await orange() > 50);
+  await page.click('#label-hidden');
+  await settled(page);
+  assert.equal(await orange(), 0, 'what is switched off in the legend is not drawn');
+  assert(new URL(page.url()).hash.includes('without=hidden'));
   await page.selectOption('#colours', 'judgement');
   await settled(page);
   assert((await text(page, '#legend')).includes('missing, though visible'));

@@ -29,7 +29,7 @@ function legend(app) {
   if (app.legendOf !== app.stage.surface) { app.legendOf = app.stage.surface; app.legendLabels = usedLabels(app).filter((n) => n !== NUMBER.none || !app.has('meshAt')); }
   const used = [...new Set([...app.legendLabels, ...app.able('alsoUsed').flatMap((p) => p.kind.alsoUsed(p))])].sort((a, b) => a - b), names = new Map();
   for (const n of used) { const name = app.nameOf(LABELS[n].id); names.set(name, [...(names.get(name) ?? []), n]); }
-  const rows = [...names].map(([name, of]) => h('li', {}, of.map((n) => swatch(LABELS[n].colour, `${LABELS[n].hatch && app.hatching ? 'hatch' : ''}${of.length > 1 ? ' narrow' : ''}`)), name));
+  const rows = [...names].map(([name, of]) => h('li', {}, check('', !app.away.has(LABELS[of[0]].id), (on) => app.switchLabels(of.map((n) => LABELS[n].id), on), `label-${LABELS[of[0]].id}`), of.map((n) => swatch(LABELS[n].colour, `${LABELS[n].hatch && app.hatching ? 'hatch' : ''}${of.length > 1 ? ' narrow' : ''}`)), h('label', { htmlFor: `label-${LABELS[of[0]].id}` }, name)));
   const layers = app.layers.map((l) => h('li', {}, check('', l.on, (on) => app.switchLayer(l.id, on), `layer-${l.id}`),
     h('label', { htmlFor: `layer-${l.id}` }, swatch(l.colour === 'ink' ? 'var(--ink)' : l.colour, l.id === 'dm' ? 'line dashed' : l.id === 'ob' ? 'line' : 'body'), `${l.name}${l.count ? ` (${l.count})` : ''}`)));
   return section('Legend', chooser, h('ul', { class: 'legend', id: 'legend' }, ...rows), layers.length > 0 && h('ul', { class: 'legend' }, ...layers),

@@ -68,7 +68,7 @@ attribute vec4 tag;
 attribute vec3 chart;
 varying vec3 square;
 #endif
-uniform float only, alone;
+uniform float only, alone, hidden[LABEL_COUNT];
 varying vec3 place;
 flat varying vec4 bytes;
 void main() {
@@ -80,7 +80,7 @@ void main() {
   place = (modelViewMatrix * vec4(position, 1.0)).xyz;
   gl_Position = projectionMatrix * vec4(place, 1.0);
   bool listed = mod(tag.w, 128.0) >= 64.0;
-  if ((only > 0.5 && !listed) || (alone >= 0.0 && abs(alone - number) > 0.25)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if (hidden[int(mod(tag.w, 64.0) + 0.5)] > 0.5 || (only > 0.5 && !listed) || (alone >= 0.0 && abs(alone - number) > 0.25)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
 const fragmentShader = `
@@ -127,12 +127,12 @@ void main() {
 export function surfaceMaterial(side, checkered = false) {
   return new THREE.ShaderMaterial({
     defines: checkered ? { CHECKERED: 1 } : {},
-    vertexShader,
+    vertexShader: vertexShader.replaceAll('LABEL_COUNT', String(LABELS.length)),
     fragmentShader: fragmentShader.replaceAll('LABEL_COUNT', String(LABELS.length)),
     side,
     uniforms: {
       mode: { value: Draw.colours }, solid: { value: 0 }, shading: { value: 1 }, hatching: { value: 1 }, patternSize: { value: 9 },
-      only: { value: Only.all }, alone: { value: -1 },
+      only: { value: Only.all }, alone: { value: -1 }, hidden: { value: LABELS.map(() => 0) },
       palette: { value: LABELS.map((label) => new THREE.Vector3(...rgb(label.colour))) },
       hatched: { value: LABELS.map((label) => (label.hatch ? 1 : 0)) },
     },
