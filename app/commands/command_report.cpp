@@ -1,11 +1,15 @@
 // clues report: what clues wrote into a folder, as one HTML page.
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/view/view_data.h"
+#include "app/view/viewer_page.h"
 #include "fuzz/report/html_report.h"
 #include "scene/files/atomic_file.h"
 #include "scene/formats/file_bytes.h"
@@ -30,8 +34,26 @@ void require_free(const std::filesystem::path& out, bool named) {
                        out.string() + ": is no page of clues; move it away, or name another file with -o");
 }
 
+// The page of `clues view` with what of the results it can show. What a view lacks (a scene, say) is no matter of the report: it has plans there.
+std::string view_of(const std::filesystem::path& folder, std::vector<fuzz::ReportSection>& sections) {
+  if (!has_view_page()) return "";
+  ViewData data(folder);
+  bool any = false;
+  for (auto& section : sections) {
+    const auto shows = [](const fuzz::ReportRow& row) { return row.has_scene; };
+    if (std::none_of(section.rows.begin(), section.rows.end(), shows)) continue;
+    try {
+      data.add_files({folder / section.title});
+      section.in_view = any = true;
+    } catch (const scene::Error&) {
+      section.in_view = false;
+    }
+  }
+  return any ? view_page(data.text()) : "";
+}
+
 int run_report(const ReportRequest& request) {
-  const auto sections = fuzz::read_results(request.folder);
+  auto sections = fuzz::read_results(request.folder);
   if (sections.empty()) {
     std::fprintf(stderr,
                  "clues: %s: no results of `clues check --json`, `clues conform --json` or `clues fuzz` in it\n",
@@ -42,7 +64,8 @@ int run_report(const ReportRequest& request) {
       request.out.empty() ? std::filesystem::path(request.folder) / "report.html" : std::filesystem::path(request.out);
   require_writable_parent(out);
   require_free(out, !request.out.empty());
-  scene::write_file_atomically(out, fuzz::to_html(sections));
+  const std::string view = view_of(request.folder, sections);
+  scene::write_file_atomically(out, fuzz::to_html(sections, view));
   std::printf("%zu result%s in %s\n", sections.size(), sections.size() == 1 ? "" : "s",
               scene::printable(out.string()).c_str());
   return fine;
@@ -59,10 +82,11 @@ void add_report_command(CLI::App& program, int& status) {
       "DESCRIPTION\n"
       "  Reads what `clues check --json`, `clues conform --json` and `clues fuzz --out` wrote: every *.json of these "
       "formats in DIR\n"
-      "  and below. The page needs no other file and no network: verdicts to filter, notes and proofs, and of what is "
-      "wrong a\n"
-      "  picture from above with the cell and the sight line, where the scene (the suite, for a conformance report) "
-      "can be read.\n\n"
+      "  and below. The page needs no other file and no network: verdicts to filter, notes and proofs, and a button "
+      "that\n"
+      "  shows what is wrong in a view as of clues view, with the cell and the sight line, where the scene (the suite, "
+      "for a\n"
+      "  conformance report) can be read. A build without that page draws pictures from above instead.\n\n"
       "EXAMPLES\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt --json results/town.json\n"
       "  clues conform --impl ./libmine.so --json results/suite.json\n"

@@ -57,11 +57,13 @@ int run_view(const ViewRequest& request) {
 }  // namespace
 
 void add_view_command(CLI::App& program, int& status) {
-  auto* command = program.add_subcommand("view", "A page to look at results, verdicts and findings, in a browser");
+  auto* command =
+      program.add_subcommand("view", "A page to look at results, bakes, verdicts and findings, in a browser");
   auto request = std::make_shared<ViewRequest>();
   command->add_option(
       "FILE", request->files,
-      "Results, judgements, umbrae, conformance reports, folders of findings or of `clues fuzz`, scenes");
+      "Results, bakes, deltas, walks, hierarchies, judgements, umbrae, conformance reports, folders of findings\n"
+      "or of `clues fuzz`, scenes");
   command->add_option("-o,--out", request->out, "The page (default: clues-view.html)")->type_name("PAGE.html");
   command->footer(
       "DESCRIPTION\n"
@@ -69,13 +71,17 @@ void add_view_command(CLI::App& program, int& status) {
       "colours, the\n"
       "  cell, event surfaces and umbrae, what is missing from a list and the proof, and what the list draws from "
       "viewpoints in the\n"
-      "  cell. The scene of a file is found beside it, or is named too. Without FILE the page waits for files to be "
-      "dropped.\n\n"
+      "  cell; bakes, deltas, walks (clues motion --walk-out) and hierarchies (clues maps -o) step by step. Files are "
+      "known by what\n"
+      "  is in them. The scene of a file is found beside it, or is named too. Without FILE the page waits for files to "
+      "be dropped.\n\n"
       "EXAMPLES\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --map -o town.clues.json\n"
       "  clues view town.clues.json -o town.html\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt --json verdict.json\n"
       "  clues view town.clues.json verdict.json -o verdict.html\n"
+      "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 -o town.bake\n"
+      "  clues view town.bake -o bake.html\n"
       "  clues view -o empty.html\n\n"
       "EXIT CODES\n"
       "  0 the page was written   2 bad usage or input, or this build has no page");

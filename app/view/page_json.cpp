@@ -1,8 +1,6 @@
 #include "app/view/page_json.h"
 
-#include <bit>
-#include <string_view>
-
+#include "app/view/base64.h"
 #include "scene/json_reader.h"
 #include "scene/messages/error.h"
 
@@ -10,39 +8,6 @@ namespace clues::app {
 namespace {
 
 using nlohmann::json;
-
-class Base64 {
- public:
-  template <class Number>
-  void put(Number value) {
-    static_assert(std::endian::native == std::endian::little);
-    const auto bytes = std::bit_cast<std::array<unsigned char, sizeof(Number)>>(value);
-    for (const unsigned char byte : bytes) {
-      held_ = (held_ << 8) | byte;
-      if (++count_ == 3) flush();
-    }
-  }
-  std::string take() {
-    const int rest = count_;
-    if (rest > 0) {
-      held_ <<= 8 * (3 - rest);
-      flush();
-      for (int i = rest; i < 3; ++i) text_[text_.size() - static_cast<std::size_t>(3 - i)] = '=';
-    }
-    return std::move(text_);
-  }
-
- private:
-  void flush() {
-    constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    for (int shift = 18; shift >= 0; shift -= 6) text_ += letters[(held_ >> shift) & 63];
-    held_ = 0;
-    count_ = 0;
-  }
-  std::string text_;
-  std::uint32_t held_ = 0;
-  int count_ = 0;
-};
 
 // Of a list in a result: what is wrong with it, as an exception that names the place.
 struct Checked {
@@ -106,6 +71,21 @@ json mesh_for_page(const scene::TriangleMesh& mesh) {
   for (const auto& t : mesh.triangles)
     for (const std::uint32_t corner : t) triangles.put(corner);
   return {{"points", points.take()}, {"triangles", triangles.take()}};
+}
+
+json mesh_for_page(const scene::FlaggedMesh& scene) {
+  json out = mesh_for_page(scene.mesh);
+  if (!scene.is_plain()) {
+    Base64 flags;
+    for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t)
+      flags.put(static_cast<std::uint8_t>((scene.blocking(t) ? 1 : 0) | (scene.counting(t) ? 2 : 0)));
+    out["flags"] = flags.take();
+  }
+  if (!scene.parts.empty()) {
+    json& parts = out["parts"] = json::array();
+    for (const auto& part : scene.parts) parts.push_back({part.first_triangle, part.name});
+  }
+  return out;
 }
 
 json result_for_page(const json& result, std::uint64_t triangles, const std::string& file) {

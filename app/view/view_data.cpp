@@ -3,20 +3,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
 
 #include "app/view/page_json.h"
+#include "app/view/page_stores.h"
 #include "fuzz/findings/json_fields.h"
 #include "fuzz/report/html_report.h"
 #include "fuzz/shrinking/finding_folder.h"
 #include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
-#include "scene/mesh_io.h"
 #include "scene/messages/error.h"
+#include "scene/multires/hierarchy_file.h"
+#include "scene/scenes/scene_io.h"
 #include "validate/certificates/umbra_file.h"
+#include "validate/stream/delta_file.h"
 #include "validate/vectors/reader.h"
 
 namespace clues::app {
@@ -44,6 +48,25 @@ std::string text_of(const json& object, const char* key) {
 
 std::string dumped(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
+enum class Content : std::uint8_t { scene, finding, bake, walk, maps, document };
+
+// By how the file begins. What is no regular file is for the readers of scenes to refuse: nobody waits for a pipe.
+Content content_of(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return Content::scene;
+  constexpr std::size_t enough = 200;
+  std::string begin(enough, '\0');
+  std::ifstream input(file, std::ios::binary);
+  input.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(input.gcount()));
+  if (begin.starts_with("SQLite format 3")) return Content::bake;
+  if (scene::is_hierarchy_text(begin)) return Content::maps;
+  if (begin.substr(0, begin.find('\n')).find("\"clues-motion-walk/") != std::string::npos) return Content::walk;
+  const auto first = begin.find_first_not_of(" \t\r\n");
+  const bool is_object = first != std::string::npos && begin[first] == '{' && file.extension() != ".gltf";
+  return is_object || file.extension() == ".json" ? Content::document : Content::scene;
+}
+
 // The folder itself, or those of a campaign, by name.
 std::vector<fs::path> findings_in(const fs::path& folder) {
   if (fuzz::holds_a_finding(folder)) return {folder};
@@ -59,18 +82,29 @@ std::vector<fs::path> findings_in(const fs::path& folder) {
 }  // namespace
 
 struct ViewData::Parts {
+  fs::path root;
   std::vector<KnownScene> scenes;
   std::set<fs::path> read;  // scenes, by canonical path
   json files = json::array();
 
-  std::size_t add_scene(const std::string& name, const scene::TriangleMesh& mesh, const std::string& sha256) {
-    files.push_back({{"path", name}, {"sha256", sha256}, {"mesh", mesh_for_page(mesh)}});
-    scenes.push_back({name, sha256, mesh.triangles.size()});
+  std::string name_of(const fs::path& file) const {
+    return root.empty() ? file.filename().string() : file.lexically_relative(root).string();
+  }
+  std::size_t add_scene(const std::string& name, json mesh, std::size_t triangles, const std::string& sha256) {
+    files.push_back({{"path", name}, {"sha256", sha256}, {"mesh", std::move(mesh)}});
+    scenes.push_back({name, sha256, triangles});
     return scenes.size() - 1;
   }
   std::size_t read_scene(const fs::path& file) {
     read.insert(fs::weakly_canonical(file));
-    return add_scene(file.filename().string(), scene::read_mesh(file), scene::sha256_of_file(file));
+    const scene::FlaggedMesh mesh = scene::read_scene(file);
+    return add_scene(file.filename().string(), mesh_for_page(mesh), mesh.mesh.triangles.size(),
+                     scene::sha256_of_file(file));
+  }
+  // Of a scene that is named without its hash: that of the file, where all files are looked for.
+  std::string hash_of(const std::string& file) const {
+    std::error_code error;
+    return !root.empty() && fs::is_regular_file(file, error) ? scene::sha256_of_file(file) : "";
   }
   // One that was given, by its hash or else its name; or the file itself, where it is named or beside.
   const KnownScene& scene_of(const Named& named, const fs::path& about) {
@@ -81,6 +115,7 @@ struct ViewData::Parts {
       if (!named.sha256.empty() && s.sha256 == named.sha256) return s;
     for (const KnownScene& s : scenes) {
       if (s.name != name) continue;
+      if (!root.empty()) continue;  // many files about many scenes: a name says nothing
       if (named.sha256.empty()) return s;
       throw Error(ErrorCode::malformed,
                   about.string() + ": is about another version of " + name + " (the SHA-256 of the file differs)");
@@ -95,10 +130,11 @@ struct ViewData::Parts {
                 fmt::format("{}: is about the scene {}, which is not beside it{}; name that file too", about.string(),
                             name, named.sha256.empty() ? "" : " in the same version"));
   }
-  void put(const fs::path& file, json value) {
-    files.push_back({{"path", file.filename().string()}, {"json", std::move(value)}});
-  }
+  void put(const fs::path& file, json value) { files.push_back({{"path", name_of(file)}, {"json", std::move(value)}}); }
 
+  void add_bake(const fs::path& file);
+  void add_walk(const fs::path& file);
+  void add_maps(const fs::path& file);
   void add_json(const fs::path& file);
   void add_finding(const fs::path& folder);
   void add_conformance(const fs::path& file, json report);
@@ -107,7 +143,8 @@ struct ViewData::Parts {
 // From what was compared with its hashes, and not from the files once more.
 void ViewData::Parts::add_finding(const fs::path& folder) {
   const auto saved = fuzz::load_finding(folder);
-  const std::string base = fs::weakly_canonical(folder).filename().string() + "/";
+  const fs::path known = root.empty() ? fs::weakly_canonical(folder).filename() : folder.lexically_relative(root);
+  const std::string base = known == "." ? "" : known.string() + "/";
   const auto& about = saved.finding;
   files.push_back({{"path", base + "finding.json"},
                    {"json",
@@ -155,6 +192,30 @@ void ViewData::Parts::add_conformance(const fs::path& file, json report) {
   put(file, std::move(report));
 }
 
+void ViewData::Parts::add_bake(const fs::path& file) {
+  const scene::FinishedBake bake(file);
+  const scene::BakePlan& plan = bake.plan();
+  const KnownScene& scene = scene_of({plan.scene_file, plan.scene_sha256}, file);
+  if (plan.triangles != scene.triangles) {
+    throw Error(ErrorCode::malformed, fmt::format("{}: is about {} triangles, and {} has {}", file.string(),
+                                                  plan.triangles, scene.name, scene.triangles));
+  }
+  put(file, bake_for_page(bake));
+}
+
+// Both are texts that the page reads as they are.
+void ViewData::Parts::add_walk(const fs::path& file) {
+  json bounds = walk_for_page(file);
+  files.push_back(
+      {{"path", file.filename().string()}, {"text", scene::read_file_bytes(file)}, {"bounds", std::move(bounds)}});
+}
+
+void ViewData::Parts::add_maps(const fs::path& file) {
+  std::string text = scene::read_file_bytes(file);
+  scene::parse_hierarchy(text, file.string());
+  files.push_back({{"path", file.filename().string()}, {"text", std::move(text)}});
+}
+
 void ViewData::Parts::add_json(const fs::path& file) {
   const std::string bytes = scene::read_file_bytes(file);
   json value = scene::parse_json(bytes, file.string());
@@ -171,13 +232,21 @@ void ViewData::Parts::add_json(const fs::path& file) {
       validate::read_umbra(file, scene.triangles);
       value.erase("vertices");
       put(file, std::move(value));
+    } else if (format == "clues-delta/1") {
+      const json about = value.value("scene", json::object());
+      const auto& scene = scene_of({text_of(about, "file"), text_of(about, "sha256")}, file);
+      validate::read_delta(file, scene.triangles);
+      if (value.contains("fragments")) value["fragments"].erase("vertices_exact");
+      put(file, std::move(value));
     } else if (format == "clues-judgement/1") {
       fuzz::section_of(bytes, file, false);
-      const auto& scene = scene_of({text_of(value, "scene"), ""}, file);
+      const std::string named = text_of(value, "scene");
+      const auto& scene = scene_of({named, hash_of(named)}, file);
       if (value.at("triangles").size() != scene.triangles) {
         throw Error(ErrorCode::malformed, fmt::format("{}: is about {} triangles, and {} has {}", file.string(),
                                                       value.at("triangles").size(), scene.name, scene.triangles));
       }
+      value["scene_sha256"] = scene.sha256;
       put(file, std::move(value));
     } else if (format == "clues-conformance/1") {
       fuzz::section_of(bytes, file, false);
@@ -185,9 +254,11 @@ void ViewData::Parts::add_json(const fs::path& file) {
     } else if (format.starts_with("clues-finding/")) {
       add_finding(file.has_parent_path() ? file.parent_path() : fs::path("."));
     } else {
-      throw Error(ErrorCode::unsupported, file.string() +
-                                              ": is none of the files that can be viewed: results, judgements, umbrae, "
-                                              "conformance reports, findings and scenes");
+      throw Error(ErrorCode::unsupported,
+                  file.string() +
+                      ": is none of the files that can be viewed: results, bakes, deltas, walks, "
+                      "hierarchies, judgements, umbrae, conformance reports, findings and "
+                      "scenes");
     }
   };
   fuzz::reading_fields(add, [&](const std::string& what) {
@@ -195,13 +266,13 @@ void ViewData::Parts::add_json(const fs::path& file) {
   });
 }
 
-ViewData::ViewData() : parts_(std::make_unique<Parts>()) {}
+ViewData::ViewData(fs::path root) : parts_(std::make_unique<Parts>()) { parts_->root = std::move(root); }
 ViewData::~ViewData() = default;
 ViewData::ViewData(ViewData&&) noexcept = default;
 ViewData& ViewData::operator=(ViewData&&) noexcept = default;
 
 void ViewData::add_scene(const std::string& name, const scene::TriangleMesh& mesh, const std::string& sha256) {
-  parts_->add_scene(name, mesh, sha256);
+  parts_->add_scene(name, mesh_for_page(mesh), mesh.triangles.size(), sha256);
 }
 
 void ViewData::add_result(const std::string& name, const scene::Result& result) {
@@ -210,24 +281,27 @@ void ViewData::add_result(const std::string& name, const scene::Result& result) 
 }
 
 void ViewData::add_files(const std::vector<fs::path>& files) {
-  std::vector<fs::path> others;
+  struct Other {
+    fs::path file;
+    Content content;
+  };
+  std::vector<Other> others;
   for (const fs::path& file : files) {
     std::error_code error;
     if (fs::is_directory(file, error)) {
-      for (const fs::path& finding : findings_in(file)) others.push_back(finding);
-    } else if (file.extension() == ".json") {
-      others.push_back(file);
+      for (const fs::path& finding : findings_in(file)) others.push_back({finding, Content::finding});
+    } else if (const Content content = content_of(file); content != Content::scene) {
+      others.push_back({file, content});
     } else if (!parts_->read.contains(fs::weakly_canonical(file))) {
       parts_->read_scene(file);
     }
   }
-  for (const fs::path& file : others) {
-    std::error_code error;
-    if (fs::is_directory(file, error)) {
-      parts_->add_finding(file);
-    } else {
-      parts_->add_json(file);
-    }
+  for (const auto& [file, content] : others) {
+    if (content == Content::finding) parts_->add_finding(file);
+    if (content == Content::bake) parts_->add_bake(file);
+    if (content == Content::walk) parts_->add_walk(file);
+    if (content == Content::maps) parts_->add_maps(file);
+    if (content == Content::document) parts_->add_json(file);
   }
 }
 

@@ -15,7 +15,8 @@ namespace clues::app {
 
 class ViewData {
  public:
-  ViewData();
+  // Files are named without their folders, or as seen from `root`.
+  explicit ViewData(std::filesystem::path root = {});
   ~ViewData();
   ViewData(ViewData&&) noexcept;
   ViewData& operator=(ViewData&&) noexcept;
@@ -25,7 +26,7 @@ class ViewData {
   // Of a scene that was added.
   void add_result(const std::string& name, const scene::Result& result);
 
-  // Scenes, results, judgements, umbrae, conformance reports, and folders of findings (or their finding.json) or of campaigns. The scene that a file is about is taken from the
+  // Scenes, results, bakes, deltas, walks, hierarchies, judgements, umbrae, conformance reports, and folders of findings (or their finding.json) or of campaigns. The scene that a file is about is taken from the
   // others, or read where the file says it is, or from beside the file. Throws Error: as the readers; file_not_found where a scene is not there, unsupported
   // for other files. O(bytes).
   void add_files(const std::vector<std::filesystem::path>& files);

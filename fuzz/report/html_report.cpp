@@ -48,6 +48,22 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
+// A whole page as the value of an attribute.
+std::string quoted(const std::string& page) {
+  std::string out;
+  out.reserve(page.size() + page.size() / 16);
+  for (const char c : page) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
 std::string picture(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell,
                     std::optional<std::uint32_t> triangle, const std::optional<WitnessText>& witness) {
   if (mesh.triangles.size() > largest_picture || cell.empty()) return "";
@@ -134,6 +150,7 @@ ReportSection judgement_section(const json& j, bool look_around) {
     if (seen != witnesses.end() && row.bad) row.details = sight_text(seen->second);
     if (chain != chains.end()) row.details = "first-order visible, by this chain:\n" + chain->second;
     if (row.bad && mesh && t < mesh->triangles.size()) {
+      row.has_scene = true;
       row.picture = picture(*mesh, cell, t, seen != witnesses.end() ? std::optional(seen->second) : std::nullopt);
     }
     section.rows.push_back(std::move(row));
@@ -178,6 +195,7 @@ ReportSection conformance_section(const json& j, bool look_around) {
             fmt::format("missing: triangle {}, which meets the cell\n", whole_number<std::uint32_t>(first, "triangle"));
       }
       if (test != suite.end()) {
+        row.has_scene = true;
         row.picture =
             picture(test->second.mesh, test->second.cell, whole_number<std::uint32_t>(first, "triangle"), witness);
       }
@@ -194,7 +212,7 @@ ReportSection finding_section(const fs::path& folder) {
   section.summary = "subject: " + saved.subject + "\n";
   ReportRow row{
       f.verdict, f.oracle, f.explanation, true, "verify: clues replay " + scene::shell_word(folder.string()) + "\n",
-      ""};
+      "",        true};
   if (f.witness) row.details += sight_text(*f.witness);
   row.picture = picture(f.where.mesh, f.where.cell, f.triangle, f.witness);
   section.rows.push_back(std::move(row));
@@ -206,15 +224,32 @@ body{font:15px/1.4 sans-serif;margin:2em auto;max-width:75em;padding:0 1em;color
 table{border-collapse:collapse;width:100%}td,th{border-bottom:1px solid #ccc;padding:.3em .6em;text-align:left;vertical-align:top}
 pre{background:#f4f4f4;padding:.6em;overflow:auto;white-space:pre-wrap;word-break:break-all}
 .bad td:first-child{color:#b00000;font-weight:bold}svg{max-width:100%;height:auto}
+iframe{position:fixed;right:0;top:0;width:55%;height:100%;border:0;border-left:1px solid #ccc;background:#fff}
+body.viewing{margin-right:56%}
+@media(max-width:900px){iframe{top:auto;bottom:0;width:100%;height:60%;border-top:1px solid #ccc}body.viewing{margin:1em auto 62vh}}
 </style></head><body><h1>clues report</h1>
-<p>Pictures are seen from above (x to the right, y up): cell blue, the triangle in question red, sight line green.</p>
-<p><label>Show <select id="verdict"><option value="">every verdict</option>)";
+)";
+
+constexpr const char* about_pictures =
+    "<p>Pictures are seen from above (x to the right, y up): cell blue, the triangle in question red, sight line "
+    "green.</p>\n";
+
+constexpr const char* filters = R"(<p><label>Show <select id="verdict"><option value="">every verdict</option>)";
 
 constexpr const char* script = R"(<script>
 const verdict=document.getElementById('verdict'),text=document.getElementById('text');
 function filter(){for(const row of document.querySelectorAll('tr[data-verdict]'))
 row.hidden=(verdict.value!==''&&row.dataset.verdict!==verdict.value)||!row.textContent.includes(text.value);}
 verdict.oninput=filter;text.oninput=filter;
+const holder=document.getElementById('view');
+let frame=null;
+for(const button of document.querySelectorAll('button[data-file]'))button.onclick=()=>{
+const show=()=>frame.contentWindow.cluesView.showRowOf(button.dataset.file,button.dataset.name);
+if(frame){show();return;}
+document.body.classList.add('viewing');
+frame=document.createElement('iframe');frame.title='The scene';
+frame.onload=()=>{const wait=()=>frame.contentDocument.body.dataset.ready?show():setTimeout(wait,20);wait();};
+frame.srcdoc=holder.dataset.page;document.body.append(frame);};
 </script></body></html>
 )";
 
@@ -268,12 +303,21 @@ std::vector<ReportSection> read_results(const fs::path& folder) {
   return sections;
 }
 
-std::string to_html(const std::vector<ReportSection>& sections) {
+std::string to_html(const std::vector<ReportSection>& sections, const std::string& view) {
   std::set<std::string> verdicts;
+  bool pictures = false;
+  const auto shown = [&](const ReportSection& section, const ReportRow& row) {
+    return !view.empty() && section.in_view && row.has_scene;
+  };
   for (const auto& section : sections) {
-    for (const auto& row : section.rows) verdicts.insert(row.verdict);
+    for (const auto& row : section.rows) {
+      verdicts.insert(row.verdict);
+      pictures = pictures || (!row.picture.empty() && !shown(section, row));
+    }
   }
   std::string html = std::string(html_begin) + head;
+  if (pictures) html += about_pictures;
+  html += filters;
   for (const auto& verdict : verdicts) html += fmt::format("<option>{}</option>", escaped(verdict));
   html += "</select></label> <label>with <input id=\"text\" placeholder=\"some text\"></label></p>\n";
   for (const auto& section : sections) {
@@ -282,14 +326,19 @@ std::string to_html(const std::vector<ReportSection>& sections) {
     for (const auto& row : section.rows) {
       html += fmt::format("<tr data-verdict=\"{0}\"{1}><td>{0}</td><td>{2}</td><td>{3}", escaped(row.verdict),
                           row.bad ? " class=\"bad\"" : "", escaped(row.name), escaped(row.note));
+      if (shown(section, row)) {
+        html += fmt::format(" <button data-file=\"{}\" data-name=\"{}\">show</button>", escaped(section.title),
+                            escaped(row.name));
+      }
       if (!row.details.empty() || !row.picture.empty()) {
         html += fmt::format("<details><summary>proof</summary><pre>{}</pre>{}</details>", escaped(row.details),
-                            row.picture);
+                            shown(section, row) ? "" : row.picture);
       }
       html += "</td></tr>\n";
     }
     html += "</table>\n";
   }
+  if (!view.empty()) html += "<div id=\"view\" hidden data-page=\"" + quoted(view) + "\"></div>\n";
   return html + script;
 }
 

@@ -1,4 +1,4 @@
-// One HTML page of what clues wrote: judgements, conformance reports and findings of the fuzzer. Self-contained: style, script and pictures are in it, nothing is
+// One HTML page of what clues wrote: judgements, conformance reports and findings of the fuzzer. Self-contained: style, script, pictures and views are in it, nothing is
 // fetched. The same files give the same bytes.
 #pragma once
 
@@ -14,14 +14,16 @@ namespace clues::fuzz {
 struct ReportRow {
   std::string verdict, name, note;
   bool bad = false;
-  std::string details;  // preformatted text; may be empty
-  std::string picture;  // an SVG element; may be empty
+  std::string details;     // preformatted text; may be empty
+  std::string picture;     // an SVG element; may be empty
+  bool has_scene = false;  // a view of its scene can show it
 };
 
 struct ReportSection {
   std::string title;    // the file, as seen from the folder
   std::string summary;  // lines of text
   std::vector<ReportRow> rows;
+  bool in_view = false;  // the page of to_html() has it, as the file `title`
 };
 
 // What is in the folder and below it, by path. JSON files of others are passed over. Throws Error file_not_found, file_unreadable; malformed for a *.json
@@ -34,6 +36,8 @@ std::optional<ReportSection> section_of(const std::string& bytes, const std::fil
 
 inline constexpr const char* html_begin =
     "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>clues report</title>";
-std::string to_html(const std::vector<ReportSection>& sections);
+
+// `view`: a page that is shown beside the table, in place of the pictures of sections that are in it; it has a function `cluesView.showRowOf(file, name)`. Empty: pictures only.
+std::string to_html(const std::vector<ReportSection>& sections, const std::string& view);
 
 }  // namespace clues::fuzz

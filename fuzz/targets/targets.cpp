@@ -312,8 +312,8 @@ bool report(std::string_view bytes) {
            const auto section = section_of(std::string(bytes), "file.json", false);
            is_result = section.has_value();
            if (!section) return;
-           const std::string page = to_html({*section});
-           const std::string bare = to_html({});
+           const std::string page = to_html({*section}, "");
+           const std::string bare = to_html({}, "");
            const auto count = [](const std::string& text, const std::string& what) {
              std::size_t n = 0;
              for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;

@@ -1,16 +1,16 @@
 // The state of the page, and what changes it. The panels (ui/) and the tests speak to this.
 import * as THREE from 'three';
+import { counts } from './files/mesh_bytes.js';
 import { Workspace } from './files/workspace.js';
 import { Frame } from './scene/frame.js';
 import { along, cross, length, middle, minus, toTriangle } from './scene/vectors.js';
 import { Camera } from './view/camera.js';
-import { NUMBER } from './view/labels.js';
+import { LABELS, LAYER_COLOURS, NUMBER } from './view/labels.js';
 import { dots, hull, lines, loop, release } from './view/marks.js';
 import { regionSurface } from './view/regions.js';
 import { Stage } from './view/stage.js';
 import { compare, nearest, viewpoint } from './view/stand.js';
 import { Draw, Only, surfaceMaterial, wholeSurface } from './view/surface.js';
-import { LAYER_COLOURS } from './view/labels.js';
 
 const MOST_GRAZING = 4;
 
@@ -25,6 +25,7 @@ export class App {
     this.colourBy = 'map';
     this.layers = [];
     this.switched = new Map();  // layers that the user switched
+    this.away = new Set();  // labels whose surface is not drawn
     this.triangle = null;
     this.alone = false;
     this.shading = true;
@@ -34,6 +35,7 @@ export class App {
     this.comparison = null;
     this.dark = false;
     this.flight = 0;
+    this.playing = 0;  // the timer that goes through the steps
   }
 
   async open(files) {
@@ -53,7 +55,8 @@ export class App {
     this.alone = false;
     this.viewpoint = 0;
     this.comparison = null;
-    this.frame = c.scene ? new Frame(c.scene.mesh, c.cell) : null;
+    this.stop();
+    this.frame = c.scene ? new Frame(c.scene.mesh, this.able('steps').reduce((all, p) => all.concat(p.kind.extent?.(p) ?? []), c.cell)) : null;
     this.colourBy = this.regions() || !this.has('label') ? 'map' : this.colourings()[0]?.id ?? 'map';
     const open = this.views().map((v) => v.id);
     if (!open.includes(this.view)) this.view = open[0];
@@ -61,10 +64,9 @@ export class App {
       this.stage.show(null, null);
       this.stage.camera = null;
     } else {
-      this.doubles = null;
-      this.locals = this.frame.locals(c.scene.mesh.points);
       this.whole = null;
       this.stage.camera = this.camera;
+      this.followStep();
       this.paint();
       if (!keepCamera) this.fit();
     }
@@ -77,15 +79,23 @@ export class App {
   has(what) { return this.able(what).length > 0; }
   regions() { return this.able('regions').map((p) => p.kind.regions(p)).find((r) => r) ?? null; }
   colourings() {
-    const out = this.able('label').map((p) => ({ id: p.kind.id, name: { result: 'the list', judgement: 'the verdict', finding: 'the finding', conformance: 'the outcome' }[p.kind.id] ?? p.kind.id, part: p }));
+    const out = this.able('label').map((p) => ({ id: p.kind.id, name: p.kind.name ?? p.kind.id, part: p }));
     if (this.regions()) out.unshift({ id: 'map', name: 'the map', part: null });
     return out;
   }
+  // What a label is called here: labels that stand for a measure, by the part.
+  nameOf(label) {
+    for (const part of this.able('names')) { const name = part.kind.names(part)[label]; if (name) return name; }
+    return LABELS[NUMBER[label]].name;
+  }
   list() { return this.able('listed')[0] ?? null; }
-  listed = (t) => { const part = this.list(); return part ? part.kind.listed(part, t) : true; };
+  // What does not count is in no list, and no list lacks it.
+  listed = (t) => { const part = this.list(); return part && counts(this.case.scene.mesh, t) ? part.kind.listed(part, t) : true; };
+  stepper() { return this.able('steps').find((p) => p.kind.view.id === this.view) ?? this.able('steps')[0] ?? null; }
   views() {
     const out = [];
-    if (this.case?.scene) out.push({ id: 'map', name: 'Map' });
+    if (this.case?.scene && !this.has('meshAt')) out.push({ id: 'map', name: 'Map' });
+    for (const part of this.able('view')) out.push(part.kind.view);
     if (this.case?.scene && this.list() && this.case.cell.length > 0) out.push({ id: 'stand', name: 'Stand in the cell' });
     if (this.has('rows')) out.push({ id: 'verdicts', name: 'Verdicts' });
     return out;
@@ -96,8 +106,10 @@ export class App {
     const old = this.whole;
     this.whole = new THREE.Mesh(wholeSurface(mesh, this.frame, this.labelOf(), this.listed), surfaceMaterial(THREE.DoubleSide));
     let coloured = this.whole;
-    const regions = this.regions();
-    if (regions && this.colourBy === 'map') coloured = new THREE.Mesh(regionSurface(mesh, this.frame, regions, this.case.cell, this.listed), surfaceMaterial(THREE.FrontSide));
+    const regions = this.regions(), own = this.able('surface').find((p) => p.kind.id === this.colourBy);
+    const surface = own?.kind.surface(own, this.frame, this.listed);
+    if (surface) coloured = new THREE.Mesh(surface, surfaceMaterial(own.kind.meshAt ? THREE.DoubleSide : THREE.FrontSide, surface.hasAttribute('chart')));
+    else if (regions && this.colourBy === 'map') coloured = new THREE.Mesh(regionSurface(mesh, this.frame, regions, this.case.cell, this.listed), surfaceMaterial(THREE.FrontSide));
     if (old && old !== this.stage.whole) old.geometry.dispose();
     this.stage.show(coloured, this.whole);
     this.uniforms();
@@ -114,6 +126,7 @@ export class App {
       u.hatching.value = this.hatching ? 1 : 0;
       u.patternSize.value = 9 * ratio;
       u.alone.value = this.alone && this.triangle !== null ? this.triangle : -1;
+      u.hidden.value = LABELS.map((label) => (this.view !== 'stand' && this.away.has(label.id) ? 1 : 0));
       u.mode.value = this.view === 'stand' ? Draw.stand : Draw.colours;
       u.solid.value = mesh === this.stage.whole && this.case.parts.some((p) => p.mode === 'solid') ? 1 : 0;
     }
@@ -125,6 +138,48 @@ export class App {
     return [0, 1, 2].map((k) => [...points.subarray(3 * triangles[3 * t + k], 3 * triangles[3 * t + k] + 3)]);
   }
   facts(t) { return this.able('facts').flatMap((p) => p.kind.facts(p, t, this.corners(t))); }
+
+  // Where one is among cells, frames or levels.
+  setStep(at) {
+    const part = this.stepper();
+    if (!part) return;
+    part.at = Math.max(0, Math.min(part.kind.steps(part) - 1, at));
+    if (this.colourBy !== part.kind.id && this.colourings().some((c) => c.id === part.kind.id)) this.colourBy = part.kind.id;
+    this.followStep();
+    if (part.kind.meshAt) { this.triangle = null; this.alone = false; }
+    this.paint();
+    if (this.view === 'stand') this.stand(this.viewpoint);
+    this.mark();
+    this.changed('state');
+  }
+  followStep() {
+    const { scene } = this.case;
+    for (const part of this.able('steps')) {
+      if (part.kind.meshAt) scene.mesh = part.kind.meshAt(part);
+      if (part.kind.cellAt) this.case.cell = part.kind.cellAt(part);
+    }
+    const eye = this.stepper()?.kind.eyeAt?.(this.stepper());
+    if (this.view !== 'stand') {
+      this.camera.eye = eye ? this.frame.local(eye) : null;
+      this.camera.near = 1e-4;
+    }
+    this.locals = this.frame.locals(scene.mesh.points);
+  }
+  play() {
+    const part = this.stepper();
+    if (this.playing || !part) { this.stop(); return; }
+    if (part.at + 1 >= part.kind.steps(part)) part.at = -1;
+    this.playing = setInterval(() => {
+      this.setStep(part.at + 1);
+      if (part.at + 1 >= part.kind.steps(part)) this.stop();
+    }, 250);
+    this.changed('state');
+  }
+  stop() {
+    clearInterval(this.playing);
+    this.playing = 0;
+    this.changed('state');
+  }
 
   // Everything that is drawn besides the surface.
   mark() {
@@ -150,6 +205,11 @@ export class App {
         for (const t of this.grazing()) this.stage.marks.add(lines(frame, loop(this.corners(t)), '#e69f00', 2.2, { over: true }));
     }
     this.stage.draw();
+  }
+  switchLabels(ids, on) {
+    for (const id of ids) this.away[on ? 'delete' : 'add'](id);
+    this.uniforms();
+    this.changed('state');
   }
   switchLayer(id, on) {
     this.switched.set(id, on);
@@ -187,15 +247,11 @@ export class App {
 
   // From the cell along the sight line to the triangle.
   showRow(row) {
-    if (row.goto) {
-      const at = this.workspace.cases.findIndex((c) => c.scene?.name === row.goto);
-      if (at >= 0 && this.workspace.cases[at] !== this.case) {
-        this.choose(at);
-        this.changed('files');
-        const again = this.able('rows').flatMap((p) => p.kind.rows(p)).find((r) => r.name === row.name);
-        if (again) this.showRow({ ...again, goto: null });
-        return;
-      }
+    if (row.goto && !this.case.parts.some((p) => p.data === row.goto)) {
+      this.choose(this.workspace.cases.findIndex((c) => c.parts.some((p) => p.data === row.goto)));
+      this.setView('verdicts');
+      this.changed('files');
+      row = this.able('rows').flatMap((p) => p.kind.rows(p)).find((r) => r.name === row.name) ?? row;
     }
     if (row.triangle === null || row.triangle === undefined || !this.case.scene) return;
     this.triangle = row.triangle;
@@ -214,6 +270,17 @@ export class App {
       this.flyTo(start, () => this.flyTo(end));
     }
     this.changed('state');
+  }
+
+  // For a page that holds this one: a row of a file, or its first.
+  showRowOf(file, name) {
+    const at = this.workspace.cases.findIndex((c) => c.parts.some((p) => p.file === file));
+    if (at < 0) return;
+    this.choose(at);
+    this.setView('verdicts');
+    this.changed('files');
+    const rows = this.able('rows').filter((p) => p.file === file).flatMap((p) => p.kind.rows(p));
+    this.showRow(rows.find((r) => r.name === name) ?? rows[0]);
   }
 
   // Moves the camera; at once for who wants no motion.
@@ -249,7 +316,7 @@ export class App {
     this.stopFlight();
     const look = this.camera.angles(this.case.cell.length > 0 ? this.fromCell() : [0.55, 0.83, 0]);
     // From above; unless the cell looks up or down at it, then more as the cell does.
-    const pitch = Math.abs(look.pitch) > 0.9 ? Math.sign(look.pitch) * 0.95 : 0.6;
+    const pitch = Math.abs(look.pitch) > 0.7 ? Math.sign(look.pitch) * 0.95 : 0.6;
     const { width, height } = this.stage.size();
     this.camera.state = { target: [0, 0, 0], distance: 2.3 * Math.max(1, (0.95 * height) / width), yaw: look.yaw + 0.35, pitch, flat: false };
     this.stage.draw();
@@ -280,7 +347,8 @@ export class App {
     this.view = id;
     this.comparison = null;
     // The table of verdicts comes with their colours, the map with its own.
-    const fitting = this.colourings().find((c) => (id === 'verdicts') === (c.id !== 'map' && c.id !== 'result'));
+    const ofView = this.able('view').find((p) => p.kind.view.id === id)?.kind.id, own = new Set(this.able('view').map((p) => p.kind.id));
+    const fitting = this.colourings().find((c) => (ofView ? c.id === ofView : !own.has(c.id) && (id === 'verdicts') === (c.id !== 'map' && c.id !== 'result')));
     if (before !== id && id !== 'stand' && fitting && this.case.scene && this.colourBy !== fitting.id) {
       this.colourBy = fitting.id;
       this.paint();
@@ -291,6 +359,7 @@ export class App {
     } else {
       this.stage.halves = null;
       this.camera.eye = null;
+      if (this.case.scene) this.followStep();
     }
     this.mark();
     this.uniforms();
@@ -318,9 +387,10 @@ export class App {
   }
   compare(width = 0, height = 0, most = undefined) {
     const r = this.stage.pictures()[0];
-    const { points, triangles } = this.case.scene.mesh;
-    this.doubles ??= Float64Array.from(points, (x, i) => (x - this.frame.centre[i % 3]) / this.frame.radius);
-    this.comparison = compare(this.stage, { width: width || Math.round(r.width), height: height || Math.round(r.height), places: this.doubles, triangles, listed: this.listed, most });
+    this.comparison = compare(this.stage, {
+      width: width || Math.round(r.width), height: height || Math.round(r.height), mesh: this.case.scene.mesh, listed: this.listed, most,
+      solid: this.case.parts.some((p) => p.mode === 'solid'), eye: viewpoint(this.case.cell, this.viewpoint),
+    });
     this.stage.draw();
     return this.comparison;
   }

@@ -1,5 +1,6 @@
 // The page: reads what the program put into it, or what is dropped, and connects the parts.
 import { App } from './app.js';
+import { nameOfPart } from './files/mesh_bytes.js';
 import { control } from './view/controls.js';
 import { readAddress, writeAddress } from './ui/address.js';
 import { keyboard, keysTable } from './ui/keys.js';
@@ -53,7 +54,9 @@ function tip(app, x, y) {
   const words = [`triangle ${hit.triangle}`];
   if (face !== undefined && face !== hit.triangle) words.push(`face ${face}`);
   if (app.regions() && app.colourBy === 'map' && app.view !== 'stand') words.push(hit.back ? 'back' : 'front');
-  words.push(app.view === 'stand' ? (hit.listed ? 'in the list' : 'not in the list') : hit.label === 'none' ? '' : hit.label, app.case.scene.name);
+  const part = nameOfPart(app.case.scene.mesh, hit.triangle);
+  if (part !== '') words.push(part);
+  words.push(app.view === 'stand' ? (hit.listed ? 'in the list' : 'not in the list') : hit.label === 'none' ? '' : app.nameOf(hit.label), app.case.scene.name);
   $('tip').textContent = words.filter((w) => w !== '').join(' · ');
   const { width } = app.stage.size();
   $('tip').style.cssText = `top:${y + 14}px;${x < width / 2 ? `left:${x + 12}px` : `right:${width - x + 12}px`}`;

@@ -1,8 +1,9 @@
-// Large scenes and small pages: bytes, the time until the first picture, the time of a picture. There is no graphics card here; the processor draws.
+// Large scenes and small pages: bytes, the time until the first picture, the time of a picture. There is no graphics card here; the processor draws. What is bounded is
+// processor time, in all processes of the browser, and what the triangles add to it: the rest is the browser's, and the clock counts what others do on the machine.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { close, clues, file, LONG, makeTown, sha256, withPage, write } from './support.mjs';
+import { close, clues, file, LONG, makeTown, processorTime, sha256, withPage, write } from './support.mjs';
 
 before(() => {
   makeTown();
@@ -10,7 +11,8 @@ before(() => {
 });
 after(close);
 
-const opened = async (page) => Number(await page.getAttribute('body', 'data-drawn'));
+const opened = async (page, worked) => ({ first: Number(await page.getAttribute('body', 'data-drawn')), worked });
+const MOST = 2000;  // ms that the first picture of 100,000 triangles may take longer than that of five
 
 // Hills of two triangles a square, a third of them listed.
 function makeHills(name, side) {
@@ -47,9 +49,13 @@ test('a page of a scene of 300 triangles is below 2 MB', () => {
 
 for (const [name, side] of LONG ? [['hills', 224], ['mountains', 708]] : [['hills', 224]]) {
   test(`${2 * (side - 1) ** 2} triangles: first picture, and pictures after it`, async () => {
-    const triangles = makeHills(name, side), five = await withPage('town.html', opened);
-    await withPage(`${name}.html`, async (page) => {
-      const first = await opened(page);
+    const triangles = makeHills(name, side);
+    await withPage('town.html', opened);  // the browser starts
+    const five = await withPage('town.html', opened);
+    let added = 0;
+    await withPage(`${name}.html`, async (page, worked) => {
+      added = worked - five.worked;
+      const { first } = await opened(page, worked), before = processorTime();
       const times = await page.evaluate(() => Array.from({ length: 9 }, () => {
         const begin = performance.now();
         cluesView.camera.turn(0.05, 0);
@@ -57,7 +63,9 @@ for (const [name, side] of LONG ? [['hills', 224], ['mountains', 708]] : [['hill
         cluesView.stage.wait();
         return Math.round(performance.now() - begin);
       }).sort((a, b) => a - b));
-      console.log(`${triangles} triangles: first picture after ${first} ms (of 5 triangles: ${five} ms), a picture in ${times[4]} ms (${times.join(', ')})`);
+      const each = Math.round((processorTime() - before) / times.length);
+      console.log(`${triangles} triangles: first picture after ${worked} ms of processor time (${first} ms by the clock; of 5 triangles ${five.worked} and ${five.first}), then one in ${each} ms (${times[4]} by the clock: ${times.join(', ')})`);
     });
+    if (triangles < 100000) assert(added < MOST, `${added} ms`);
   });
 }

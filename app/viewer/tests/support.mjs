@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
-import { copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 
@@ -62,23 +62,38 @@ export async function browser() {
 }
 export async function close() { await running?.close(); running = null; }
 
-// Opens a page, runs the test with it, and fails on anything that the page complains of or fetches.
-export async function withPage(name, test, { width = 1280, height = 800, hash = '', picture = true, media = {} } = {}) {
+// Opens a page, runs the test with it (and the processor time until it was there), and fails on anything that the page complains of or fetches.
+export async function withPage(name, test, { width = 1280, height = 800, hash = '', ready = true, picture = true, media = {} } = {}) {
   const context = await (await browser()).newContext({ viewport: { width, height }, acceptDownloads: true, reducedMotion: 'reduce', colorScheme: 'light', ...media });
   const page = await context.newPage(), complaints = [];
   page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall due to ReadPixels/.test(message.text())) complaints.push(message.text()); });
   page.on('pageerror', (problem) => complaints.push(problem.stack));
   page.on('request', (request) => { if (!/^(file|blob|data):/.test(request.url())) complaints.push(`fetched ${request.url()}`); });
+  const before = processorTime();
   await page.goto(`file://${file(name)}${hash}`);
-  await page.waitForSelector('body[data-ready]');
+  if (ready) await page.waitForSelector('body[data-ready]');
   if (picture) await page.waitForSelector('body[data-drawn]');
+  const worked = processorTime() - before;
   try {
-    const out = await test(page);
+    const out = await test(page, worked);
     assert.deepEqual(complaints, []);
     return out;
   } finally {
     await context.close();
   }
+}
+
+// Milliseconds of processor time that the browser has had so far, in all its processes.
+export function processorTime() {
+  const parents = new Map(), times = new Map();
+  for (const pid of readdirSync('/proc').filter((name) => /^\d+$/.test(name))) {
+    let fields;
+    try { fields = readFileSync(`/proc/${pid}/stat`, 'utf8').replace(/^.*\) /, '').split(' '); } catch { continue; }  // it has ended
+    parents.set(Number(pid), Number(fields[1]));
+    times.set(Number(pid), 10 * (Number(fields[11]) + Number(fields[12])));
+  }
+  const ours = (pid) => { for (let p = parents.get(pid); p; p = parents.get(p)) if (p === process.pid) return true; return false; };
+  return [...times].reduce((sum, [pid, ms]) => sum + (ours(pid) ? ms : 0), 0);
 }
 
 // Drops files into the page, as a person would: { path, text or bytes }.

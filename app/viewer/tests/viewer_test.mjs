@@ -1,6 +1,6 @@
 // The page of `clues view` in a real browser: every view with real files, what clicks and sliders do, what bad files do.
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { copyFileSync, cpSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { CELL, CLUES_SOURCE, close, clues, colours, drop, dropped, file, FINDING, makeFinding, makeTown, read, settled, state, withPage, write } from './support.mjs';
@@ -33,6 +33,12 @@ test('the map: labels, layers, the legend', () => withPage('town.html', async (p
   await page.click('#layer-cell');
   await settled(page);
   assert.equal((await state(page)).marks, before - 1);
+  const orange = async () => { await page.evaluate(() => { cluesView.shading = cluesView.hatching = false; cluesView.uniforms(); cluesView.fit(); }); const count = (await colours(page))['213,94,0'] ?? 0; await page.evaluate(() => { cluesView.shading = cluesView.hatching = true; cluesView.uniforms(); }); return count; };
+  assert(await orange() > 50);
+  await page.click('#label-hidden');
+  await settled(page);
+  assert.equal(await orange(), 0, 'what is switched off in the legend is not drawn');
+  assert(new URL(page.url()).hash.includes('without=hidden'));
   await page.selectOption('#colours', 'judgement');
   await settled(page);
   assert((await text(page, '#legend')).includes('missing, though visible'));
@@ -46,7 +52,7 @@ test('a click on a triangle says how much of it is visible, and the proof', () =
   const [x, y] = await onPage(page, [10.3, 1.3, 4]);
   await page.mouse.move(x, y);
   await settled(page);
-  assert.match(await text(page, '#tip'), /triangle 4 · front · visible · town.obj/);
+  assert.match(await text(page, '#tip'), /triangle 4 · front · visible from the cell · town.obj/);
   await page.mouse.click(x, y);
   await settled(page);
   assert.equal((await state(page)).triangle, 4);
@@ -140,6 +146,12 @@ test('a finding, as it was met and after shrinking', () => withPage('finding.htm
   assert((await text(page, '#side')).includes('hidden/visible'));
   const before = await page.evaluate(() => cluesView.case.scene.mesh.triangles.length);
   await page.click('#view-verdicts');
+  await settled(page);
+  assert.equal(await page.locator('#rows tr').count(), 2);
+  await page.locator('#rows tr').nth(1).click();
+  await settled(page);
+  assert((await text(page, '#side')).includes('as it was met: '), 'the other of both');
+  assert((await state(page)).case.includes('as it was met'));
   await page.click('#rows tr');
   await settled(page);
   assert((await text(page, '#side')).includes('free sight line from'));
@@ -163,6 +175,35 @@ test('a conformance report: the scenes of what is unsound', async () => {
     assert((await state(page)).case.includes(list[3].id));
     assert.notEqual((await state(page)).triangle, null);
   });
+});
+
+test('a report shows what is wrong in the same view', async () => {
+  mkdirSync(file('results/second'), { recursive: true });
+  // Two scenes of one name, in two folders: each verdict is shown with its own.
+  copyFileSync(file('town.verdict.json'), file('results/town.json'));
+  write('results/second/town.obj', read('town.obj').replace('v 10 2 4', 'v 10 2 4.125'));
+  clues(1, 'check', 'results/second/town.obj', '--cell', CELL, '--pvs', 'baked.txt', '--json', 'results/second/town.json');
+  cpSync(file(FINDING), file('results/finding'), { recursive: true });
+  clues(0, 'report', 'results');
+  await withPage('results/report.html', async (page) => {
+    assert.equal(await page.locator('svg').count(), 0, 'no plans');
+    assert.equal(await page.locator('button[data-file]').count(), 3);
+    const shown = async (name) => {
+      await page.click(`button[data-file="${name}"]`);
+      const frame = await (await page.waitForSelector('iframe')).contentFrame();
+      await frame.waitForFunction(() => window.cluesView?.view === 'verdicts' && cluesView.row);
+      await frame.waitForTimeout(200);
+      return frame.evaluate(() => ({ triangle: cluesView.triangle, z: cluesView.case.scene.mesh.points.at(-1), marks: cluesView.stage.marks.children.length, side: document.getElementById('side').textContent }));
+    };
+    const first = await shown('town.json'), second = await shown('second/town.json'), finding = await shown('finding/finding.json');
+    assert.deepEqual([first.triangle, first.z, second.triangle, second.z], [4, 4, 4, 4.125]);
+    assert(first.marks > 4 && first.side.includes('free sight line from'));
+    assert(finding.side.includes('after shrinking') && finding.side.includes('as it was met'));
+  }, { ready: false, picture: false });
+  await withPage('results/report.html', async (page) => {
+    await page.click('button[data-file]');
+    assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 400);
+  }, { ready: false, picture: false, width: 400 });
 });
 
 test('files are dropped; a scene that is missing is asked for', () => withPage('empty.html', async (page) => {
@@ -242,6 +283,21 @@ test('the program refuses what it cannot read, and writes nothing', () => {
   clues(2, 'view', 'town.clues.json', '-o', 'town.clues.json');
   clues(2, 'view', '.', '-o', 'no.html');
   assert.throws(() => readFileSync(file('no.html')));
+});
+
+test('a level: its faces have names, and what does not block is drawn too', async () => {
+  copyFileSync(join(CLUES_SOURCE, 'fuzz/corpus/bsp/two_rooms.bsp'), file('two_rooms.bsp'));
+  clues(0, 'view', 'two_rooms.bsp', '-o', 'level.html');
+  await withPage('level.html', async (page) => {
+    const { flags, parts } = await page.evaluate(() => { const { flags: f, parts: p } = cluesView.case.scene.mesh; return { flags: [...f], parts: p }; });
+    assert.deepEqual([flags.length, flags.filter((f) => f & 2).length, flags.filter((f) => f & 1).length], [62, 40, 26], 'as `clues level` counts them');
+    const { width, height } = await page.locator('#canvas').boundingBox(), box = await page.locator('#canvas').boundingBox();
+    await page.mouse.move(box.x + width / 2, box.y + height / 2);
+    await settled(page);
+    const words = (await text(page, '#tip')).split(' · ');
+    assert.match(words[0], /^triangle \d+$/);
+    assert(parts.some(([, name]) => words.includes(name)), words.join());
+  });
 });
 
 test('names of files are text', async () => {

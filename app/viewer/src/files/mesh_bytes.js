@@ -30,12 +30,27 @@ export class MeshBuilder {
 }
 
 // Base64 of little-endian numbers, as the program embeds them.
-function bytesOf(base64) {
+export function bytesOf(base64) {
   const text = atob(base64), bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
   return bytes.buffer;
 }
 
+// `flags`: a byte a triangle (1: it blocks, 2: it counts), or null where all do both; `parts`: [[first triangle, name], ...], or null.
 export function embeddedMesh(file) {
-  return { points: new Float64Array(bytesOf(file.points)), triangles: new Uint32Array(bytesOf(file.triangles)), faces: null };
+  const flags = file.flags ? new Uint8Array(bytesOf(file.flags)) : null;
+  return { points: new Float64Array(bytesOf(file.points)), triangles: new Uint32Array(bytesOf(file.triangles)), faces: null, flags, parts: file.parts ?? null };
+}
+
+export const counts = (mesh, t) => !mesh.flags || (mesh.flags[t] & 2) !== 0;
+export const blocks = (mesh, t) => !mesh.flags || (mesh.flags[t] & 1) !== 0;
+
+// What the file calls the part that the triangle is of; empty where it has no name.
+export function nameOfPart(mesh, t) {
+  let name = '';
+  for (let low = 0, high = mesh.parts?.length ?? 0; low < high;) {
+    const at = (low + high) >> 1;
+    if (mesh.parts[at][0] <= t) { name = mesh.parts[at][1]; low = at + 1; } else high = at;
+  }
+  return name;
 }

@@ -18,16 +18,18 @@ function readCases(json, file) {
     };
   });
   const scenes = json.scenes ?? {};
-  const rows = cases.map((c) => ({ verdict: c.outcome, name: c.id, note: c.message, bad: BAD.has(c.outcome), goto: scenes[c.id] ? c.id : null }));
+  const rows = cases.map((c) => ({ verdict: c.outcome, name: c.id, note: c.message, bad: BAD.has(c.outcome), goto: null }));
   const shown = cases.filter((c) => scenes[c.id]).map((c) => {
     const mesh = embeddedMesh(scenes[c.id]);
     return { mesh, scene: { file: c.id, sha256: null, triangles: mesh.triangles.length / 3 }, cell: scenes[c.id].cell, mode: null, data: { name, case: c, rows } };
   });
+  for (const { data } of shown) rows.find((r) => r.name === data.case.id).goto = data;
   return shown.length > 0 ? shown : [{ mesh: null, scene: null, cell: [], mode: null, data: { name, case: null, rows } }];
 }
 
 export default {
   id: 'conformance',
+  name: 'the outcome',
   formats: ['clues-conformance/1'],
   readCases,
   title: ({ data }) => (data.case ? `${data.name}: ${data.case.id}` : `conformance of ${data.name}`),

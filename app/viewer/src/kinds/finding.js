@@ -22,11 +22,18 @@ function readFolder(json, file, beside) {
     const points = [...Array(cell.points.length / 3).keys()].map((i) => [...cell.points.subarray(3 * i, 3 * i + 3)]);
     out.push({ mesh, scene: { file: 'scene.off', sha256: null, triangles: last + 1 }, cell: points, mode: top.oneOf('mode', ['sheet', 'solid']), data });
   }
+  for (const part of out) part.data.both = out.map((other) => other.data);
   return out;
 }
 
+const rowOf = (data) => ({
+  verdict: data.verdict, name: `${data.words}: ${data.triangle === null ? data.oracle : `triangle ${data.triangle}`}`, note: data.oracle, triangle: data.triangle,
+  sight: data.v && data.p ? [data.v, data.p] : null, bad: true, goto: data,
+});
+
 export default {
   id: 'finding',
+  name: 'the finding',
   formats: ['clues-finding/2'],
   readFolder,
   title: ({ data }) => `finding, ${data.words}: ${data.verdict}`,
@@ -39,5 +46,6 @@ export default {
     if (data.v && data.p) out.push(sightFact(data.v, data.p, data.side, data.texts));
     return out;
   },
-  rows: ({ data }) => [{ verdict: data.verdict, name: data.triangle === null ? data.oracle : `triangle ${data.triangle}`, note: data.oracle, triangle: data.triangle, sight: data.v && data.p ? [data.v, data.p] : null, bad: true }],
+  // Before and after shrinking, from either of them.
+  rows: ({ data }) => data.both.map(rowOf),
 };

@@ -16,7 +16,7 @@ function read(json, file) {
   const fractions = top.list('first_order_fractions');
   const measured = top.object('triangles_measured');
   const meets = new Set(top.wholes('meet_cell', last));
-  const scene = { file: top.text('scene').split('/').pop(), sha256: null, triangles: words.length };
+  const scene = { file: top.text('scene').split('/').pop(), sha256: top.has('scene_sha256') ? top.text('scene_sha256') : null, triangles: words.length };
   return { scene, cell: top.points('cell'), mode: null, data: { words, witnesses, chains, fractions, meets, verdict: top.text('verdict'), measured: measured.json } };
 }
 
@@ -29,6 +29,7 @@ function sight({ data }, t) {
 
 export default {
   id: 'judgement',
+  name: 'the verdict',
   formats: ['clues-judgement/1'],
   read,
   title: (part) => `verdict on a list for ${part.scene.file}`,

@@ -47,6 +47,7 @@ export const percent = (x) => `${Number((100 * x).toPrecision(4))} %`;
 
 export default {
   id: 'result',
+  name: 'the list',
   formats: ['clues-result/1'],
   read,
   title: (part) => `map of ${part.scene.file}`,

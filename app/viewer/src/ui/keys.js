@@ -5,8 +5,9 @@ import { h } from './dom.js';
 const KEYS = [
   ['arrows', 'turn; with Shift: move', null],
   ['+ −', 'nearer, farther', null],
-  ['1 2 3', 'map, stand in the cell, verdicts', null],
-  ['[ ]', 'previous and next viewpoint, or row of the table', null],
+  ['1 2 3…', 'the views, in the order of their buttons', null],
+  ['[ ]', 'previous and next viewpoint, row of the table, cell, frame or level', null],
+  ['P', 'play the frames, or stop', (app) => app.play()],
   ['F', 'fit all of the scene', (app) => app.fit()],
   ['O', 'with or without perspective', (app) => app.setFlat(!app.camera.state.flat)],
   ['U', 'up is z or y', (app) => app.setUp(app.camera.up === 'z' ? 'y' : 'z')],
@@ -19,7 +20,6 @@ const KEYS = [
 ];
 
 export function keyboard(app, { save, help }) {
-  const views = ['map', 'stand', 'verdicts'];
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || ['INPUT', 'SELECT', 'TEXTAREA'].includes(event.target.tagName) && event.key !== 'Escape') return;
     if (event.key === '?') { help(); return; }
@@ -36,10 +36,11 @@ export function keyboard(app, { save, help }) {
       app.camera.zoom(event.key === '-' ? 1.15 : 1 / 1.15);
       app.stage.draw();
       app.changed('camera');
-    } else if (event.key >= '1' && event.key <= '3') {
-      app.setView(views[event.key - 1]);
+    } else if (event.key >= '1' && event.key <= '9') {
+      app.setView(app.views()[event.key - 1]?.id);
     } else if (event.key === '[' || event.key === ']') {
       const by = event.key === ']' ? 1 : -1;
+      if (app.stepper()?.kind.view.id === app.view) app.setStep(app.stepper().at + by);
       if (app.view === 'stand') app.stand((app.viewpoint + by + VIEWPOINTS) % VIEWPOINTS);
       if (app.view === 'verdicts') {
         const rows = app.able('rows').flatMap((p) => p.kind.rows(p)), at = rows.findIndex((r) => r.name === app.row?.name);

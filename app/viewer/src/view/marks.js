@@ -39,33 +39,47 @@ export function dots(frame, points, colour, size) {
   return object;
 }
 
-// The hull of the points of a cell: a body with its edges; of a flat cell, what there is of it.
-export function hull(frame, points, colour) {
-  const group = new THREE.Group(), local = points.map((p) => new THREE.Vector3(...frame.local(p)));
-  group.add(dots(frame, points, colour, 4));
-  const box = new THREE.Box3().setFromPoints(local), size = box.getSize(new THREE.Vector3());
-  const spread = Math.max(size.x, size.y, size.z);
-  const solid = points.length >= 4 && spansSpace(local, spread);
-  if (!solid) {
-    const pairs = points.flatMap((p, i) => points.slice(i + 1).map((q) => [p, q]));
-    if (pairs.length > 0) group.add(lines(frame, pairs, colour, 2.5));
-    return group;
-  }
+// The faces of the hull of points of a solid cell as triangles, and its edges as pairs; of a flat cell all pairs.
+const known = new WeakMap();
+function hullParts(frame, points) {
+  if (!known.has(points)) known.set(points, makeHull(frame, points));
+  return known.get(points);
+}
+function makeHull(frame, points) {
+  const local = points.map((p) => new THREE.Vector3(...frame.local(p)));
+  const size = new THREE.Box3().setFromPoints(local).getSize(new THREE.Vector3());
+  if (points.length < 4 || !spansSpace(local, Math.max(size.x, size.y, size.z))) return { triangles: [], pairs: points.flatMap((p, i) => points.slice(i + 1).map((q) => [p, q])) };
   const faces = new ConvexHull().setFromPoints(local).faces.map((face) => {
     const corners = [];
     let edge = face.edge;
     do { corners.push(edge.head().point); edge = edge.next; } while (edge !== face.edge);
     return { corners, normal: face.normal };
   });
-  const world = (v) => frame.world([v.x, v.y, v.z]);
-  group.add(body(frame, faces.flatMap(({ corners }) => corners.slice(2).map((_, i) => [corners[0], corners[i + 1], corners[i + 2]].map(world))), colour, 0.22));
+  const number = new Map(local.map((p, i) => [p, i])), world = (v) => points[number.get(v)];
+  const triangles = faces.flatMap(({ corners }) => corners.slice(2).map((_, i) => [corners[0], corners[i + 1], corners[i + 2]].map(world)));
   // Edges between faces of one plane are not drawn.
   const normals = new Map();
-  const key = (a, b) => [a, b].map((p) => local.indexOf(p)).sort((x, y) => x - y).join();
+  const key = (a, b) => [a, b].map((p) => number.get(p)).sort((x, y) => x - y).join();
   for (const { corners, normal } of faces)
     corners.forEach((p, i) => { const k = key(p, corners[(i + 1) % corners.length]); normals.set(k, [...(normals.get(k) ?? []), normal]); });
   const pairs = [...normals].filter(([, [a, b]]) => !b || a.dot(b) < 1 - 1e-9).map(([k]) => k.split(',').map((i) => points[Number(i)]));
+  return { triangles, pairs };
+}
+
+// The hull of the points of a cell: a body with its edges; of a flat cell, what there is of it.
+export function hull(frame, points, colour) {
+  const group = new THREE.Group(), { triangles, pairs } = hullParts(frame, points);
+  group.add(dots(frame, points, colour, 4));
+  if (triangles.length > 0) group.add(body(frame, triangles, colour, 0.22));
   if (pairs.length > 0) group.add(lines(frame, pairs, colour, 2.5));
+  return group;
+}
+
+// Many of them at once, each a list of points; their edges in another colour.
+export function hulls(frame, cells, colour, opacity, ink) {
+  const group = new THREE.Group(), parts = cells.map((points) => hullParts(frame, points)), triangles = parts.flatMap((p) => p.triangles), pairs = parts.flatMap((p) => p.pairs);
+  if (triangles.length > 0) group.add(body(frame, triangles, colour, opacity));
+  if (pairs.length > 0) group.add(lines(frame, pairs, ink, 0.7));
   return group;
 }
 

@@ -74,7 +74,10 @@ export class Stage {
       if (!this.camera) return;
       this.only(half ? this.whole : this.surface);
       if (half) this.whole.material.uniforms.only.value = half.only;
-      this.marks.traverse((part) => part.material?.resolution?.set(r.width, r.height));
+      this.marks.traverse((part) => {
+        part.material?.resolution?.set(r.width, r.height);
+        if (part.userData.below) part.visible = this.camera.state.distance < part.userData.below;
+      });
       this.renderer.render(this.scene, this.camera.get(r.width / r.height));
       if (numbers) {
         this.glare.draw(this.renderer, numbers, [r.x * ratio, lower * ratio], this.whole.material.uniforms);

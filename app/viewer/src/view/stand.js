@@ -1,5 +1,6 @@
 // Standing in the cell: viewpoints within it, in a fixed order, and the comparison of the list with everything.
 import { Vector3 } from 'three';
+import { firstMet } from '../scene/exact_ray.js';
 import { length, middle, minus, pointToTriangle } from '../scene/vectors.js';
 import { BACK, NO_TAG } from './surface.js';
 
@@ -42,41 +43,16 @@ export function nearest(locals, triangles, eye) {
   return Math.max(1e-5, Math.min(0.5 * best, 0.5));
 }
 
-// The triangle that a ray meets first, in doubles, and of those that it meets at one place one in the list; -1: none.
-function firstHit(places, triangles, listed, eye, ray) {
-  let best = -1, nearest = Infinity;
-  for (let t = 0; t < triangles.length; t += 3) {
-    const [a, b, c] = [0, 1, 2].map((k) => 3 * triangles[t + k]);
-    const ux = places[b] - places[a], uy = places[b + 1] - places[a + 1], uz = places[b + 2] - places[a + 2];
-    const vx = places[c] - places[a], vy = places[c + 1] - places[a + 1], vz = places[c + 2] - places[a + 2];
-    const px = ray[1] * vz - ray[2] * vy, py = ray[2] * vx - ray[0] * vz, pz = ray[0] * vy - ray[1] * vx;
-    const det = ux * px + uy * py + uz * pz;
-    if (det === 0) continue;
-    const sx = eye[0] - places[a], sy = eye[1] - places[a + 1], sz = eye[2] - places[a + 2];
-    const u = (sx * px + sy * py + sz * pz) / det;
-    if (!(u >= 0 && u <= 1)) continue;
-    const qx = sy * uz - sz * uy, qy = sz * ux - sx * uz, qz = sx * uy - sy * ux;
-    const v = (ray[0] * qx + ray[1] * qy + ray[2] * qz) / det;
-    if (!(v >= 0 && u + v <= 1)) continue;
-    const d = (vx * qx + vy * qy + vz * qz) / det;
-    if (!(d > 0 && d < nearest * (1 + 1e-9))) continue;
-    if (d >= nearest * (1 - 1e-9) && !listed(t / 3)) continue;
-    nearest = Math.min(d, nearest);
-    best = t / 3;
-  }
-  return best;
-}
-
-// A fifth of a pixel around its middle: what rays in doubles do not find in any of these places was rounding at an edge.
-const AROUND = [[0, 0], [0.1, 0], [-0.1, 0], [0, 0.1], [0, -0.1]];
 const MOST_CAST = 400;  // in the panel; tests cast all of them
 
-// The picture of the list beside that of everything, from where the camera stands. `differ`: pixels that differ; `real`: those of them (of the first `most`) where rays in
-// doubles meet a triangle first that is not in the list, all around the middle of the pixel. The others are edges, or surfaces at one place: the graphics processor
-// rounds corners to a part of a pixel, and depths. `seen`: triangles, with their numbers of pixels.
-export function compare(stage, { width, height, places, triangles, listed, most = MOST_CAST }) {
+// The picture of the list beside that of everything, from where the camera stands. `differ`: pixels that differ. Why any does though nothing is missing: a graphics
+// processor moves corners to a part of a pixel and rounds depths, so that at the outline of a body its hidden side is at once as near as the side that hides it, and where
+// bodies touch what is behind shows in the crack. So the picture itself is taken from rays: a pixel that differs is the ray from the viewpoint through its middle, and
+// what that meets first is decided exactly (scene/exact_ray.js). `real`: those (of the first `most`) where no triangle that it meets first is in the list.
+// `seen`: triangles, with their numbers of pixels. `eye`: in coordinates of the scene, and in the cell.
+export function compare(stage, { width, height, mesh, solid, listed, eye, most = MOST_CAST }) {
   const all = stage.numbers(stage.whole, { width, height }), list = stage.numbers(stage.whole, { width, height, listed: true });
-  const camera = stage.camera.get(width / height), eye = stage.camera.place();
+  const camera = stage.camera.get(width / height), from = stage.camera.place();
   const numberAt = (at) => all[at] + 256 * all[at + 1] + 65536 * all[at + 2];
   let differ = 0, surface = 0, real = 0;
   const seen = new Map(), missing = new Set();
@@ -86,11 +62,11 @@ export function compare(stage, { width, height, places, triangles, listed, most 
     if (all[at] === list[at] && all[at + 1] === list[at + 1] && all[at + 2] === list[at + 2] && all[at + 3] === list[at + 3]) continue;
     if (++differ > most) continue;
     const x = (at / 4) % width, y = Math.floor(at / 4 / width);
-    const hits = AROUND.map(([dx, dy]) => {
-      const far = new Vector3(((x + 0.5 + dx) / width) * 2 - 1, ((y + 0.5 + dy) / height) * 2 - 1, 0.5).unproject(camera);
-      return firstHit(places, triangles, listed, eye, [far.x - eye[0], far.y - eye[1], far.z - eye[2]]);
-    });
-    if (hits.every((t) => t >= 0 && !listed(t))) { ++real; missing.add(hits[0]); }
+    const far = new Vector3(((x + 0.5) / width) * 2 - 1, ((y + 0.5) / height) * 2 - 1, 0.5).unproject(camera);
+    const met = firstMet(mesh.points, mesh.triangles, eye, [far.x - from[0], far.y - from[1], far.z - from[2]]);
+    if (met.length === 0 || met.some(({ triangle, back }) => listed(triangle) || (solid && back))) continue;
+    ++real;
+    for (const { triangle } of met) missing.add(triangle);
   }
   return { pixels: all.length / 4, surface, differ, real, seen: [...seen], missing: [...missing].sort((a, b) => a - b) };
 }

@@ -32,10 +32,12 @@ export class SurfaceBuffer {
     this.places = larger(this.places);
     this.tags = larger(this.tags);
   }
-  geometry() {
+  // `charts`: three numbers a corner that sum to 1, the place in a triangle of which a checkerboard is drawn.
+  geometry(charts = null) {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(this.places.subarray(0, 9 * this.count), 3));
     geometry.setAttribute('tag', new THREE.BufferAttribute(this.tags.subarray(0, 12 * this.count), 4));
+    if (charts) geometry.setAttribute('chart', new THREE.BufferAttribute(charts, 3));
     geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1.01);
     return geometry;
   }
@@ -62,16 +64,23 @@ export const Draw = { colours: 0, numbers: 1, stand: 2 };
 
 const vertexShader = `
 attribute vec4 tag;
-uniform float only, alone;
+#ifdef CHECKERED
+attribute vec3 chart;
+varying vec3 square;
+#endif
+uniform float only, alone, hidden[LABEL_COUNT];
 varying vec3 place;
 flat varying vec4 bytes;
 void main() {
   float number = tag.x + 256.0 * tag.y + 65536.0 * tag.z;
   bytes = tag;
+#ifdef CHECKERED
+  square = chart;
+#endif
   place = (modelViewMatrix * vec4(position, 1.0)).xyz;
   gl_Position = projectionMatrix * vec4(place, 1.0);
   bool listed = mod(tag.w, 128.0) >= 64.0;
-  if ((only > 0.5 && !listed) || (alone >= 0.0 && abs(alone - number) > 0.25)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if (hidden[int(mod(tag.w, 64.0) + 0.5)] > 0.5 || (only > 0.5 && !listed) || (alone >= 0.0 && abs(alone - number) > 0.25)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
 const fragmentShader = `
@@ -79,6 +88,9 @@ uniform float mode, solid, shading, hatching, patternSize;
 uniform vec3 palette[LABEL_COUNT];
 uniform float hatched[LABEL_COUNT];
 varying vec3 place;
+#ifdef CHECKERED
+varying vec3 square;
+#endif
 flat varying vec4 bytes;
 void main() {
   float tag = bytes.w;
@@ -101,6 +113,10 @@ void main() {
     vec3 normal = size > 0.0 ? across / size : vec3(0.0, 0.0, 1.0);
     colour *= 0.62 + 0.38 * abs(dot(normal, normalize(vec3(0.25, 0.45, 0.86))));
   }
+#ifdef CHECKERED
+  vec3 steps = floor(square * 8.0 - 1e-4);
+  if (mod(steps.x + steps.y + steps.z, 2.0) > 0.5) colour *= 0.45;
+#endif
   if (hatching > 0.5 && stripes) {
     float stripe = mod(gl_FragCoord.x + gl_FragCoord.y, patternSize);
     if (stripe < patternSize * 0.28) colour *= 0.72;
@@ -108,14 +124,15 @@ void main() {
   gl_FragColor = vec4(colour, 1.0);
 }`;
 
-export function surfaceMaterial(side) {
+export function surfaceMaterial(side, checkered = false) {
   return new THREE.ShaderMaterial({
-    vertexShader,
+    defines: checkered ? { CHECKERED: 1 } : {},
+    vertexShader: vertexShader.replaceAll('LABEL_COUNT', String(LABELS.length)),
     fragmentShader: fragmentShader.replaceAll('LABEL_COUNT', String(LABELS.length)),
     side,
     uniforms: {
       mode: { value: Draw.colours }, solid: { value: 0 }, shading: { value: 1 }, hatching: { value: 1 }, patternSize: { value: 9 },
-      only: { value: Only.all }, alone: { value: -1 },
+      only: { value: Only.all }, alone: { value: -1 }, hidden: { value: LABELS.map(() => 0) },
       palette: { value: LABELS.map((label) => new THREE.Vector3(...rgb(label.colour))) },
       hatched: { value: LABELS.map((label) => (label.hatch ? 1 : 0)) },
     },
