@@ -11,15 +11,8 @@ namespace clues::scene {
 namespace {
 
 // To a client, and from 16 on to a server.
-enum PacketKind : std::uint8_t {
-  header = 0,
-  plus = 1,
-  cell = 2,
-  minus = 3,
-  end = 4,
-  refusal = 5,
-  enter = 16,
-  resume = 17
+struct PacketKind {
+  enum : std::uint8_t { header = 0, plus = 1, cell = 2, minus = 3, end = 4, refusal = 5, enter = 16, resume = 17 };
 };
 
 class PacketWriter {
@@ -168,7 +161,7 @@ std::optional<Packet> PacketReader::next() {
 }
 
 std::string to_packet(const StreamHeader& about) {
-  PacketWriter out(header);
+  PacketWriter out(PacketKind::header);
   out.u32(stream_version);
   out.u64(about.scene_triangles);
   out.u64(about.cell_count);
@@ -179,12 +172,12 @@ std::string to_packet(const StreamHeader& about) {
 
 std::string to_packet(const StreamMessage& message) {
   if (message.kind == StreamMessage::Kind::cell) {
-    PacketWriter out(cell);
+    PacketWriter out(PacketKind::cell);
     out.u32(message.cell);
     return out.done();
   }
   if (message.kind == StreamMessage::Kind::plus) {
-    PacketWriter out(plus);
+    PacketWriter out(PacketKind::plus);
     out.count(message.vertices.size());
     for (const auto& v : message.vertices) {
       out.u32(v.slot);
@@ -196,7 +189,7 @@ std::string to_packet(const StreamMessage& message) {
     }
     return out.done();
   }
-  PacketWriter out(minus);
+  PacketWriter out(PacketKind::minus);
   out.count(message.minus.size());
   for (const std::uint32_t t : message.minus) out.u32(t);
   out.count(message.unused.size());
@@ -205,24 +198,24 @@ std::string to_packet(const StreamMessage& message) {
 }
 
 std::string end_packet(std::uint64_t messages) {
-  PacketWriter out(end);
+  PacketWriter out(PacketKind::end);
   out.u64(messages);
   return out.done();
 }
 
 std::string refusal_packet(std::string_view why) {
-  PacketWriter out(refusal);
+  PacketWriter out(PacketKind::refusal);
   out.text(why);
   return out.done();
 }
 
 std::string to_packet(const StreamRequest& request) {
   if (!request.resumes) {
-    PacketWriter out(enter);
+    PacketWriter out(PacketKind::enter);
     out.u32(request.cell);
     return out.done();
   }
-  PacketWriter out(resume);
+  PacketWriter out(PacketKind::resume);
   out.u64(request.have);
   out.count(request.route.size());
   for (const std::uint32_t c : request.route) out.u32(c);
@@ -231,7 +224,7 @@ std::string to_packet(const StreamRequest& request) {
 
 StreamHeader parse_header(const Packet& packet, const std::string& where) {
   PacketBody body(packet, where);
-  if (packet.kind != header) body.fail("a stream begins with a header");
+  if (packet.kind != PacketKind::header) body.fail("a stream begins with a header");
   const std::uint32_t version = body.u32();
   if (version != stream_version)
     throw Error(ErrorCode::unsupported, fmt::format("{}: a stream of version {}; this program reads version {}", where,
@@ -249,20 +242,20 @@ ServerPacket parse_server_packet(const Packet& packet, const std::string& where,
   PacketBody body(packet, where);
   ServerPacket out;
   switch (packet.kind) {
-    case plus:
+    case PacketKind::plus:
       out.message = plus_of(body, about);
       break;
-    case minus:
+    case PacketKind::minus:
       out.message = minus_of(body, about);
       break;
-    case cell:
+    case PacketKind::cell:
       out.message.cell = body.number_from(0, about.cell_count, "the cell");
       break;
-    case end:
+    case PacketKind::end:
       out.kind = ServerPacket::Kind::end;
       out.messages = body.u64();
       break;
-    case refusal:
+    case PacketKind::refusal:
       out.kind = ServerPacket::Kind::refusal;
       out.why = body.text();
       break;
@@ -276,9 +269,9 @@ ServerPacket parse_server_packet(const Packet& packet, const std::string& where,
 StreamRequest parse_request(const Packet& packet, const std::string& where, std::uint64_t cells) {
   PacketBody body(packet, where);
   StreamRequest request;
-  if (packet.kind == enter) {
+  if (packet.kind == PacketKind::enter) {
     request.cell = body.number_from(0, cells, "the cell");
-  } else if (packet.kind == resume) {
+  } else if (packet.kind == PacketKind::resume) {
     request.resumes = true;
     request.have = body.u64();
     for (std::uint32_t n = body.count(4); n > 0; --n) request.route.push_back(body.number_from(0, cells, "the cell"));
