@@ -101,7 +101,8 @@ int run_list_contours(const ContoursRequest& request) {
   const ServedCells served = served_cells({request.scene, {}, request.bake});
   const reference::EdgeUsers edges(served.scene.mesh);
   const auto triangles = static_cast<std::uint32_t>(served.scene.mesh.triangles.size());
-  std::uint64_t transitions = 0, whole = 0, plus = 0, minus = 0, contours = 0, packed = 0, seeds = 0, boundary = 0;
+  std::uint64_t transitions = 0, whole = 0, plus = 0, minus = 0, contours = 0, packed = 0, listed = 0, seeds = 0,
+                boundary = 0;
   for (std::uint32_t a = 0; a < served.lists.size(); ++a) {
     for (const std::uint32_t b : served.neighbours[a]) {
       const auto &from = served.lists[a], &to = served.lists[b];
@@ -116,6 +117,7 @@ int run_list_contours(const ContoursRequest& request) {
       whole += scene::packed_list(to, triangles).size();
       plus += scene::packed_list(packets.plus, triangles).size();
       minus += scene::packed_list(packets.minus, triangles).size();
+      listed += reference::to_bytes({packets.minus, {}}).size() - 1;  // behind it an empty boundary
       contours += bytes.size();
       packed += scene::packed_bytes(bytes).size();
       seeds += contour.seeds.size();
@@ -127,10 +129,11 @@ int run_list_contours(const ContoursRequest& request) {
   };
   print(
       fmt::format("{} transitions; bytes for each, on average:\n"
-                  "  list {:.1f}   delta {:.1f} (+ {:.1f}, - {:.1f})   contours in place of - {:.1f}, packed {:.1f}\n"
+                  "  list {:.1f}   delta {:.1f} (+ {:.1f}, - {:.1f}; - as differences of ids {:.1f})\n"
+                  "  contours in place of - {:.1f}, packed {:.1f}\n"
                   "  ({:.1f} seeds, {:.1f} edges)\n",
-                  transitions, mean(whole), mean(plus + minus), mean(plus), mean(minus), mean(contours), mean(packed),
-                  mean(seeds), mean(boundary)));
+                  transitions, mean(whole), mean(plus + minus), mean(plus), mean(minus), mean(listed), mean(contours),
+                  mean(packed), mean(seeds), mean(boundary)));
   return fine;
 }
 
