@@ -25,6 +25,7 @@ struct ServeRequest {
   std::string socket;
   bool binary = false;
   int horizon = 0;
+  std::size_t drop = 0;
   MethodOptions method;
 };
 
@@ -64,8 +65,8 @@ int answer_packets(const reference::StreamStore& store, const scene::StreamHeade
 int run_serve(const ServeRequest& request) {
   const auto options = request.method.to_reference();
   auto served = served_cells(request.choice);
-  const reference::StreamStore store(served.scene.mesh, lists_of(served, options, "clues serve"), served.neighbours,
-                                     request.horizon);
+  const reference::StreamStore store(served.scene.mesh, lists_of(served, options, request.drop, "clues serve"),
+                                     served.neighbours, request.horizon);
   if (!request.socket.empty()) {
     serve_at(request.socket, store, served.header);
     return fine;
@@ -89,6 +90,7 @@ void add_serve_command(CLI::App& program, int& status) {
       ->add_option("--horizon", request->horizon, "Send what is seen from all cells within so many steps (default: 0)")
       ->type_name("N")
       ->check(CLI::Range(0, 1000));
+  command->add_option("--drop", request->drop, drop_help)->type_name("N");
   request->method.add_to(*command);
   command->footer(
       std::string(

@@ -1,6 +1,8 @@
 // clues walk: what a server sends to a viewer on a route through cells (D25), and a client that goes it.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <map>
 #include <memory>
@@ -13,6 +15,7 @@
 #include "app/stream/routes.h"
 #include "app/stream/served_cells.h"
 #include "reference/delta/stream_server.h"
+#include "reference/link/link_simulator.h"
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
 #include "scene/stream/caller.h"
@@ -28,12 +31,38 @@ using scene::ErrorCode;
 struct WalkRequest {
   CellsChoice choice;
   RouteChoice route;
-  std::string connect, out;
+  std::string connect, link, out;
   std::uint64_t routes = 1;
   bool binary = false;
   int horizon = 0;
+  std::size_t drop = 0;
+  double pace = 1, ahead = 0;  // seconds
   MethodOptions method;
 };
+
+// RATE:LATENCY[:LOSSES:OUTAGE]
+reference::Link parse_link(const std::string& text, std::uint64_t seed) {
+  std::vector<std::uint64_t> numbers;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(':', at), text.size());
+    std::uint64_t number = 0;
+    const auto [stop, error] = std::from_chars(text.data() + at, text.data() + end, number);
+    if (error != std::errc() || stop != text.data() + end || number > 1000000000000)
+      throw Error(ErrorCode::bad_argument, "--link " + text + ": give RATE:LATENCY[:LOSSES:OUTAGE], whole numbers");
+    numbers.push_back(number);
+    at = end + 1;
+  }
+  if ((numbers.size() != 2 && numbers.size() != 4) || numbers[0] == 0)
+    throw Error(ErrorCode::bad_argument, "--link " + text + ": give RATE:LATENCY[:LOSSES:OUTAGE], the rate above 0");
+  constexpr std::uint64_t ms = 1000;
+  reference::Link link{numbers[0], ms * numbers[1], 0, 0, seed};
+  if (numbers.size() == 2) return link;
+  if (numbers[2] > 900000)
+    throw Error(ErrorCode::bad_argument, "--link " + text + ": of a million packets at most 900000 are lost");
+  link.losses_per_million = static_cast<std::uint32_t>(numbers[2]);
+  link.outage_us = ms * numbers[3];
+  return link;
+}
 
 struct WalkFigures {
   std::uint64_t entered = 0, packets = 0, sent = 0, taken = 0, bytes = 0;
@@ -98,7 +127,8 @@ class Walk {
   Walk(const WalkRequest& request, const ServedCells& served)
       : request_(request),
         served_(served),
-        lists_(request.connect.empty() ? lists_of(served, request.method.to_reference(), "clues walk") : served.lists),
+        lists_(request.connect.empty() ? lists_of(served, request.method.to_reference(), request.drop, "clues walk")
+                                       : served.lists),
         store_(served.scene.mesh, lists_, served.neighbours, request.horizon) {}
 
   void go(const std::vector<std::uint32_t>& route) {
@@ -111,6 +141,16 @@ class Walk {
       throw Error(ErrorCode::bad_argument, request_.connect + ": serves another scene, or other cells");
     for (const std::uint32_t cell : route) add(cell, client.enter(cell));
     return client.lost();
+  }
+  // The same over a link, in simulated time.
+  reference::LinkReport go_over(const std::vector<std::uint32_t>& route) const {
+    constexpr double second = 1e6;
+    std::vector<reference::TimedStep> steps;
+    for (const std::uint32_t cell : route)
+      steps.push_back(
+          {static_cast<std::uint64_t>(second * request_.pace * static_cast<double>(steps.size() + 1)), cell});
+    return reference::walk_over(store_, steps, parse_link(request_.link, request_.route.seed),
+                                static_cast<std::uint64_t>(second * request_.ahead));
   }
   const WalkFigures& figures() const { return figures_; }
   std::string text() const { return (request_.binary ? to_packet(served_.header) : to_line(served_.header)) + text_; }
@@ -151,6 +191,9 @@ int run_walk(const WalkRequest& request) {
     throw Error(ErrorCode::bad_argument, "give one of --route, --camera and --steps (see `clues walk --help`)");
   if (request.routes != 1 && (!request.route.at_random() || !request.out.empty() || !request.connect.empty()))
     throw Error(ErrorCode::bad_argument, "--routes is for --steps, and for figures alone");
+  if (request.ahead > 0 && request.horizon == 0)
+    throw Error(ErrorCode::bad_argument, "--ahead needs a --horizon of 1 or more: what he still sees would go");
+  if (!request.link.empty()) parse_link(request.link, 1);
   require_writable_parent(request.out);
   require_apart({&request.out}, {&request.choice.scene, &request.route.route, &request.route.camera,
                                  &request.choice.cells, &request.choice.bake});
@@ -177,6 +220,13 @@ int run_walk(const WalkRequest& request) {
                   "{:>13}  {:>8}  {:>14}  {:>10}  {:>9}{}\n",
                   lists_known ? "  whole lists: triangles      bytes" : "", f.entered, f.packets, f.sent, f.taken,
                   f.bytes, lists_known ? fmt::format("  {:>22}  {:>9}", f.whole_lists, f.whole_bytes) : ""));
+  if (!request.link.empty()) {
+    const auto over = walk.go_over(choice.take(served));
+    constexpr double second = 1e6;
+    print(fmt::format("over the link: {} packets, {} bytes, {} losses; {} stalls, {:.3f} s in all, {:.3f} s at most\n",
+                      over.packets, over.bytes, over.losses, over.stalls, static_cast<double>(over.stalled_us) / second,
+                      static_cast<double>(over.longest_us) / second));
+  }
   if (lost > 0) print(fmt::format("the connection was lost {} times, and taken up again\n", lost));
   return fine;
 }
@@ -199,6 +249,20 @@ void add_walk_command(CLI::App& program, int& status) {
       ->check(CLI::Range(0, 1000));
   command->add_option("--connect", request->connect, "Go the route as a client of `clues serve --socket PATH`")
       ->type_name("PATH");
+  auto* link = command
+                   ->add_option("--link", request->link,
+                                "Simulate a link: bytes a second, latency in ms, packets lost of a million with their "
+                                "connection, ms until there is another")
+                   ->type_name("RATE:LATENCY[:LOSSES:OUTAGE]");
+  command->add_option("--pace", request->pace, "Seconds in each cell, for --link (default: 1)")
+      ->type_name("S")
+      ->needs(link)
+      ->check(CLI::Range(0.0, 1e6));
+  command->add_option("--ahead", request->ahead, "Ask for a cell so many seconds before, for --link (default: 0)")
+      ->type_name("S")
+      ->needs(link)
+      ->check(CLI::Range(0.0, 1e6));
+  command->add_option("--drop", request->drop, drop_help)->type_name("N");
   command->add_flag("--binary", request->binary, "Packets in place of lines, in the file and in the figures");
   request->method.add_to(*command);
   command->add_option("-o,--out", request->out, "The messages (docs/delta.md)")->type_name("FILE");
@@ -217,6 +281,8 @@ void add_walk_command(CLI::App& program, int& status) {
       "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --steps 10 -o walk.stream.jsonl\n"
       "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --camera walk:0.5,0.5,1.5:3.5,3.5,1.5 --binary -o "
       "walk.stream\n"
+      "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --steps 10 --horizon 1 --link 100000:50:10000:500 "
+      "--ahead 0.2\n"
       "  clues conform --stream walk.stream.jsonl --scene town.obj --cells grid:2x2x1:box:0,0,1,4,4,2\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input, or no server   4 an oracle contradicted itself");

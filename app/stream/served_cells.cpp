@@ -1,7 +1,10 @@
 #include "app/stream/served_cells.h"
 
+#include <utility>
+
 #include "app/progress.h"
 #include "exact/cell/touching.h"
+#include "reference/delta/worth.h"
 #include "reference/visibility/first_order.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/messages/error.h"
@@ -67,17 +70,21 @@ ServedCells served_cells(const CellsChoice& choice) {
 }
 
 std::vector<std::vector<std::uint32_t>> lists_of(const ServedCells& served, const reference::Options& options,
-                                                 const char* who) {
-  if (!served.lists.empty()) return served.lists;
-  std::vector<std::vector<std::uint32_t>> lists;
-  ProgressBar bar(who);
-  for (const auto& cell : served.cells) {
-    bar.show("cells", lists.size(), served.cells.size());
-    lists.push_back(
-        reference::first_order_visibility(served.scene.mesh, exact::ConvexCell::from_doubles(cell.points), options)
-            .visible);
+                                                 std::size_t drop, const char* who) {
+  std::vector<std::vector<std::uint32_t>> lists = served.lists;
+  if (lists.empty()) {
+    ProgressBar bar(who);
+    for (const auto& cell : served.cells) {
+      bar.show("cells", lists.size(), served.cells.size());
+      lists.push_back(
+          reference::first_order_visibility(served.scene.mesh, exact::ConvexCell::from_doubles(cell.points), options)
+              .visible);
+    }
   }
-  return lists;
+  if (drop == 0) return lists;
+  return reference::without_poor_packets(std::move(lists), served.neighbours,
+                                         [drop](const auto& plus) { return plus.size() <= drop; })
+      .lists;
 }
 
 }  // namespace clues::app

@@ -29,11 +29,15 @@ struct ServedCells {
   std::vector<std::vector<std::uint32_t>> lists;  // of a bake
 };
 
+inline constexpr const char* drop_help =
+    "Send no `+` of so many triangles or fewer: cells before get them, on all routes (default: 0)";
+
 // Throws Error: bad_argument, bad_cell, malformed, and file errors. A scene of --cells is opaque.
 ServedCells served_cells(const CellsChoice& choice);
 
-// The lists of all cells: of the bake, or mapped now. `who`: in front of the progress.
+// The lists of all cells: of the bake, or mapped now; grown until no step sends `drop` triangles or fewer (worth.h).
+// `who`: in front of the progress.
 std::vector<std::vector<std::uint32_t>> lists_of(const ServedCells& served, const reference::Options& options,
-                                                 const char* who);
+                                                 std::size_t drop, const char* who);
 
 }  // namespace clues::app
