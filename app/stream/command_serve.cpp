@@ -64,6 +64,7 @@ int answer_packets(const reference::StreamStore& store, const scene::StreamHeade
 
 int run_serve(const ServeRequest& request) {
   const auto options = request.method.to_reference();
+  require_writable_parent(request.socket);
   auto served = served_cells(request.choice);
   const reference::StreamStore store(served.scene.mesh, lists_of(served, options, request.drop, "clues serve"),
                                      served.neighbours, request.horizon);
