@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -12,9 +13,11 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/progress.h"
+#include "app/whole_level.h"
 #include "reference/visibility/first_order.h"
 #include "scene/messages/error.h"
 #include "scene/messages/shell_word.h"
+#include "scene/scenes/scene_io.h"
 #include "validate/cells/judge_cell.h"
 #include "validate/conform/program_subject.h"
 #include "validate/stream/conform_server.h"
@@ -80,7 +83,7 @@ class MappedTruth {
 // question where it is missing, and then sight lines from the inner cell are looked for.
 class BakedTruth {
  public:
-  explicit BakedTruth(const ServedCells& served) : served_(served) {}
+  BakedTruth(const ServedCells& served, std::string scene) : served_(served), scene_(std::move(scene)) {}
 
   const validate::Judgement& operator()(std::uint32_t c) {
     auto [at, is_new] = known_.try_emplace(c);
@@ -98,6 +101,8 @@ class BakedTruth {
     std::map<std::uint32_t, std::set<std::uint32_t>> missing;
     for (const auto& doubt : verdict.undecided) missing[doubt.cell].insert(doubt.triangle);
     const fastpath::SeeThroughScene scene(served_.scene);
+    std::optional<WholeLevel> level;
+    if (const auto file = scene::read_level(scene_)) level.emplace(*file);
     std::map<std::pair<std::uint32_t, std::uint32_t>, validate::Witness> proofs;
     ProgressBar bar("clues conform");
     std::uint64_t done = 0;
@@ -107,7 +112,9 @@ class BakedTruth {
       for (std::uint32_t t = 0; t < served_.scene.mesh.triangles.size(); ++t) {
         if (!triangles.contains(t)) held.push_back(t);
       }
-      for (const auto& w : validate::judge_cell(scene, served_.inner[c], held).holes) proofs[{c, w.triangle}] = w;
+      for (const auto& w : validate::judge_cell(scene, served_.inner[c], held).holes) {
+        if (!level || level->confirms(served_.inner[c], w)) proofs[{c, w.triangle}] = w;
+      }
     }
     std::vector<validate::StreamDoubt> left;
     for (const auto& doubt : verdict.undecided) {
@@ -131,6 +138,7 @@ class BakedTruth {
   static constexpr std::size_t most_findings = 20;
 
   const ServedCells& served_;
+  std::string scene_;  // its file
   std::map<std::uint32_t, validate::Judgement> known_;
 };
 
@@ -168,7 +176,7 @@ int run_conform_stream(const ConformStreamRequest& request) {
     verdict = validate::judge_stream(mesh, served.neighbours, stream.messages,
                                      [&](std::uint32_t c) -> const validate::Judgement& { return truth(c); });
   } else {
-    BakedTruth truth(served);
+    BakedTruth truth(served, request.choice.scene);
     verdict = validate::judge_stream(mesh, served.neighbours, stream.messages,
                                      [&](std::uint32_t c) -> const validate::Judgement& { return truth(c); });
     truth.settle(verdict);
