@@ -3,14 +3,11 @@
 
 #include <cstdlib>
 #include <filesystem>
-#include <iostream>
 
 #include "exact/cell/touching.h"
 #include "reference/delta/stream_server.h"
 #include "scene/bakes/bake_store.h"
-#include "scene/formats/file_bytes.h"
 #include "scene/scenes/scene_io.h"
-#include "scene/stream/packets.h"
 #include "scene/stream/route.h"
 #include "tests/app/program.h"
 #include "tests/levels/made_level.h"
