@@ -17,7 +17,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/progress.h"
-#include "exact/sight/witness.h"
+#include "app/whole_level.h"
 #include "exact/threads.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/levels/bsp_scene.h"
@@ -92,22 +92,13 @@ void judge(Asked& asked, const scene::FlaggedMesh& mesh, int threads) {
   });
 }
 
-// To leave out what blocks makes more visible: fine for lists, but not for an accusation. So each sight line has to be free of all sides of hulls, too.
 void confirm_in_the_whole_level(Asked& asked, const scene::BspFile& level) {
   if (std::all_of(asked.cells.begin(), asked.cells.end(), [](const auto& c) { return c.judgement.holes.empty(); }))
     return;
-  const auto whole = scene::scene_of_level(level, scene::HullSides::all).scene;
+  const WholeLevel whole(level);
   for (auto& cell : asked.cells) {
-    if (cell.judgement.holes.empty()) continue;
-    const auto points = exact::ConvexCell::from_doubles(cell.points);
     std::erase_if(cell.judgement.holes, [&](const validate::Witness& w) {
-      Ids ids;
-      std::uint32_t place = 0;
-      for (std::uint32_t t = 0; t < whole.mesh.triangles.size(); ++t) {
-        if (t == w.triangle) place = static_cast<std::uint32_t>(ids.size());
-        if (t == w.triangle || whole.blocking(t)) ids.push_back(t);
-      }
-      if (exact::check_witness(scene::part_of(whole.mesh, ids), points, place, w.front, w.v, w.p).valid) return false;
+      if (whole.confirms(cell.points, w)) return false;
       cell.judgement.undecided.push_back(w.triangle);
       return true;
     });

@@ -218,8 +218,8 @@ EXPECTED FAILURES
   A listed case that fails does not count. One that does not fail any more is an error, and so is an id that the suite does not have.
 
 STREAMS
-  --stream-server CMD  A program that answers {"enter": N} with messages; it is asked along a route, and then cut off after each message
-                    and asked to go on.
+  --stream-server CMD  A program that answers requests with messages, in lines or packets; it is asked along a route, and then cut off
+                    after each message and asked to go on.
   --stream FILE     Messages that a server sent to a client while a viewer went from cell to cell (docs/delta.md). At every step, what
                     the client holds has to have all that is visible from where the viewer is; a sight line proves what has not.
 
@@ -281,12 +281,13 @@ void add_conform_command(CLI::App& program, int& status) {
                    "Judge a server of streams: put a route to it, and cut the connection after every message")
       ->type_name("CMD")
       ->excludes(file);
-  command->add_option("--scene", stream->scene, "With a stream: the scene")->type_name("SCENE");
-  command->add_option("--cells", stream->cells, "With a stream: the cells")->type_name("SPEC");
-  command->add_option("--route", stream->route, "With --stream-server: numbers of cells")->type_name("FILE");
-  command->add_option("--steps", stream->steps, "Without --route: so many steps at random (default: 40)")
-      ->type_name("N");
-  command->add_option("--seed", stream->seed, "Of these (default: 1)")->type_name("N");
+  command->add_option("--scene", stream->choice.scene, "With a stream: the scene")->type_name("SCENE");
+  auto* cells = command->add_option("--cells", stream->choice.cells, "With a stream: the cells")->type_name("SPEC");
+  command->add_option("--bake", stream->choice.bake, "With a stream: the cells, and what is hidden, of this bake")
+      ->type_name("FILE")
+      ->excludes(cells);
+  stream->route.steps = 40;
+  stream->route.add_to(*command, "Of --stream-server: so many steps at random (default: 40)");
   command->callback(
       [request, stream, &status] { status = stream->asked() ? run_conform_stream(*stream) : run_conform(*request); });
 }

@@ -1,16 +1,17 @@
 // clues conform --stream: somebody's server and client, judged by the messages between them (D25).
 #pragma once
 
-#include <cstdint>
 #include <string>
+
+#include "app/stream/routes.h"
+#include "app/stream/served_cells.h"
 
 namespace clues::app {
 
 struct ConformStreamRequest {
   std::string stream, server;  // one of them
-  std::string scene, cells;
-  std::string route;  // of the server; empty: `steps` at random
-  std::uint64_t steps = 40, seed = 1;
+  CellsChoice choice;
+  RouteChoice route;  // of the server
 
   bool asked() const { return !stream.empty() || !server.empty(); }
 };

@@ -11,6 +11,7 @@
 #include "app/common.h"
 #include "app/json_output.h"
 #include "app/progress.h"
+#include "app/stream/command_contours.h"
 #include "reference/delta/delta.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
@@ -194,6 +195,7 @@ void add_delta_command(CLI::App& program, int& status) {
     if (command->get_subcommands().empty()) status = run_delta(*request);
   });
   add_delta_check(*command, status);
+  add_delta_contours(*command, status);
 }
 
 }  // namespace clues::app

@@ -1,92 +1,115 @@
-// clues serve: a server of streams (D25) on standard input and output.
+// clues serve: a server of streams (D25), on standard input and output or at a local socket.
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <array>
+#include <cerrno>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "app/progress.h"
-#include "reference/delta/stream_server.h"
-#include "reference/visibility/first_order.h"
-#include "scene/cell_spec.h"
+#include "app/stream/served_cells.h"
+#include "app/stream/socket_server.h"
+#include "reference/delta/stream_session.h"
 #include "scene/messages/error.h"
-#include "scene/result.h"
-#include "scene/scenes/scene_io.h"
-#include "scene/stream/route.h"
 #include "scene/stream/stream_file.h"
 
 namespace clues::app {
 namespace {
 
 struct ServeRequest {
-  std::string scene, cells;
+  CellsChoice choice;
+  std::string socket;
+  bool binary = false;
   int horizon = 0;
+  std::size_t drop = 0;
   MethodOptions method;
 };
 
 void say(const std::string& text) {
-  std::fputs(text.c_str(), stdout);
+  std::fwrite(text.data(), 1, text.size(), stdout);
   std::fflush(stdout);
 }
 
-int run_serve(const ServeRequest& request) {
-  const auto options = request.method.to_reference();
-  const auto mesh = scene::read_plain_scene(request.scene);
-  const auto cells = scene::parse_cells(request.cells);
-  const auto neighbours = scene::neighbours_of(cells);
-  std::vector<std::vector<std::uint32_t>> lists;
-  {
-    ProgressBar bar("clues serve");
-    for (const auto& cell : cells) {
-      bar.show("cells", lists.size(), cells.size());
-      lists.push_back(
-          reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(cell.points), options).visible);
-    }
-  }
-  reference::StreamServer server(mesh, lists, neighbours, request.horizon);
-  say(scene::to_line(
-      scene::StreamHeader{scene::sha256_of_file(request.scene), request.cells, mesh.triangles.size(), cells.size()}));
+void answer_lines(const reference::StreamStore& store, const scene::StreamHeader& header) {
+  reference::StreamServer server(store);
+  say(scene::to_line(header));
   std::string line;
   for (std::uint64_t number = 1; std::getline(std::cin, line); ++number) {
-    const auto asked = scene::parse_stream_request(line, fmt::format("standard input:{}", number), cells.size());
+    const auto asked = scene::parse_stream_request(line, fmt::format("standard input:{}", number), header.cell_count);
     std::string answer;
     for (const auto& message : asked.resumes ? server.resume(asked.route, asked.have) : server.enter(asked.cell))
       answer += scene::to_line(message);
     say(answer + scene::stream_end_line(server.messages()));
   }
+}
+
+// Exit code: what is no request ends it.
+int answer_packets(const reference::StreamStore& store, const scene::StreamHeader& header) {
+  reference::StreamSession session(store, header);
+  say(session.greeting());
+  std::array<char, 65536> buffer;
+  while (!session.is_over()) {
+    const auto got = read(STDIN_FILENO, buffer.data(), buffer.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return fine;
+    session.feed({buffer.data(), static_cast<std::size_t>(got)});
+    for (std::string answer = session.answer_next(); !answer.empty(); answer = session.answer_next()) say(answer);
+  }
+  return bad_usage;
+}
+
+int run_serve(const ServeRequest& request) {
+  const auto options = request.method.to_reference();
+  require_writable_parent(request.socket);
+  auto served = served_cells(request.choice);
+  const reference::StreamStore store(served.scene.mesh, lists_of(served, options, request.drop, "clues serve"),
+                                     served.neighbours, request.horizon);
+  if (!request.socket.empty()) {
+    serve_at(request.socket, store, served.header);
+    return fine;
+  }
+  if (request.binary) return answer_packets(store, served.header);
+  answer_lines(store, served.header);
   return fine;
 }
 
 }  // namespace
 
 void add_serve_command(CLI::App& program, int& status) {
-  auto* command = program.add_subcommand("serve", "Send a client what becomes visible, cell by cell, over a pipe");
+  auto* command = program.add_subcommand("serve", "Send clients what becomes visible, cell by cell");
   auto request = std::make_shared<ServeRequest>();
-  command->add_option("SCENE", request->scene, std::string("The scene: ") + scene::scene_formats)->required();
-  command->add_option("--cells", request->cells, "The cells: grid:NXxNYxNZ:box:x0,y0,z0,x1,y1,z1")
-      ->type_name("SPEC")
-      ->required();
+  request->choice.add_to(*command);
+  auto* socket = command->add_option("--socket", request->socket, "Make a local socket there, for several clients")
+                     ->type_name("PATH");
+  command->add_flag("--binary", request->binary, "On standard input and output: packets in place of lines")
+      ->excludes(socket);
   command
       ->add_option("--horizon", request->horizon, "Send what is seen from all cells within so many steps (default: 0)")
       ->type_name("N")
       ->check(CLI::Range(0, 1000));
+  command->add_option("--drop", request->drop, drop_help)->type_name("N");
   request->method.add_to(*command);
   command->footer(
-      std::string("DESCRIPTION\n"
-                  "  Maps all cells, prints a header, and answers each line of standard input, {\"enter\": N} or "
-                  "{\"resume\": {...}},\n"
-                  "  with the messages of that step (docs/delta.md). `clues conform --stream-server` puts routes to "
-                  "such programs.\n\n") +
+      std::string(
+          "DESCRIPTION\n"
+          "  Prints a header, and answers each request, to enter a cell or to take up a route, with the messages "
+          "of that step\n"
+          "  (docs/delta.md). What is seen from the cell comes first; what is seen from cells within the "
+          "horizon comes\n"
+          "  after the viewer has entered. At a socket (always in packets) it serves until it is interrupted.\n"
+          "  `clues conform --stream-server` puts routes to such programs; `clues walk --connect` is a "
+          "client.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues conform --stream-server 'clues serve town.obj --cells grid:2x2x1:box:0,0,1,4,4,2' --scene town.obj "
-      "--cells grid:2x2x1:box:0,0,1,4,4,2\n\n"
+      "--cells grid:2x2x1:box:0,0,1,4,4,2\n"
+      "  clues serve level.bsp --bake level.bake --horizon 1 --socket level.sock\n\n"
       "EXIT CODES\n"
-      "  0 fine   2 bad usage or input, or a line that is no request   4 an oracle contradicted itself");
+      "  0 fine   2 bad usage or input, or what is no request   4 an oracle contradicted itself");
   command->callback([request, &status] { status = run_serve(*request); });
 }
 

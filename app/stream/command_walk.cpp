@@ -1,21 +1,25 @@
-// clues walk: what a server sends to a viewer on a route through cells (D25).
+// clues walk: what a server sends to a viewer on a route through cells (D25), and a client that goes it.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <map>
 #include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/common.h"
-#include "app/progress.h"
+#include "app/stream/routes.h"
+#include "app/stream/served_cells.h"
 #include "reference/delta/stream_server.h"
-#include "reference/visibility/first_order.h"
-#include "scene/cell_spec.h"
+#include "reference/link/link_simulator.h"
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
-#include "scene/result.h"
-#include "scene/scenes/scene_io.h"
-#include "scene/stream/route.h"
+#include "scene/stream/caller.h"
+#include "scene/stream/local_socket.h"
 #include "scene/stream/stream_file.h"
 
 namespace clues::app {
@@ -25,65 +29,205 @@ using scene::Error;
 using scene::ErrorCode;
 
 struct WalkRequest {
-  std::string scene, cells, route, out;
-  std::uint64_t steps = 0, seed = 1;
+  CellsChoice choice;
+  RouteChoice route;
+  std::string connect, link, out;
+  std::uint64_t routes = 1;
+  bool binary = false;
   int horizon = 0;
+  std::size_t drop = 0;
+  double pace = 1, ahead = 0;  // seconds
   MethodOptions method;
 };
+
+// RATE:LATENCY[:LOSSES:OUTAGE]
+reference::Link parse_link(const std::string& text, std::uint64_t seed) {
+  std::vector<std::uint64_t> numbers;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(':', at), text.size());
+    std::uint64_t number = 0;
+    const auto [stop, error] = std::from_chars(text.data() + at, text.data() + end, number);
+    if (error != std::errc() || stop != text.data() + end || number > 1000000000000)
+      throw Error(ErrorCode::bad_argument, "--link " + text + ": give RATE:LATENCY[:LOSSES:OUTAGE], whole numbers");
+    numbers.push_back(number);
+    at = end + 1;
+  }
+  if ((numbers.size() != 2 && numbers.size() != 4) || numbers[0] == 0)
+    throw Error(ErrorCode::bad_argument, "--link " + text + ": give RATE:LATENCY[:LOSSES:OUTAGE], the rate above 0");
+  constexpr std::uint64_t ms = 1000;
+  reference::Link link{numbers[0], ms * numbers[1], 0, 0, seed};
+  if (numbers.size() == 2) return link;
+  if (numbers[2] > 900000)
+    throw Error(ErrorCode::bad_argument, "--link " + text + ": of a million packets at most 900000 are lost");
+  link.losses_per_million = static_cast<std::uint32_t>(numbers[2]);
+  link.outage_us = ms * numbers[3];
+  return link;
+}
 
 struct WalkFigures {
   std::uint64_t entered = 0, packets = 0, sent = 0, taken = 0, bytes = 0;
   std::uint64_t whole_lists = 0, whole_bytes = 0;  // had each cell's list been sent as a whole
 };
 
+// Goes the route at the other end of a socket. When the connection is lost it waits for another server to come.
+class WalkingClient {
+ public:
+  explicit WalkingClient(std::string path) : path_(std::move(path)) {}
+
+  const scene::StreamHeader& header() {
+    while (!caller_.header()) pump();
+    return *caller_.header();
+  }
+  std::vector<scene::StreamMessage> enter(std::uint32_t cell) {
+    const std::size_t before = caller_.messages().size();
+    to_send_ += caller_.enter(cell);
+    while (caller_.waits()) pump();
+    return {caller_.messages().begin() + static_cast<std::ptrdiff_t>(before), caller_.messages().end()};
+  }
+  std::uint64_t lost() const { return lost_; }
+
+ private:
+  void reconnect() {
+    constexpr std::chrono::milliseconds patience{10000}, pause{50};
+    const auto deadline = std::chrono::steady_clock::now() + (lost_ == 0 && !met_ ? pause : patience);
+    while (true) {
+      socket_ = scene::connect_to(path_);
+      if (socket_.is_open()) break;
+      if (std::chrono::steady_clock::now() >= deadline)
+        throw Error(ErrorCode::bad_argument, path_ + ": no server listens there; start `clues serve --socket`");
+      std::this_thread::sleep_for(pause);
+    }
+    met_ = true;
+    to_send_ = caller_.connect();
+  }
+  void pump() {
+    if (!socket_.is_open()) reconnect();
+    auto io = to_send_.empty() ? scene::SocketIo::ok : scene::send_some(socket_, to_send_);
+    if (io == scene::SocketIo::ok && to_send_.empty()) {
+      std::string bytes;
+      io = scene::receive_some(socket_, bytes);
+      caller_.receive(bytes);
+    }
+    if (io == scene::SocketIo::later) scene::wait_for(socket_, !to_send_.empty(), std::chrono::seconds(1));
+    if (io == scene::SocketIo::lost) {
+      socket_ = {};
+      ++lost_;
+    }
+  }
+
+  std::string path_, to_send_;
+  scene::Descriptor socket_;
+  scene::StreamCaller caller_;
+  std::uint64_t lost_ = 0;
+  bool met_ = false;
+};
+
+class Walk {
+ public:
+  Walk(const WalkRequest& request, const ServedCells& served)
+      : request_(request),
+        served_(served),
+        lists_(request.connect.empty() ? lists_of(served, request.method.to_reference(), request.drop, "clues walk")
+                                       : served.lists),
+        store_(served.scene.mesh, lists_, served.neighbours, request.horizon) {}
+
+  void go(const std::vector<std::uint32_t>& route) {
+    reference::StreamServer server(store_);
+    for (const std::uint32_t cell : route) add(cell, server.enter(cell));
+  }
+  std::uint64_t go_connected(const std::vector<std::uint32_t>& route) {
+    WalkingClient client(request_.connect);
+    if (client.header().scene_sha256 != served_.header.scene_sha256 || client.header().cells != served_.header.cells)
+      throw Error(ErrorCode::bad_argument, request_.connect + ": serves another scene, or other cells");
+    for (const std::uint32_t cell : route) add(cell, client.enter(cell));
+    return client.lost();
+  }
+  // The same over a link, in simulated time.
+  reference::LinkReport go_over(const std::vector<std::uint32_t>& route) const {
+    constexpr double second = 1e6;
+    std::vector<reference::TimedStep> steps;
+    for (const std::uint32_t cell : route)
+      steps.push_back(
+          {static_cast<std::uint64_t>(second * request_.pace * static_cast<double>(steps.size() + 1)), cell});
+    return reference::walk_over(store_, steps, parse_link(request_.link, request_.route.seed),
+                                static_cast<std::uint64_t>(second * request_.ahead));
+  }
+  const WalkFigures& figures() const { return figures_; }
+  std::string text() const { return (request_.binary ? to_packet(served_.header) : to_line(served_.header)) + text_; }
+
+ private:
+  std::string written(const scene::StreamMessage& message) const {
+    return request_.binary ? scene::to_packet(message) : scene::to_line(message);
+  }
+  void add(std::uint32_t cell, const std::vector<scene::StreamMessage>& messages) {
+    ++figures_.entered;
+    for (const auto& message : messages) {
+      const std::string bytes = written(message);
+      ++figures_.packets;
+      figures_.sent += message.plus.size();
+      figures_.taken += message.minus.size();
+      figures_.bytes += bytes.size();
+      if (!request_.out.empty()) text_ += bytes;
+    }
+    if (lists_.empty()) return;  // the server knows them
+    const auto& list = lists_[cell];
+    auto [at, is_new] = whole_.try_emplace(cell, 0);
+    if (is_new) at->second = written(reference::DisplayList(served_.scene.mesh).plus(list)).size();
+    figures_.whole_lists += list.size();
+    figures_.whole_bytes += at->second;
+  }
+
+  const WalkRequest& request_;
+  const ServedCells& served_;
+  std::vector<std::vector<std::uint32_t>> lists_;
+  reference::StreamStore store_;
+  std::map<std::uint32_t, std::uint64_t> whole_;  // bytes of a cell's list
+  WalkFigures figures_;
+  std::string text_;
+};
+
 int run_walk(const WalkRequest& request) {
-  const auto options = request.method.to_reference();
-  if (request.route.empty() == (request.steps == 0))
-    throw Error(ErrorCode::bad_argument, "give one of --route and --steps (see `clues walk --help`)");
+  if (request.route.at_random() == (request.route.steps == 0))
+    throw Error(ErrorCode::bad_argument, "give one of --route, --camera and --steps (see `clues walk --help`)");
+  if (request.routes != 1 && (!request.route.at_random() || !request.out.empty() || !request.connect.empty()))
+    throw Error(ErrorCode::bad_argument, "--routes is for --steps, and for figures alone");
+  if (request.ahead > 0 && request.horizon == 0)
+    throw Error(ErrorCode::bad_argument, "--ahead needs a --horizon of 1 or more: what he still sees would go");
+  if (!request.link.empty()) parse_link(request.link, 1);
   require_writable_parent(request.out);
-  require_apart({&request.out}, {&request.scene, &request.route, &request.cells});
-  const auto mesh = scene::read_plain_scene(request.scene);
-  const auto cells = scene::parse_cells(request.cells);
-  const auto neighbours = scene::neighbours_of(cells);
-  const auto route = request.route.empty() ? scene::random_route(neighbours, request.steps, request.seed)
-                                           : scene::read_route(request.route, cells.size());
-  for (std::size_t i = 1; i < route.size(); ++i) {
-    if (!scene::may_follow(cells[route[i - 1]].points, cells[route[i]].points))
-      throw Error(ErrorCode::bad_argument, fmt::format("{}: step {}: cell {} has no whole face in common with cell {}",
-                                                       request.route, i, route[i], route[i - 1]));
+  require_apart({&request.out}, {&request.choice.scene, &request.route.route, &request.route.camera,
+                                 &request.choice.cells, &request.choice.bake});
+  const ServedCells served = served_cells(request.choice);
+  RouteChoice choice = request.route;
+  auto route = choice.take(served);
+  Walk walk(request, served);
+  std::uint64_t lost = 0;
+  if (!request.connect.empty()) {
+    lost = walk.go_connected(route);
+  } else {
+    walk.go(route);
   }
-  std::vector<std::vector<std::uint32_t>> lists;
-  {
-    ProgressBar bar("clues walk");
-    for (const auto& cell : cells) {
-      bar.show("cells", lists.size(), cells.size());
-      lists.push_back(
-          reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(cell.points), options).visible);
-    }
+  for (std::uint64_t i = 1; i < request.routes; ++i) {
+    ++choice.seed;
+    choice.first = static_cast<std::uint32_t>(i % served.cells.size());
+    walk.go(choice.take(served));
   }
-  reference::StreamServer server(mesh, lists, neighbours, request.horizon);
-  std::string text = scene::to_line(
-      scene::StreamHeader{scene::sha256_of_file(request.scene), request.cells, mesh.triangles.size(), cells.size()});
-  WalkFigures figures;
-  for (const std::uint32_t cell : route) {
-    ++figures.entered;
-    for (const auto& message : server.enter(cell)) {
-      const std::string line = scene::to_line(message);
-      ++figures.packets;
-      figures.sent += message.plus.size();
-      figures.taken += message.minus.size();
-      figures.bytes += line.size();
-      text += line;
-    }
-    figures.whole_lists += lists[cell].size();
-    figures.whole_bytes += scene::to_line(reference::DisplayList(mesh).plus(lists[cell])).size();
-  }
-  if (!request.out.empty()) scene::write_file_atomically(request.out, text);
+  if (!request.out.empty()) scene::write_file_atomically(request.out, walk.text());
+  const WalkFigures& f = walk.figures();
+  const bool lists_known = f.whole_bytes > 0;  // not to a client of somebody else's server
   print(
-      fmt::format("cells entered  messages  triangles sent  taken away      bytes  whole lists: triangles      bytes\n"
-                  "{:>13}  {:>8}  {:>14}  {:>10}  {:>9}  {:>22}  {:>9}\n",
-                  figures.entered, figures.packets, figures.sent, figures.taken, figures.bytes, figures.whole_lists,
-                  figures.whole_bytes));
+      fmt::format("cells entered  messages  triangles sent  taken away      bytes{}\n"
+                  "{:>13}  {:>8}  {:>14}  {:>10}  {:>9}{}\n",
+                  lists_known ? "  whole lists: triangles      bytes" : "", f.entered, f.packets, f.sent, f.taken,
+                  f.bytes, lists_known ? fmt::format("  {:>22}  {:>9}", f.whole_lists, f.whole_bytes) : ""));
+  if (!request.link.empty()) {
+    const auto over = walk.go_over(choice.take(served));
+    constexpr double second = 1e6;
+    print(fmt::format("over the link: {} packets, {} bytes, {} losses; {} stalls, {:.3f} s in all, {:.3f} s at most\n",
+                      over.packets, over.bytes, over.losses, over.stalls, static_cast<double>(over.stalled_us) / second,
+                      static_cast<double>(over.longest_us) / second));
+  }
+  if (lost > 0) print(fmt::format("the connection was lost {} times, and taken up again\n", lost));
   return fine;
 }
 
@@ -92,35 +236,56 @@ int run_walk(const WalkRequest& request) {
 void add_walk_command(CLI::App& program, int& status) {
   auto* command = program.add_subcommand("walk", "What a server sends to a viewer who goes from cell to cell");
   auto request = std::make_shared<WalkRequest>();
-  command->add_option("SCENE", request->scene, std::string("The scene: ") + scene::scene_formats)->required();
-  command->add_option("--cells", request->cells, "The cells: grid:NXxNYxNZ:box:x0,y0,z0,x1,y1,z1")
-      ->type_name("SPEC")
-      ->required();
-  command->add_option("--route", request->route, "Numbers of cells (x fastest), one after the other")
-      ->type_name("FILE");
-  command->add_option("--steps", request->steps, "Without --route: so many steps at random, from cell 0 on")
-      ->type_name("N");
-  command->add_option("--seed", request->seed, "Of the random steps (default: 1)")->type_name("N");
+  request->choice.add_to(*command);
+  request->route.add_to(*command, "So many steps at random, from cell 0 on");
+  command
+      ->add_option("--routes", request->routes,
+                   "Figures of so many random routes, with seeds from --seed on, from each cell in turn")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
   command
       ->add_option("--horizon", request->horizon, "Send what is seen from all cells within so many steps (default: 0)")
       ->type_name("N")
       ->check(CLI::Range(0, 1000));
+  command->add_option("--connect", request->connect, "Go the route as a client of `clues serve --socket PATH`")
+      ->type_name("PATH");
+  auto* link = command
+                   ->add_option("--link", request->link,
+                                "Simulate a link: bytes a second, latency in ms, packets lost of a million with their "
+                                "connection, ms until there is another")
+                   ->type_name("RATE:LATENCY[:LOSSES:OUTAGE]");
+  command->add_option("--pace", request->pace, "Seconds in each cell, for --link (default: 1)")
+      ->type_name("S")
+      ->needs(link)
+      ->check(CLI::Range(0.0, 1e6));
+  command->add_option("--ahead", request->ahead, "Ask for a cell so many seconds before, for --link (default: 0)")
+      ->type_name("S")
+      ->needs(link)
+      ->check(CLI::Range(0.0, 1e6));
+  command->add_option("--drop", request->drop, drop_help)->type_name("N");
+  command->add_flag("--binary", request->binary, "Packets in place of lines, in the file and in the figures");
   request->method.add_to(*command);
-  command->add_option("-o,--out", request->out, "The messages, a line each (docs/delta.md)")->type_name("FILE");
+  command->add_option("-o,--out", request->out, "The messages (docs/delta.md)")->type_name("FILE");
   command->footer(
       std::string(
           "DESCRIPTION\n"
-          "  Maps all cells, and writes down the messages of a server: what becomes visible is sent before the "
-          "viewer enters\n"
-          "  a cell, what is not visible any more is taken away afterwards. `clues conform --stream` judges such "
-          "files,\n"
-          "  whoever made them.\n\n") +
+          "  Writes down the messages of a server: what becomes visible is sent before the viewer enters a cell, what "
+          "is not\n"
+          "  visible any more is taken away afterwards. `clues conform --stream` judges such files, whoever made "
+          "them.\n"
+          "  With --connect, another program is the server. When it is lost, the route is taken up with the next one "
+          "that\n"
+          "  listens there, within ten seconds; nothing is sent twice.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --steps 10 -o walk.stream.jsonl\n"
+      "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --camera walk:0.5,0.5,1.5:3.5,3.5,1.5 --binary -o "
+      "walk.stream\n"
+      "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --steps 10 --horizon 1 --link 100000:50:10000:500 "
+      "--ahead 0.2\n"
       "  clues conform --stream walk.stream.jsonl --scene town.obj --cells grid:2x2x1:box:0,0,1,4,4,2\n\n"
       "EXIT CODES\n"
-      "  0 fine   2 bad usage or input   4 an oracle contradicted itself");
+      "  0 fine   2 bad usage or input, or no server   4 an oracle contradicted itself");
   command->callback([request, &status] { status = run_walk(*request); });
 }
 

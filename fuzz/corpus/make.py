@@ -250,5 +250,30 @@ def report():
     put("report", "of_another_version", '{"format": "clues-judgement/9"}')
 
 
-for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, report, scene_to_verdict):
+def stream():
+    def packet(kind, form, *numbers, tail=b""):
+        body = struct.pack("<B" + form, kind, *numbers) + tail
+        return struct.pack("<I", len(body)) + body
+
+    text = lambda t: struct.pack("<I", len(t)) + t
+    magic = b"CLUESSTR"
+    header = packet(0, "IQQ", 1, 12, 4, tail=text(b"ab" * 32) + text(b"grid:2x2x1:box:0,0,0,1,1,1"))
+    plus = packet(1, "I" + 3 * "I3d" + "I5I", 3, 1, 0, 0, 0, 2, 1, 0, 0, 3, 0, 1, 0.5, 1, 7, 1, 1, 2, 3)
+    minus = packet(3, "II" + "I2I", 1, 7, 2, 1, 2)
+    session = plus + packet(2, "I", 3) + minus
+    put("stream", "session", magic + header + session)
+    put("stream", "header_alone", magic + header)
+    put("stream", "cut_short", (magic + header + session)[:-3])
+    put("stream", "another_version", magic + packet(0, "IQQ", 2, 12, 4, tail=text(b"") + text(b"")))
+    put("stream", "point_at_infinity", magic + header + packet(1, "II3dI", 1, 1, 0, float("inf"), 0, 0))
+    put("stream", "slot_zero", magic + header + packet(1, "II5I", 0, 1, 7, 0, 1, 2, 3))
+    put("stream", "count_of_more_than_there_is", magic + header + packet(1, "I", 0xffffffff))
+    put("stream", "end_in_a_file", magic + header + packet(4, "Q", 0))
+    put("stream", "endless_packet", magic + header + struct.pack("<I", 0xffffffff))
+    put("stream", "requests", packet(16, "I", 0) + packet(16, "I", 11) + packet(17, "QI3I", 5, 3, 0, 1, 2))
+    put("stream", "cell_that_is_none", packet(16, "I", 12))
+    put("stream", "empty_packet", struct.pack("<I", 0))
+
+
+for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, stream, report, scene_to_verdict):
     make()

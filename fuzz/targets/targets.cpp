@@ -24,6 +24,7 @@
 #include "scene/messages/printable.h"
 #include "scene/result.h"
 #include "scene/sealed_result.h"
+#include "scene/stream/packets.h"
 #include "validate/conform/protocol.h"
 #include "validate/vectors/reader.h"
 #include "validate/vectors/writer.h"
@@ -305,6 +306,36 @@ bool bake(std::string_view bytes) {
   });
 }
 
+// What a server of streams sends, or what clients send to one. However the bytes come in, the packets are the same.
+bool stream(std::string_view bytes) {
+  const bool to_client = bytes.starts_with(scene::stream_magic);
+  return accepted([&] {
+    if (to_client) {
+      const auto read = scene::parse_packets(bytes, "stream");
+      std::string again = scene::to_packet(read.header);
+      for (const auto& message : read.messages) again += scene::to_packet(message);
+      require(again == bytes, "a stream has one form");
+      return;
+    }
+    scene::PacketReader whole(scene::most_request_bytes, "client"), bytewise(scene::most_request_bytes, "client");
+    whole.feed(bytes);
+    std::string again;
+    std::size_t fed = 0;
+    while (const auto packet = whole.next()) {
+      const auto request = scene::parse_request(*packet, "client", 12);
+      again += scene::to_packet(request);
+      while (fed < again.size()) {
+        require(!bytewise.next(), "a packet comes when all of it is there");
+        bytewise.feed(bytes.substr(fed++, 1));
+      }
+      const auto same = bytewise.next();
+      require(same && same->kind == packet->kind && same->body == packet->body, "packets come however they are cut");
+    }
+    require(bytes.starts_with(again), "a request has one form");
+    if (again.empty()) throw scene::Error(scene::ErrorCode::malformed, "client: nothing is asked");
+  });
+}
+
 // A file in the folder of `clues report`: whatever it says is text on the page.
 bool report(std::string_view bytes) {
   bool is_result = false;
@@ -347,6 +378,7 @@ const std::vector<Target>& all_targets() {
       {"finding", "the files of a finding, and findings as the store keeps them", finding},
       {"store", "the database of a campaign", store},
       {"bake", "a store of clues bake", bake},
+      {"stream", "streams in binary, and what clients ask", stream},
       {"report", "what clues report finds in a folder", report},
       {"scene_to_verdict", "a small scene, mapped by the reference and judged by oracles of the fuzzer",
        scene_to_verdict}};

@@ -1,5 +1,6 @@
 #include "reference/delta/stream_server.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "reference/delta/delta.h"
@@ -82,14 +83,14 @@ std::string DisplayList::bytes() const {
   return text;
 }
 
-StreamServer::StreamServer(const scene::TriangleMesh& mesh, std::vector<std::vector<std::uint32_t>> lists,
-                           std::vector<std::vector<std::uint32_t>> neighbours, int horizon)
-    : lists_(std::move(lists)), neighbours_(std::move(neighbours)), mesh_(&mesh), horizon_(horizon), mirror_(mesh) {}
+StreamStore::StreamStore(const scene::TriangleMesh& mesh, std::vector<std::vector<std::uint32_t>> lists,
+                         std::vector<std::vector<std::uint32_t>> neighbours, int horizon)
+    : lists_(std::move(lists)), neighbours_(std::move(neighbours)), mesh_(&mesh), horizon_(horizon) {}
 
-std::vector<std::uint32_t> StreamServer::wanted_in(std::uint32_t cell) const {
-  std::set<std::uint32_t> reached{cell}, wanted;
+std::vector<std::uint32_t> StreamStore::wanted_in(std::uint32_t cell) const {
+  std::set<std::uint32_t> reached{cell};
   std::vector<std::uint32_t> rim{cell};
-  for (int step = 0; step < horizon_; ++step) {
+  for (int step = 0; step < horizon_ && !rim.empty(); ++step) {
     std::vector<std::uint32_t> next;
     for (const std::uint32_t c : rim) {
       for (const std::uint32_t n : neighbours_[c]) {
@@ -98,24 +99,30 @@ std::vector<std::uint32_t> StreamServer::wanted_in(std::uint32_t cell) const {
     }
     rim = std::move(next);
   }
-  for (const std::uint32_t c : reached) wanted.insert(lists_[c].begin(), lists_[c].end());
-  return {wanted.begin(), wanted.end()};
+  std::vector<std::uint32_t> wanted;
+  for (const std::uint32_t c : reached) wanted.insert(wanted.end(), lists_[c].begin(), lists_[c].end());
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  return wanted;
 }
 
 std::vector<StreamMessage> StreamServer::enter(std::uint32_t cell) {
-  const DeltaPackets packets = packets_of(mirror_.triangles(), wanted_in(cell));
+  const auto wanted = store_->wanted_in(cell);
+  const DeltaPackets at_once = packets_of(mirror_.triangles(), store_->seen_from(cell));
   std::vector<StreamMessage> messages;
-  if (!packets.plus.empty()) messages.push_back(mirror_.plus(packets.plus));
+  if (!at_once.plus.empty()) messages.push_back(mirror_.plus(at_once.plus));
   StreamMessage entered;
   entered.cell = cell;
   messages.push_back(entered);
-  if (!packets.minus.empty()) messages.push_back(mirror_.minus(packets.minus));
+  const DeltaPackets later = packets_of(mirror_.triangles(), wanted);
+  if (!later.minus.empty()) messages.push_back(mirror_.minus(later.minus));
+  if (!later.plus.empty()) messages.push_back(mirror_.plus(later.plus));
   messages_ += messages.size();
   return messages;
 }
 
 std::vector<StreamMessage> StreamServer::resume(const std::vector<std::uint32_t>& route, std::uint64_t have) {
-  mirror_ = DisplayList(*mesh_);
+  mirror_ = DisplayList(store_->mesh());
   messages_ = 0;
   std::vector<StreamMessage> tail;
   for (const std::uint32_t cell : route) {

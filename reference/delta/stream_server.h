@@ -2,9 +2,11 @@
 // and which vertex is in which slot, and how many triangles use each vertex, so that it can tell what is new and what
 // becomes free. Slots are given out from 1, the lowest free one first; so the mirror follows from the messages alone.
 //
-// Entering a cell takes three messages: `+` what is missing, the cell, `-` what is not wanted any more. So on the face
-// between two cells the client has what either sees. Which triangles it holds is a function of the cell that the viewer
-// is in, whichever way he came: what is sound on every transition is sound on every route.
+// Entering a cell takes up to four messages: `+` what is missing there, the cell, `-` what is not wanted any more, `+`
+// what is seen from cells within the horizon, so that it is there before the viewer is. So on the face between two cells
+// the client has what either sees, and nobody waits for what he does not see yet. Which triangles the client holds in the
+// end is a function of the cell that the viewer is in, whichever way he came: what is sound on every transition is sound
+// on every route.
 #pragma once
 
 #include <cstdint>
@@ -54,12 +56,28 @@ class DisplayList {
   Slots triangle_slots_, vertex_slots_;
 };
 
+// What all clients of a server share.
+class StreamStore {
+ public:
+  // `lists`: what is visible, for each cell; `neighbours`: where a viewer can go from there. With a horizon of n a client
+  // has what is seen from all cells that can be reached in n steps. Keeps a reference to the mesh.
+  StreamStore(const scene::TriangleMesh& mesh, std::vector<std::vector<std::uint32_t>> lists,
+              std::vector<std::vector<std::uint32_t>> neighbours, int horizon);
+
+  const scene::TriangleMesh& mesh() const { return *mesh_; }
+  const std::vector<std::uint32_t>& seen_from(std::uint32_t cell) const { return lists_[cell]; }
+  std::vector<std::uint32_t> wanted_in(std::uint32_t cell) const;  // ascending
+
+ private:
+  std::vector<std::vector<std::uint32_t>> lists_, neighbours_;
+  const scene::TriangleMesh* mesh_;
+  int horizon_;
+};
+
+// One client's session.
 class StreamServer {
  public:
-  // `lists`: what is visible, for each cell; `neighbours`: where a viewer can go from there. With a horizon of n the
-  // client has what is seen from all cells that can be reached in n steps. Keeps a reference to the mesh.
-  StreamServer(const scene::TriangleMesh& mesh, std::vector<std::vector<std::uint32_t>> lists,
-               std::vector<std::vector<std::uint32_t>> neighbours, int horizon);
+  explicit StreamServer(const StreamStore& store) : store_(&store), mirror_(store.mesh()) {}  // keeps a reference
 
   // The messages of a step into the cell. Empty packets are left out.
   std::vector<scene::StreamMessage> enter(std::uint32_t cell);
@@ -73,11 +91,7 @@ class StreamServer {
   const DisplayList& mirror() const { return mirror_; }
 
  private:
-  std::vector<std::uint32_t> wanted_in(std::uint32_t cell) const;  // ascending
-
-  std::vector<std::vector<std::uint32_t>> lists_, neighbours_;
-  const scene::TriangleMesh* mesh_;
-  int horizon_;
+  const StreamStore* store_;
   std::uint64_t messages_ = 0;
   DisplayList mirror_;
 };

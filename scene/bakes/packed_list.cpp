@@ -15,15 +15,19 @@ constexpr int level = 9;  // higher ones save nothing on lists
 
 }  // namespace
 
-std::string packed_list(const std::vector<std::uint32_t>& list, std::uint32_t triangles) {
-  std::string bits((triangles + 7) / 8, '\0');
-  for (const auto t : list) bits[t / 8] = static_cast<char>(static_cast<unsigned char>(bits[t / 8]) | 1U << t % 8);
-  std::string packed(ZSTD_compressBound(bits.size()), '\0');
-  const auto size = ZSTD_compress(packed.data(), packed.size(), bits.data(), bits.size(), level);
+std::string packed_bytes(const std::string& bytes) {
+  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+  const auto size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), level);
   if (ZSTD_isError(size) != 0)
     throw Error(ErrorCode::unsupported, std::string("cannot pack a list: ") + ZSTD_getErrorName(size));
   packed.resize(size);
   return packed;
+}
+
+std::string packed_list(const std::vector<std::uint32_t>& list, std::uint32_t triangles) {
+  std::string bits((triangles + 7) / 8, '\0');
+  for (const auto t : list) bits[t / 8] = static_cast<char>(static_cast<unsigned char>(bits[t / 8]) | 1U << t % 8);
+  return packed_bytes(bits);
 }
 
 std::vector<std::uint32_t> unpacked_list(const std::string& bytes, std::uint32_t triangles, const std::string& where) {

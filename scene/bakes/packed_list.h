@@ -7,6 +7,9 @@
 
 namespace clues::scene {
 
+// Any bytes, packed by zstd.
+std::string packed_bytes(const std::string& bytes);
+
 // `list` ascending, below `triangles`. The same bytes for the same list.
 std::string packed_list(const std::vector<std::uint32_t>& list, std::uint32_t triangles);
 

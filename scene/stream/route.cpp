@@ -55,9 +55,9 @@ std::vector<std::vector<std::uint32_t>> neighbours_of(const std::vector<CellSpec
 }
 
 std::vector<std::uint32_t> random_route(const std::vector<std::vector<std::uint32_t>>& neighbours, std::uint64_t steps,
-                                        std::uint64_t seed) {
+                                        std::uint64_t seed, std::uint32_t first) {
   std::mt19937_64 random(seed);
-  std::vector<std::uint32_t> route{0};
+  std::vector<std::uint32_t> route{first};
   for (std::uint64_t i = 0; i < steps && !neighbours[route.back()].empty(); ++i) {
     const auto& next = neighbours[route.back()];
     route.push_back(next[random() % next.size()]);

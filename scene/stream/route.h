@@ -16,9 +16,9 @@ bool may_follow(const std::vector<Point>& from, const std::vector<Point>& to);
 // For each cell those that may follow, without itself, ascending. Throws Error bad_cell where one is no box. O(n^2).
 std::vector<std::vector<std::uint32_t>> neighbours_of(const std::vector<CellSpec>& cells);
 
-// A route of so many steps, from cell 0 on, to a neighbour at random each time: a pure function of its arguments. It
-// ends early in a cell without neighbours.
+// A route of so many steps, to a neighbour at random each time: a pure function of its arguments. It ends early in a
+// cell without neighbours.
 std::vector<std::uint32_t> random_route(const std::vector<std::vector<std::uint32_t>>& neighbours, std::uint64_t steps,
-                                        std::uint64_t seed);
+                                        std::uint64_t seed, std::uint32_t first = 0);
 
 }  // namespace clues::scene

@@ -10,6 +10,7 @@
 #include "scene/formats/line_reader.h"
 #include "scene/json_reader.h"
 #include "scene/messages/error.h"
+#include "scene/stream/packets.h"
 
 namespace clues::scene {
 namespace {
@@ -167,6 +168,7 @@ std::optional<std::uint64_t> parse_stream_end(std::string_view text) {
 
 Stream read_stream(const std::filesystem::path& path) {
   const std::string bytes = read_file_bytes(path);
+  if (bytes.starts_with(stream_magic)) return parse_packets(bytes, path.string());
   Stream stream;
   std::string_view rest = bytes;
   for (std::uint64_t number = 1; !rest.empty(); ++number) {

@@ -74,7 +74,8 @@ StreamRequest parse_stream_request(std::string_view line, const std::string& whe
 std::string stream_end_line(std::uint64_t messages);
 std::optional<std::uint64_t> parse_stream_end(std::string_view line);
 
-// Throws Error: file errors; malformed, index_out_of_range, non_finite with file and line. Ids and cells are below what the header says.
+// As lines, or in binary (packets.h). Throws Error: file errors; malformed, index_out_of_range, non_finite with file and
+// line. Ids and cells are below what the header says.
 Stream read_stream(const std::filesystem::path& path);
 
 // Numbers of cells with blanks or ends of lines between them, '#' comments. Throws Error as read_stream; index_out_of_range

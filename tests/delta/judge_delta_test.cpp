@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "exact/cell/direction_cone.h"
 #include "fuzz/generators/random_scenes.h"
 #include "reference/delta/delta.h"
+#include "tests/delta/halves.h"
 #include "tests/reference/support.h"
 #include "tests/seed.h"
 #include "validate/stream/judge_delta.h"
@@ -37,24 +37,6 @@ MapFile map_file_of(const reference::VisibilityMap& map) {
     file.regions.push_back(std::move(region));
   }
   return file;
-}
-
-// Both halves of a solid cell, cut at its centre across the x axis: neighbours that share a face. Of a cell without an
-// interior none.
-std::vector<exact::ConvexCell> halves_of(const exact::ConvexCell& cell) {
-  if (cell.dimension() != 3) return {};
-  const exact::Plane3 cut(cell.center(), exact::Vector3(1, 0, 0));
-  std::vector<exact::ConvexCell> out;
-  for (const exact::Plane3& side : {cut, cut.opposite()}) {
-    std::vector<exact::Point3> points;
-    for (const auto& facet : cell.facets()) {
-      std::vector<exact::Point3> polygon;
-      for (const int c : facet.corners) polygon.push_back(cell.vertices()[static_cast<std::size_t>(c)]);
-      for (const auto& p : exact::clipped(polygon, side)) points.push_back(exact::collapsed(p));
-    }
-    out.emplace_back(points);
-  }
-  return out;
 }
 
 struct Sums {

@@ -184,7 +184,11 @@ bool ChildProcess::pump(Clock::time_point deadline, std::size_t most_bytes) {
 }
 
 ChildProcess::Io ChildProcess::write_line(std::string_view line, Clock::time_point deadline) {
-  to_write_.append(line).push_back('\n');
+  return write_bytes(std::string(line) + "\n", deadline);
+}
+
+ChildProcess::Io ChildProcess::write_bytes(std::string_view bytes, Clock::time_point deadline) {
+  to_write_.append(bytes);
   while (!to_write_.empty()) {
     if (in_ < 0) return Io::closed;
     if (Clock::now() >= deadline || !pump(deadline, most_unasked)) return Io::late;
@@ -208,6 +212,16 @@ ChildProcess::Io ChildProcess::read_line(std::string& line, Clock::time_point de
     }
     if (Clock::now() >= deadline || !pump(deadline, most_bytes)) return Io::late;
   }
+}
+
+ChildProcess::Io ChildProcess::read_bytes(std::string& bytes, Clock::time_point deadline) {
+  while (read_.empty()) {
+    if (out_ < 0) return Io::closed;
+    if (Clock::now() >= deadline || !pump(deadline, most_unasked)) return Io::late;
+  }
+  bytes = std::move(read_);
+  read_.clear();
+  return Io::ok;
 }
 
 ChildProcess::End ChildProcess::finish(Clock::time_point deadline) {

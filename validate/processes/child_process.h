@@ -35,11 +35,15 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   // `closed`: it reads no more.
+  Io write_bytes(std::string_view bytes, Clock::time_point deadline);
   Io write_line(std::string_view line, Clock::time_point deadline);
 
   // The next line of its standard output, without the end of the line. `closed`: there is no further one; `line` is what came after the last
   // end of a line. `too_long`: more than `most_bytes`.
   Io read_line(std::string& line, Clock::time_point deadline, std::size_t most_bytes);
+
+  // What it has written, at least a byte. `closed`: there is nothing more.
+  Io read_bytes(std::string& bytes, Clock::time_point deadline);
 
   // Closes its input, waits for its end, and kills it at the deadline; what it started, in any case.
   End finish(Clock::time_point deadline);

@@ -3,54 +3,98 @@
 #include <fmt/format.h>
 
 #include "scene/messages/error.h"
+#include "scene/stream/packets.h"
 #include "validate/processes/child_process.h"
 
 namespace clues::validate {
 namespace {
 
-constexpr std::size_t longest_answer = std::size_t{1} << 28;  // bytes
+constexpr std::size_t longest_line = std::size_t{1} << 28;  // bytes
 
 // What came instead of an answer.
 struct NoAnswer {
   std::string what;
 };
 
+// Speaks lines or packets (packets.h), as the program begins.
 class ServerPipe {
  public:
   ServerPipe(const std::vector<std::string>& command, std::chrono::milliseconds time)
       : program_(command, 0), time_(time) {}
 
-  std::string line(ChildProcess::Clock::time_point deadline) {
-    std::string text;
-    const auto io = program_.read_line(text, deadline, longest_answer);
-    if (io == ChildProcess::Io::ok) return text;
-    throw NoAnswer{io == ChildProcess::Io::late       ? "no answer in time"
-                   : io == ChildProcess::Io::too_long ? "an answer without end"
-                                                      : "the program ended; " + program_.stderr_tail()};
+  scene::StreamHeader header(std::chrono::milliseconds time) {
+    const auto deadline = ChildProcess::Clock::now() + time;
+    read_more(deadline);
+    binary_ = text_.front() == scene::stream_magic.front();
+    if (!binary_) return scene::parse_stream_header(line(deadline), "server");
+    packets_.feed(text_);
+    while (!packets_.take_magic()) packets_.feed(more(deadline));
+    return scene::parse_header(packet(deadline), "server");
   }
 
   // The messages of the answer, and how many there were in the session.
   std::uint64_t ask(const scene::StreamRequest& request, const scene::StreamHeader& header,
                     std::vector<scene::StreamMessage>& out) {
-    std::string text = scene::to_line(request);
-    text.pop_back();
     const auto deadline = ChildProcess::Clock::now() + time_;
-    if (program_.write_line(text, deadline) != ChildProcess::Io::ok)
+    if (program_.write_bytes(binary_ ? to_packet(request) : to_line(request), deadline) != ChildProcess::Io::ok)
       throw NoAnswer{"the program reads no more; " + program_.stderr_tail()};
-    for (std::size_t bytes = 0; bytes <= longest_answer;) {
-      const std::string reply = line(deadline);
-      bytes += reply.size() + 1;
-      if (const auto end = scene::parse_stream_end(reply)) return *end;
-      out.push_back(scene::parse_stream_message(reply, "server", header));
+    while (true) {
+      auto item =
+          binary_ ? scene::parse_server_packet(packet(deadline), "server", header) : of_line(line(deadline), header);
+      if (item.kind == scene::ServerPacket::Kind::end) return item.messages;
+      if (item.kind == scene::ServerPacket::Kind::refusal) throw NoAnswer{"the program refuses: " + item.why};
+      out.push_back(std::move(item.message));
     }
-    throw NoAnswer{"an answer without end"};
   }
 
   void finish() { program_.finish(ChildProcess::Clock::now() + time_); }
 
  private:
+  using Deadline = ChildProcess::Clock::time_point;
+
+  static scene::ServerPacket of_line(const std::string& line, const scene::StreamHeader& header) {
+    scene::ServerPacket item;
+    if (const auto end = scene::parse_stream_end(line)) {
+      item.kind = scene::ServerPacket::Kind::end;
+      item.messages = *end;
+    } else {
+      item.message = scene::parse_stream_message(line, "server", header);
+    }
+    return item;
+  }
+
+  std::string more(Deadline deadline) {
+    std::string bytes;
+    const auto io = program_.read_bytes(bytes, deadline);
+    if (io == ChildProcess::Io::ok) return bytes;
+    throw NoAnswer{io == ChildProcess::Io::late ? "no answer in time" : "the program ended; " + program_.stderr_tail()};
+  }
+  void read_more(Deadline deadline) { text_ += more(deadline); }
+
+  std::string line(Deadline deadline) {
+    for (std::size_t from = 0; text_.find('\n', from) == std::string::npos;) {
+      if (text_.size() > longest_line) throw NoAnswer{"an answer without end"};
+      from = text_.size();
+      read_more(deadline);
+    }
+    const auto end = text_.find('\n');
+    std::string line = text_.substr(0, end);
+    text_.erase(0, end + 1);
+    return line;
+  }
+
+  scene::Packet packet(Deadline deadline) {
+    while (true) {
+      if (auto packet = packets_.next()) return std::move(*packet);
+      packets_.feed(more(deadline));
+    }
+  }
+
   ChildProcess program_;
   std::chrono::milliseconds time_;
+  bool binary_ = false;
+  std::string text_;  // of lines, not taken yet
+  scene::PacketReader packets_{scene::most_packet_bytes, "server"};
 };
 
 // From every message on, the same messages as before.
@@ -73,12 +117,12 @@ void cut_everywhere(ServerPipe& server, const std::vector<std::uint32_t>& route,
 
 }  // namespace
 
-ServerRun run_stream_server(const std::vector<std::string>& command, const std::vector<std::uint32_t>& route, bool cuts,
+ServerRun run_stream_server(const std::vector<std::string>& command, const std::vector<std::uint32_t>& route,
                             std::chrono::milliseconds first, std::chrono::milliseconds time) {
   ServerRun run;
   ServerPipe server(command, time);
   try {
-    run.stream.header = scene::parse_stream_header(server.line(ChildProcess::Clock::now() + first), "server");
+    run.stream.header = server.header(first);
     for (const std::uint32_t cell : route) {
       scene::StreamRequest request;
       request.cell = cell;
@@ -88,7 +132,7 @@ ServerRun run_stream_server(const std::vector<std::string>& command, const std::
                                    run.stream.messages.size())};
       }
     }
-    if (cuts) cut_everywhere(server, route, run);
+    cut_everywhere(server, route, run);
   } catch (const NoAnswer& none) {
     run.failed = none.what;
   } catch (const scene::Error& e) {

@@ -17,10 +17,10 @@ struct ServerRun {
   std::uint64_t resumed = 0;  // cuts after which the rest came as it should
 };
 
-// Starts the program, enters the cells of the route one after the other, and, with `cuts`, asks it to go on after each
-// message of the session: what comes has to be what came before. Throws scene::Error bad_argument where it cannot be
-// started. `time`: for one answer; the first line may take as long as `first`.
-ServerRun run_stream_server(const std::vector<std::string>& command, const std::vector<std::uint32_t>& route, bool cuts,
+// Starts the program, which speaks lines or packets, enters the cells of the route one after the other, and asks it to go
+// on after each message of the session: what comes has to be what came before. Throws scene::Error bad_argument where it
+// cannot be started. `time`: for one answer; the header may take as long as `first`.
+ServerRun run_stream_server(const std::vector<std::string>& command, const std::vector<std::uint32_t>& route,
                             std::chrono::milliseconds first, std::chrono::milliseconds time);
 
 }  // namespace clues::validate

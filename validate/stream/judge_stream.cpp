@@ -6,8 +6,6 @@
 #include <bit>
 #include <set>
 
-#include "scene/stream/route.h"
-
 namespace clues::validate {
 namespace {
 
@@ -22,14 +20,14 @@ bool same_bits(const scene::Point& a, const scene::Point& b) {
 
 class StreamJudge {
  public:
-  StreamJudge(const scene::TriangleMesh& mesh, const std::vector<scene::CellSpec>& cells, const CellTruth& truth,
-              std::size_t most)
-      : cells_(cells), truth_(truth), most_(most), client_(mesh) {}
+  StreamJudge(const scene::TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& neighbours,
+              const CellTruth& truth, std::size_t most)
+      : neighbours_(neighbours), truth_(truth), most_(most), client_(mesh) {}
 
   StreamVerdict run(const std::vector<StreamMessage>& messages) {
     for (const StreamMessage& message : messages) {
       ++number_;
-      for (const std::string& what : client_.apply(message)) add({number_, what, cell_, {}});
+      for (const std::string& what : client_.apply(message)) add({number_, what, {}});
       verdict_.sent += message.plus.size();
       verdict_.taken += message.minus.size();
       verdict_.most_held = std::max<std::uint64_t>(verdict_.most_held, client_.size());
@@ -47,8 +45,8 @@ class StreamJudge {
 
   void enter(std::uint32_t cell) {
     ++verdict_.cells_entered;
-    if (cell_ && !scene::may_follow(cells_[*cell_].points, cells_[cell].points))
-      add({number_, fmt::format("cell {} has no whole face in common with cell {}", cell, *cell_), cell, {}});
+    if (cell_ && *cell_ != cell && !std::binary_search(neighbours_[*cell_].begin(), neighbours_[*cell_].end(), cell))
+      add({number_, fmt::format("cell {} is no neighbour of cell {}", cell, *cell_), {}});
     if (cell_) require_visible(*cell_, "is not there on the face to the next cell");
     cell_ = cell;
     require_visible(cell, "is not there");
@@ -61,10 +59,10 @@ class StreamJudge {
       const bool open = judgement.triangles[t] == TriangleVerdict::missing_undecided;
       if ((!seen && !open) || client_.holds(t)) continue;
       if (open) {
-        ++verdict_.undecided;
+        verdict_.undecided.push_back({number_, cell, t});
         continue;
       }
-      StreamFinding finding{number_, fmt::format("triangle {} is visible from cell {} and {}", t, cell, how), cell, {}};
+      StreamFinding finding{number_, fmt::format("triangle {} is visible from cell {} and {}", t, cell, how), {}};
       const auto at = std::find_if(judgement.witnesses.begin(), judgement.witnesses.end(),
                                    [t](const Witness& w) { return w.triangle == t; });
       if (at != judgement.witnesses.end()) finding.witness = *at;
@@ -72,7 +70,7 @@ class StreamJudge {
     }
   }
 
-  const std::vector<scene::CellSpec>& cells_;
+  const std::vector<std::vector<std::uint32_t>>& neighbours_;
   const CellTruth& truth_;
   std::size_t most_;
   StreamClient client_;
@@ -160,10 +158,10 @@ std::string StreamClient::bytes() const {
   return text;
 }
 
-StreamVerdict judge_stream(const scene::TriangleMesh& mesh, const std::vector<scene::CellSpec>& cells,
+StreamVerdict judge_stream(const scene::TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& neighbours,
                            const std::vector<StreamMessage>& messages, const CellTruth& truth,
                            std::size_t most_findings) {
-  return StreamJudge(mesh, cells, truth, most_findings).run(messages);
+  return StreamJudge(mesh, neighbours, truth, most_findings).run(messages);
 }
 
 }  // namespace clues::validate

@@ -8,7 +8,8 @@
 //   - a slot is given to two triangles, or to none (slot 0); a vertex is sent into a slot that is in use; a slot is
 //     called unused while a triangle uses it, or not called unused though none does;
 //   - a triangle has corners other than the scene's, bit for bit;
-//   - the viewer steps into a cell that neither shares a whole face with his, nor holds it or is held by it.
+//   - the viewer steps into a cell that is no neighbour of his: in a grid, one with a whole face in common, or that holds
+//     it or is held by it; in a bake, one that touches it.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,6 @@
 #include <string>
 #include <vector>
 
-#include "scene/cell_spec.h"
 #include "scene/mesh/mesh.h"
 #include "scene/stream/stream_file.h"
 #include "validate/verdicts/judge.h"
@@ -48,24 +48,29 @@ class StreamClient {
 };
 
 struct StreamFinding {
-  std::uint64_t message = 0;  // from 1; in a file it is on the line after that
-  std::string what;           // one line
-  std::optional<std::uint32_t> cell;
+  std::uint64_t message = 0;       // from 1; in a file it is on the line after that
+  std::string what;                // one line
   std::optional<Witness> witness;  // of a missing triangle
+};
+
+// A triangle that was missing, and of which nothing is proved.
+struct StreamDoubt {
+  std::uint64_t message = 0;
+  std::uint32_t cell = 0, triangle = 0;
 };
 
 struct StreamVerdict {
   std::vector<StreamFinding> findings;  // none: nothing visible was ever missing
   std::uint64_t cells_entered = 0;
-  std::uint64_t undecided = 0;  // times that a triangle was missing of which nothing is proved
+  std::vector<StreamDoubt> undecided;
   std::uint64_t sent = 0, taken = 0, most_held = 0;
 };
 
 // What is visible from a cell: the judgement of an empty list (judge.h).
 using CellTruth = std::function<const Judgement&(std::uint32_t cell)>;
 
-// At most `most_findings`. O(messages + triangles of a cell at each step).
-StreamVerdict judge_stream(const scene::TriangleMesh& mesh, const std::vector<scene::CellSpec>& cells,
+// At most `most_findings`. `neighbours`: of each cell, ascending. O(messages + triangles of a cell at each step).
+StreamVerdict judge_stream(const scene::TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& neighbours,
                            const std::vector<scene::StreamMessage>& messages, const CellTruth& truth,
                            std::size_t most_findings = 20);
 

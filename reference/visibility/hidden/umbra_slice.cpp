@@ -138,7 +138,7 @@ UmbraSlice slice_of(const Umbra& umbra, const Plane3& plane, Approach approach) 
   CGAL::insert(arrangement, curves.begin(), curves.end());
   mark_depths(arrangement);
 
-  UmbraSlice slice{plane, {}, FT(0)};
+  UmbraSlice slice{{}, FT(0)};
   for (auto f = arrangement.faces_begin(); f != arrangement.faces_end(); ++f) {
     if (f->data() != Depth::inside) continue;
     std::vector<Ring2> rings{ring_of(f->outer_ccb())};

@@ -18,8 +18,7 @@ namespace clues::reference {
 enum class Approach : std::uint8_t { before, behind };
 
 struct UmbraSlice {
-  exact::Plane3 plane;
-  // Maximal connected faces, flat: in the two coordinates of PlaneFrame(plane). Outer rings run counter-clockwise about
+  // Maximal connected faces, flat: in the two coordinates of PlaneFrame of the plane. Outer rings run counter-clockwise about
   // the plane's normal, holes clockwise.
   std::vector<std::vector<Ring2>> faces;
   exact::FT twice_area;  // of the flat faces

@@ -17,20 +17,6 @@ using exact::Point3;
 
 namespace {
 
-// Whether p, on no edge, is inside by the even-odd rule. Rings may touch themselves and each other; an edge walked twice counts for nothing.
-bool inside(const std::vector<Ring2>& rings, const Point2& p) {
-  bool odd = false;
-  for (const auto& ring : rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Point2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
-      const bool a_above = a.y() > p.y(), b_above = b.y() > p.y();
-      if (a_above == b_above) continue;
-      odd ^= CGAL::orientation(a, b, p) == (b_above ? CGAL::LEFT_TURN : CGAL::RIGHT_TURN);
-    }
-  }
-  return odd;
-}
-
 // A short rational point inside triangle abc; `which` chooses among several.
 Point2 inner_point(const Point2& a, const Point2& b, const Point2& c, std::size_t which) {
   const Point2 p =
@@ -44,6 +30,19 @@ Point2 inner_point(const Point2& a, const Point2& b, const Point2& c, std::size_
 }
 
 }  // namespace
+
+bool inside(const std::vector<Ring2>& rings, const Point2& p) {
+  bool odd = false;
+  for (const auto& ring : rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Point2 &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      const bool a_above = a.y() > p.y(), b_above = b.y() > p.y();
+      if (a_above == b_above) continue;
+      odd ^= CGAL::orientation(a, b, p) == (b_above ? CGAL::LEFT_TURN : CGAL::RIGHT_TURN);
+    }
+  }
+  return odd;
+}
 
 FT twice_area(const Ring2& ring) {
   FT sum(0);

@@ -23,6 +23,9 @@ Ring2 without_spurs(Ring2 ring);
 // Whether segment pq lies along the outline of the triangle, if it has no point outside.
 bool on_outline(const exact::Kernel::Triangle_2& triangle, const exact::Point2& p, const exact::Point2& q);
 
+// Whether p, on no edge, is inside by the even-odd rule. Rings may touch themselves and each other; an edge walked twice counts for nothing.
+bool inside(const std::vector<Ring2>& rings, const exact::Point2& p);
+
 // A point inside the face: of a triangle of its constrained triangulation, which one depends on `which`.
 exact::Point2 inner_point(const std::vector<Ring2>& rings, std::size_t which);
 

@@ -121,6 +121,38 @@ FlatSet FlatSet::combine(const FlatSet& a, const FlatSet& b, const Keep&) {
   return result;
 }
 
+std::vector<Face2> FlatSet::faces_cut_by(const std::vector<FlatSegment>& segments) const {
+  if (!faces_ || segments.empty()) return faces();
+  Arrangement cuts, cut;
+  std::vector<Curve> curves;
+  for (const FlatSegment& s : segments) curves.emplace_back(s.a, s.b);
+  CGAL::insert(cuts, curves.begin(), curves.end());
+  for (auto f = cuts.faces_begin(); f != cuts.faces_end(); ++f) f->set_data(false);
+  auto keep = [](bool in, bool) { return in; };
+  CGAL::Arr_face_overlay_traits<Arrangement, Arrangement, Arrangement, decltype(keep)> traits;
+  CGAL::overlay(faces_->arrangement, cuts, cut, traits);
+  std::vector<Face2> out;
+  for (auto f = cut.faces_begin(); f != cut.faces_end(); ++f) {
+    if (f->data()) out.push_back(rings_of(f));
+  }
+  return out;
+}
+
+std::vector<FlatSegment> FlatSet::borders_of(const FlatSet& part) const {
+  std::vector<FlatSegment> out;
+  if (!faces_ || !part.faces_) return out;
+  using Labelled = CGAL::Arrangement_2<Traits, CGAL::Arr_face_extended_dcel<Traits, unsigned>>;
+  auto label = [](bool in, bool in_part) { return (in ? 1U : 0U) + (in_part ? 2U : 0U); };
+  CGAL::Arr_face_overlay_traits<Arrangement, Arrangement, Labelled, decltype(label)> traits;
+  Labelled both;
+  CGAL::overlay(faces_->arrangement, part.faces_->arrangement, both, traits);
+  for (auto e = both.edges_begin(); e != both.edges_end(); ++e) {
+    const unsigned one = e->face()->data(), other = e->twin()->face()->data();
+    if ((one & other & 1U) != 0 && one != other) out.push_back({e->source()->point(), e->target()->point()});
+  }
+  return out;
+}
+
 FlatSet unite(const FlatSet& a, const FlatSet& b) {
   if (a.empty() || b.whole()) return b;
   if (b.empty() || a.whole()) return a;

@@ -12,6 +12,10 @@ namespace clues::reference {
 
 using Face2 = std::vector<Ring2>;  // outer boundary, then holes
 
+struct FlatSegment {
+  exact::Point2 a, b;
+};
+
 class FlatSet {
  public:
   // Nothing, in a triangle of this (doubled) area.
@@ -25,6 +29,12 @@ class FlatSet {
 
   // The maximal connected faces. O(size).
   std::vector<Face2> faces() const;
+
+  // The faces that segments, which may cross, cut it into. Those that end inside of a face stay in its rings, walked both
+  // ways. Faces of one arrangement: any of them make a set again. O((n + k) log n).
+  std::vector<Face2> faces_cut_by(const std::vector<FlatSegment>& segments) const;
+  // Where `part` ends inside of this set. O((n + k) log n).
+  std::vector<FlatSegment> borders_of(const FlatSet& part) const;
 
   // Sets of the same triangle. O((n + k) log n) for k crossings of their borders.
   friend FlatSet unite(const FlatSet& a, const FlatSet& b);

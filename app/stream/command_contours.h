@@ -1,0 +1,10 @@
+// clues delta contours: added to `clues delta`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace clues::app {
+
+void add_delta_contours(CLI::App& delta, int& status);
+
+}  // namespace clues::app

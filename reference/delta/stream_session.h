@@ -1,0 +1,32 @@
+// One client of a server of streams in binary (D25): bytes in, bytes out, whatever carries them. A client that says what
+// no client says is told why, and the session is over; others do not notice.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "reference/delta/stream_server.h"
+#include "scene/stream/packets.h"
+
+namespace clues::reference {
+
+class StreamSession {
+ public:
+  StreamSession(const StreamStore& store, const scene::StreamHeader& header)  // keeps references
+      : server_(store), header_(&header) {}
+
+  std::string greeting() const { return scene::to_packet(*header_); }
+  void feed(std::string_view bytes) { reader_.feed(bytes); }
+  // What to send for the next request that is there as a whole; empty: none is. One at a time, so that who asks much and
+  // takes nothing fills no memory but his own.
+  std::string answer_next();
+  bool is_over() const { return over_; }
+
+ private:
+  StreamServer server_;
+  const scene::StreamHeader* header_;
+  scene::PacketReader reader_{scene::most_request_bytes, "client"};
+  bool over_ = false;
+};
+
+}  // namespace clues::reference

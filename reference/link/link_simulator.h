@@ -1,0 +1,39 @@
+// FIG. 50B and the faults of D25: a stream over a link with a bandwidth, a latency and connections that are lost, as it is
+// seen by a viewer who walks: when does what he needs arrive, and how long does he stand on the face to the next cell? He
+// never goes on without it, so there are stalls and no holes. Server and client are the real ones; only the clock is not.
+// All in whole microseconds, and the same for the same seed.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "reference/delta/stream_server.h"
+
+namespace clues::reference {
+
+struct Link {
+  std::uint64_t bytes_per_second = 1000000;  // to the client; requests are short
+  std::uint64_t latency_us = 0;              // one way
+  std::uint32_t losses_per_million = 0;      // packets with which the connection is lost; they do not arrive
+  std::uint64_t outage_us = 0;               // from then until there is another
+  std::uint64_t seed = 1;
+};
+
+// When the viewer gets to a cell if he never has to wait; ascending.
+struct TimedStep {
+  std::uint64_t reached_us = 0;
+  std::uint32_t cell = 0;
+};
+
+struct LinkReport {
+  std::vector<scene::StreamMessage> messages;  // as they arrived
+  std::uint64_t stalls = 0, stalled_us = 0, longest_us = 0;
+  std::uint64_t packets = 0, bytes = 0, losses = 0;  // sent, lost ones included
+};
+
+// He asks for a cell `ahead_us` before he gets there. That is sound where the horizon of the store is 1 or more: what he
+// sees from the cell that he is still in stays then. Between two connections the server forgets everything.
+LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& steps, const Link& link,
+                     std::uint64_t ahead_us);
+
+}  // namespace clues::reference

@@ -1,0 +1,169 @@
+// FIGS. 31, 32, 34, 35: boundaries as the labels of the planes that made them, and the same boundaries again from these.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+#include <tuple>
+
+#include "fuzz/generators/random_scenes.h"
+#include "reference/contours/contour_code.h"
+#include "reference/contours/list_contour.h"
+#include "scene/messages/error.h"
+#include "tests/delta/halves.h"
+#include "tests/reference/support.h"
+#include "tests/seed.h"
+
+namespace clues::test {
+namespace {
+
+using reference::ContourCode;
+using reference::ContourLabel;
+using reference::PlaneTable;
+
+struct CodeSums {
+  std::uint64_t labels = 0, planes = 0, left_out = 0, ends = 0, in_full = 0, bytes = 0;
+};
+
+using SegmentKey = std::tuple<std::size_t, exact::Point2, exact::Point2>;
+std::vector<SegmentKey> keys_of(const ContourLabel& label) {
+  std::vector<SegmentKey> keys;
+  for (const auto& s : label.segments) keys.emplace_back(s.side, std::min(s.at.a, s.at.b), std::max(s.at.a, s.at.b));
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+ContourCode code_of(const scene::TriangleMesh& mesh, const exact::ConvexCell& parent, const exact::ConvexCell& child,
+                    ContourLabel& label, CodeSums& sums) {
+  const auto sides = reference::input_sides(mesh, reference::Mode::sheet);
+  const auto of_parent = map_of(mesh, parent), of_child = map_of(mesh, child);
+  const auto known = reference::visible_on(sides, mesh, of_parent);
+  label = reference::contour_label(sides, mesh, known, reference::visible_on(sides, mesh, of_child));
+  PlaneTable planes(mesh, child);
+  planes.add_wedges(of_child);
+  for (const auto& l : planes.labels()) {
+    // Made again from its numbers it holds what it held.
+    EXPECT_TRUE(
+        std::any_of(of_child.wedges.begin(), of_child.wedges.end(),
+                    [&, h = planes.plane_of(l)](const auto& w) { return h == w.plane || h.opposite() == w.plane; }) ||
+        l.kind == reference::PlaneLabel::Kind::triangle);
+  }
+  auto code = reference::encoded_contours(sides, mesh, known, label, planes);
+  const ContourLabel back = reference::decoded_contours(sides, mesh, known, child, code.bytes);
+  EXPECT_EQ(keys_of(back), keys_of(label));
+  EXPECT_EQ(back.seeds.size(), label.seeds.size());
+  for (std::size_t i = 0; i < std::min(back.seeds.size(), label.seeds.size()); ++i) {
+    EXPECT_EQ(back.seeds[i].side, label.seeds[i].side);
+    EXPECT_EQ(back.seeds[i].at, label.seeds[i].at);
+  }
+  ++sums.labels;
+  sums.planes += planes.labels().size();
+  sums.left_out += planes.left_out();
+  sums.ends += code.ends_by_labels;
+  sums.in_full += code.ends_in_full;
+  sums.bytes += code.bytes.size();
+  return code;
+}
+
+scene::TriangleMesh plates_and_a_box() {
+  SceneBuilder scene;
+  scene.plate(-1, -1, 1, 1, 4);
+  scene.plate(-20, -20, 20, 20, 8);
+  scene.box({5, -1, 1}, {7, 1, 3});
+  return scene.mesh();
+}
+
+TEST(Contours, LabelsMakeTheSegmentsOfScenePAgain) {
+  CodeSums sums;
+  ContourLabel label;
+  const auto mesh = plates_and_a_box();
+  const auto code = code_of(mesh, box_cell(-2, -1, -1, 2, 1, 0), box_cell(-2, -1, -1, 0, 1, 0), label, sums);
+  EXPECT_GT(label.segments.size(), 4U);
+  EXPECT_EQ(code.segments_in_full, 0U);
+  EXPECT_GT(code.ends_by_labels, 2 * code.ends_in_full);
+}
+
+TEST(Contours, BytesThatAreNoneAreRefused) {
+  CodeSums sums;
+  ContourLabel label;
+  const auto mesh = plates_and_a_box();
+  const auto child = box_cell(-2, -1, -1, 0, 1, 0);
+  const auto code = code_of(mesh, box_cell(-2, -1, -1, 2, 1, 0), child, label, sums);
+  const auto sides = reference::input_sides(mesh, reference::Mode::sheet);
+  const auto known = reference::visible_on(sides, mesh, map_of(mesh, box_cell(-2, -1, -1, 2, 1, 0)));
+  for (std::size_t size = 0; size < code.bytes.size(); ++size)
+    EXPECT_THROW(reference::decoded_contours(sides, mesh, known, child, code.bytes.substr(0, size)), scene::Error)
+        << size;
+  EXPECT_THROW(reference::decoded_contours(sides, mesh, known, child, code.bytes + "x"), scene::Error);
+}
+
+void expect_codes_of_random_scenes(std::uint64_t first, std::uint64_t end) {
+  CodeSums sums;
+  for (const fuzz::Kind kind :
+       {fuzz::Kind::axis_boxes, fuzz::Kind::tetrahedra, fuzz::Kind::open_sheets, fuzz::Kind::interpenetrating}) {
+    for (std::uint64_t i = first; i < end; ++i) {
+      const auto scene = fuzz::generate(kind, kSeed, i);
+      SCOPED_TRACE(scene.name);
+      const auto cell = exact::ConvexCell::from_doubles(scene.cell);
+      ContourLabel label;
+      for (const auto& half : halves_of(cell)) code_of(scene.mesh, cell, half, label, sums);
+    }
+  }
+  std::cout << sums.labels << " boundaries, " << sums.planes << " planes and " << sums.left_out << " without a label, "
+            << sums.ends << " ends by labels and " << sums.in_full << " in full, " << sums.bytes << " bytes\n";
+  EXPECT_GT(sums.ends, 5 * sums.in_full);
+  EXPECT_GT(sums.planes, 20 * sums.left_out);  // at edges where surfaces pierce each other, which are not in the file
+}
+
+TEST(Contours, LabelsMakeTheSegmentsOfRandomScenesAgain) { expect_codes_of_random_scenes(0, 2); }
+
+TEST(ContoursLong, LabelsMakeTheSegmentsOfFiftyScenesAgain) {
+  if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
+  expect_codes_of_random_scenes(0, 13);
+}
+
+// Whole triangles, from lists at random in random scenes: each seed and each edge of the boundary left out once.
+TEST(ListContours, FindListsAgainAndLoseWhatTheyShould) {
+  std::mt19937_64 random(kSeed);
+  std::uint64_t more = 0;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const auto mesh = fuzz::generate(i % 2 == 0 ? fuzz::Kind::axis_boxes : fuzz::Kind::open_sheets, kSeed, i).mesh;
+    const reference::EdgeUsers edges(mesh);
+    std::vector<std::uint32_t> known, wanted;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (random() % 8 == 0) continue;
+      known.push_back(t);
+      if (random() % 3 != 0) wanted.push_back(t);
+    }
+    const auto contour = reference::list_contour(edges, known, wanted);
+    EXPECT_EQ(reference::flooded_list(edges, known, contour), wanted);
+    const auto bytes = reference::to_bytes(contour);
+    const auto back = reference::parse_list_contour(bytes, edges);
+    EXPECT_EQ(back.seeds, contour.seeds);
+    EXPECT_EQ(back.boundary, contour.boundary);
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+      EXPECT_THROW(reference::parse_list_contour(bytes.substr(0, size), edges), scene::Error);
+    std::uint64_t lost = 0;
+    for (std::size_t k = 0; k < contour.seeds.size(); ++k) {
+      auto less = contour;
+      less.seeds.erase(less.seeds.begin() + static_cast<std::ptrdiff_t>(k));
+      const auto found = reference::flooded_list(edges, known, less);
+      EXPECT_TRUE(std::includes(wanted.begin(), wanted.end(), found.begin(), found.end()));
+      lost += wanted.size() - found.size();
+    }
+    EXPECT_EQ(lost, wanted.size());  // each triangle with one seed
+    for (std::size_t k = 0; k < contour.boundary.size(); ++k) {
+      auto less = contour;
+      less.boundary.erase(less.boundary.begin() + static_cast<std::ptrdiff_t>(k));
+      const auto found = reference::flooded_list(edges, known, less);
+      EXPECT_TRUE(std::includes(found.begin(), found.end(), wanted.begin(), wanted.end()));
+      EXPECT_GT(found.size(), wanted.size());
+      ++more;
+    }
+  }
+  EXPECT_GT(more, 100U);
+}
+
+}  // namespace
+}  // namespace clues::test

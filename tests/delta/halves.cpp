@@ -1,0 +1,23 @@
+#include "tests/delta/halves.h"
+
+#include "exact/cell/direction_cone.h"
+
+namespace clues::test {
+
+std::vector<exact::ConvexCell> halves_of(const exact::ConvexCell& cell) {
+  if (cell.dimension() != 3) return {};
+  const exact::Plane3 cut(cell.center(), exact::Vector3(1, 0, 0));
+  std::vector<exact::ConvexCell> out;
+  for (const exact::Plane3& side : {cut, cut.opposite()}) {
+    std::vector<exact::Point3> points;
+    for (const auto& facet : cell.facets()) {
+      std::vector<exact::Point3> polygon;
+      for (const int c : facet.corners) polygon.push_back(cell.vertices()[static_cast<std::size_t>(c)]);
+      for (const auto& p : exact::clipped(polygon, side)) points.push_back(exact::collapsed(p));
+    }
+    out.emplace_back(points);
+  }
+  return out;
+}
+
+}  // namespace clues::test

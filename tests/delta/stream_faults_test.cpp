@@ -1,0 +1,273 @@
+// D25 in binary, and what can happen to a connection: cut at every byte, servers and clients that are killed, clients that
+// are slow or talk nonsense. No hole, and nothing twice.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "reference/delta/stream_session.h"
+#include "scene/messages/error.h"
+#include "scene/stream/caller.h"
+#include "scene/stream/local_socket.h"
+#include "scene/stream/route.h"
+#include "tests/app/program.h"
+#include "tests/delta/town.h"
+#include "tests/seed.h"
+#include "validate/processes/child_process.h"
+
+namespace clues::test {
+namespace {
+
+using scene::StreamCaller;
+
+// A connection between a caller and a server: what either says, as long as it holds.
+struct Line {
+  reference::StreamSession session;
+  std::string to_client;
+
+  Line(int horizon, const scene::StreamHeader& header) : session(town().store(horizon), header) {
+    to_client = session.greeting();
+  }
+  void say(const std::string& bytes) {
+    session.feed(bytes);
+    for (std::string answer = session.answer_next(); !answer.empty(); answer = session.answer_next())
+      to_client += answer;
+  }
+};
+
+std::string lines_of(const std::vector<scene::StreamMessage>& messages) {
+  std::string text;
+  for (const auto& m : messages) text += scene::to_line(m);
+  return text;
+}
+
+TEST(StreamPackets, ComeBackAsTheyWereWritten) {
+  const auto messages = town().stream({0, 1, 2, 5, 4, 3}, 1);
+  std::string bytes = scene::to_packet(town().header());
+  for (const auto& m : messages) bytes += scene::to_packet(m);
+  const auto back = scene::parse_packets(bytes, "x");
+  EXPECT_EQ(back.header.cells, "grid");
+  EXPECT_EQ(lines_of(back.messages), lines_of(messages));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    // Behind a whole packet it is a shorter stream; anywhere else it is none.
+    try {
+      const auto part = scene::parse_packets(bytes.substr(0, size), "x");
+      EXPECT_LT(part.messages.size(), messages.size());
+    } catch (const scene::Error& e) {
+      EXPECT_EQ(e.code(), scene::ErrorCode::malformed);
+    }
+  }
+}
+
+// The link is cut after every byte of a session, and a server that knows nothing of it takes over.
+TEST(StreamFaults, ACutAtEveryByteLeavesNoHole) {
+  const auto header = town().header();
+  for (const int horizon : {0, 1}) {
+    const auto route = scene::random_route(town().neighbours(), 6, kSeed);
+    const std::string expected = lines_of(town().stream(route, horizon));
+    std::size_t cuts = 0;
+    for (bool was_cut = true; was_cut; ++cuts) {
+      StreamCaller caller;
+      std::vector<Line> lines;
+      lines.emplace_back(horizon, header);
+      lines.back().say(caller.connect());
+      std::size_t left = cuts;  // bytes that the first connection still carries
+      was_cut = false;
+      const auto carry = [&] {
+        std::string bytes = std::exchange(lines.back().to_client, {});
+        if (was_cut || left >= bytes.size()) {
+          left -= was_cut ? 0 : bytes.size();
+          caller.receive(bytes);
+          return;
+        }
+        caller.receive(std::string_view(bytes).substr(0, left));
+        was_cut = true;
+        lines.emplace_back(horizon, header);
+        lines.back().say(caller.connect());
+        caller.receive(std::exchange(lines.back().to_client, {}));
+      };
+      carry();
+      for (const std::uint32_t cell : route) {
+        lines.back().say(caller.enter(cell));
+        carry();
+        ASSERT_FALSE(caller.waits()) << "cut after " << cuts;
+      }
+      ASSERT_EQ(lines_of(caller.messages()), expected) << "cut after " << cuts;
+    }
+    EXPECT_GT(cuts, 1000U);
+    EXPECT_TRUE(town().judge(town().stream(route, horizon)).findings.empty());
+  }
+}
+
+TEST(StreamFaults, WhoTalksNonsenseIsToldAndIsOut) {
+  const auto header = town().header();
+  for (const std::string& bad : {std::string("nonsense, and more than four bytes of it"), std::string(4, '\0'),
+                                 std::string("\x05\0\0\0\x10\xff\0\0\0", 9), std::string("\x01\0\0\0\x02", 5)}) {
+    reference::StreamSession session(town().store(0), header);
+    session.feed(bad);
+    const std::string said = session.answer_next();
+    EXPECT_TRUE(session.is_over());
+    scene::PacketReader reader(scene::most_packet_bytes, "x");
+    reader.feed(said);
+    const auto packet = reader.next();
+    ASSERT_TRUE(packet);
+    EXPECT_EQ(scene::parse_server_packet(*packet, "x", header).kind, scene::ServerPacket::Kind::refusal);
+    EXPECT_TRUE(session.answer_next().empty());
+  }
+}
+
+TEST(StreamFaults, AServerOfOtherCellsIsNoticed) {
+  StreamCaller caller;
+  caller.receive(scene::to_packet(town().header()));
+  caller.connect();
+  scene::StreamHeader other = town().header();
+  other.cells = "another grid";
+  EXPECT_THROW(caller.receive(scene::to_packet(other)), scene::Error);
+}
+
+// The program at a socket, with clients that the tests are.
+class SocketServer {
+ public:
+  explicit SocketServer(const tests::TestFolder& folder)
+      : path_(folder.path() / "s"),
+        program_({CLUES_PROGRAM, "serve", (folder.path() / "screen.off").string(), "--cells", cells, "--socket",
+                  path_.string()},
+                 0) {
+    std::string line;
+    EXPECT_EQ(program_.read_line(line, soon(), 1000), validate::ChildProcess::Io::ok) << program_.stderr_tail();
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+  static constexpr const char* cells = "grid:2x2x1:box:-0.25,-0.25,-0.25,0.25,0.25,0";
+  static validate::ChildProcess::Clock::time_point soon() {
+    return validate::ChildProcess::Clock::now() + std::chrono::seconds(60);
+  }
+
+ private:
+  std::filesystem::path path_;
+  validate::ChildProcess program_;
+};
+
+class SocketClient {
+ public:
+  explicit SocketClient(const std::filesystem::path& path) { connect(path); }
+  void connect(const std::filesystem::path& path) {
+    socket_ = scene::connect_to(path);
+    ASSERT_TRUE(socket_.is_open());
+    to_send_ = caller.connect();
+    talk();
+  }
+  void enter(std::uint32_t cell) {
+    to_send_ += caller.enter(cell);
+    talk();
+  }
+  void say(std::string bytes) {
+    while (!bytes.empty() && scene::send_some(socket_, bytes) == scene::SocketIo::ok) continue;
+  }
+
+  StreamCaller caller;
+
+ private:
+  void talk() {
+    while (!to_send_.empty() || caller.waits() || !caller.header()) {
+      if (!to_send_.empty()) {
+        ASSERT_NE(scene::send_some(socket_, to_send_), scene::SocketIo::lost);
+        continue;
+      }
+      ASSERT_TRUE(scene::wait_for(socket_, false, std::chrono::seconds(60)));
+      std::string bytes;
+      ASSERT_NE(scene::receive_some(socket_, bytes), scene::SocketIo::lost);
+      caller.receive(bytes);
+    }
+  }
+
+  scene::Descriptor socket_;
+  std::string to_send_;
+};
+
+TEST(StreamFaults, AServerIsKilledAfterEveryStepAndAnotherTakesOver) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  const std::vector<std::uint32_t> route{0, 1, 3, 2, 0, 1};
+  std::string undisturbed;
+  {
+    const SocketServer server(folder);
+    SocketClient client(server.path());
+    for (const auto cell : route) client.enter(cell);
+    undisturbed = lines_of(client.caller.messages());
+  }
+  EXPECT_GT(undisturbed.size(), 100U);
+  std::optional<SocketServer> server(std::in_place, folder);  // replaces the socket of the one that was killed
+  SocketClient client(server->path());
+  for (const auto cell : route) {
+    client.enter(cell);
+    server.reset();
+    server.emplace(folder);
+    client.connect(server->path());
+  }
+  EXPECT_EQ(lines_of(client.caller.messages()), undisturbed);
+}
+
+TEST(StreamFaults, ClientsThatEndOrHangOrTalkNonsenseDisturbNobody) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  const SocketServer server(folder);
+  SocketClient good(server.path()), slow(server.path());
+  std::string much;
+  for (int i = 0; i < 20000; ++i) much += scene::to_packet(scene::StreamRequest{});  // and takes no answer
+  slow.say(much);
+  for (const std::uint32_t cell : {0U, 1U, 3U, 2U}) {
+    {
+      SocketClient ends(server.path());
+      ends.say(scene::to_packet(scene::StreamRequest{}).substr(0, 6));
+      SocketClient talks(server.path());
+      talks.say("what?");
+    }
+    good.enter(cell);
+  }
+  SocketClient also(server.path());
+  for (const std::uint32_t cell : {0U, 1U, 3U, 2U}) also.enter(cell);
+  EXPECT_EQ(lines_of(good.caller.messages()), lines_of(also.caller.messages()));
+}
+
+TEST(StreamFaults, ASocketThatIsInUseOrNoneIsLeftAlone) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  folder.write("file", "mine");
+  const SocketServer server(folder);
+  for (const char* path : {"s", "file", "there/is/no/such/folder"}) {
+    const auto ran =
+        tests::run_clues({"serve", "screen.off", "--cells", SocketServer::cells, "--socket", path}, folder.path());
+    EXPECT_EQ(ran.exit_code, 2) << path << ran.out;
+  }
+  EXPECT_EQ(tests::read_all(folder.path() / "file"), "mine");
+}
+
+TEST(StreamServers, TheProgramIsOneInPacketsAndItsWalkIsAClient) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  const std::string cells = SocketServer::cells;
+  const auto judged =
+      tests::run_clues({"conform", "--stream-server",
+                        std::string(CLUES_PROGRAM) + " serve screen.off --binary --horizon 1 --cells " + cells,
+                        "--scene", "screen.off", "--cells", cells, "--steps", "6"},
+                       folder.path());
+  EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
+  EXPECT_NE(judged.out.find("sound: 7 cells entered"), std::string::npos) << judged.out;
+  const SocketServer server(folder);
+  for (const char* form : {"--binary", "--seed=1"}) {
+    const auto walked = tests::run_clues({"walk", "screen.off", "--cells", cells, "--camera",
+                                          "walk:-0.2,-0.2,-0.1:0.2,0.2,-0.1", "--connect", "s", "-o", "walk", form},
+                                         folder.path());
+    EXPECT_EQ(walked.exit_code, 0) << walked.out << walked.err;
+    const auto sound =
+        tests::run_clues({"conform", "--stream", "walk", "--scene", "screen.off", "--cells", cells}, folder.path());
+    EXPECT_EQ(sound.exit_code, 0) << sound.out << sound.err;
+    EXPECT_NE(sound.out.find("sound: 3 cells entered"), std::string::npos) << sound.out;
+  }
+}
+
+}  // namespace
+}  // namespace clues::test
