@@ -56,6 +56,7 @@ Ids without(const Ids& list, const Ids& other) {
 
 void write_deltas(const Database& db, const std::vector<BakePlace>& cells, std::uint32_t triangles) {
   db.run(
+      "DROP TABLE IF EXISTS deltas;"  // of a store that somebody made unfinished again
       "CREATE TABLE deltas (cell INTEGER NOT NULL, neighbour INTEGER NOT NULL, appears BLOB NOT NULL,"
       " disappears BLOB NOT NULL, PRIMARY KEY (cell, neighbour)) WITHOUT ROWID;");
   std::vector<Bounds> boxes;
@@ -78,17 +79,25 @@ void write_deltas(const Database& db, const std::vector<BakePlace>& cells, std::
 }
 
 BakeDeltas::BakeDeltas(const std::filesystem::path& file)
-    : db_(file, Database::Access::read, "the bake", "name a bake"), triangles_(FinishedBake(file).plan().triangles) {
+    : db_(file, Database::Access::read, "the bake", "name a bake") {
+  const FinishedBake bake(file);
+  triangles_ = bake.plan().triangles;
+  cells_ = bake.plan().cells.size();
   if (!Statement(db_, "SELECT 1 FROM sqlite_master WHERE name = 'deltas'").next())
     throw Error(ErrorCode::malformed, db_.file() + ": has no deltas; bake it anew");
 }
 
 Ids BakeDeltas::neighbours_of(std::uint32_t cell) const {
   Ids ids;
-  Statement row(
-      db_,
-      "SELECT neighbour FROM deltas WHERE cell = ?1 UNION SELECT cell FROM deltas WHERE neighbour = ?1 ORDER BY 1");
-  for (row.with(static_cast<std::int64_t>(cell)); row.next();) ids.push_back(static_cast<std::uint32_t>(row.number(0)));
+  Statement row(db_,
+                "SELECT neighbour FROM deltas WHERE cell = ?1 UNION SELECT cell FROM deltas WHERE neighbour = ?1"
+                " ORDER BY 1");
+  for (row.with(static_cast<std::int64_t>(cell)); row.next();) {
+    if (row.number(0) < 0 || row.number(0) >= static_cast<std::int64_t>(cells_))
+      throw Error(ErrorCode::malformed,
+                  fmt::format("{}: cell {} has a neighbour that is none; the store was damaged", db_.file(), cell));
+    ids.push_back(static_cast<std::uint32_t>(row.number(0)));
+  }
   return ids;
 }
 

@@ -25,13 +25,14 @@ class BakeDeltas {
   // Throws Error as FinishedBake; malformed where the store has no deltas.
   explicit BakeDeltas(const std::filesystem::path& file);
 
-  std::vector<std::uint32_t> neighbours_of(std::uint32_t cell) const;  // ascending
+  std::vector<std::uint32_t> neighbours_of(std::uint32_t cell) const;  // ascending; throws Error malformed
   // None: they are no neighbours. Throws Error malformed.
   std::optional<BakeDelta> between(std::uint32_t from, std::uint32_t to) const;
 
  private:
   Database db_;
   std::uint32_t triangles_ = 0;
+  std::size_t cells_ = 0;
 };
 
 }  // namespace clues::scene

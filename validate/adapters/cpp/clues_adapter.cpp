@@ -26,7 +26,8 @@ struct Case {
   std::vector<Point> vertices;
   std::vector<Triangle> triangles;  // vertex numbers
   std::vector<Point> cell;          // the view cell is the convex hull of these points
-  std::vector<std::uint32_t> see_through, not_counted;  // triangles that sight lines pass; that block and are not asked about
+  std::vector<std::uint32_t> see_through,
+      not_counted;     // triangles that sight lines pass; that block and are not asked about
   bool solid = false;  // closed meshes, only front sides can be seen; else both sides of every triangle can
 };
 
@@ -41,18 +42,20 @@ struct Skip : std::runtime_error {
 std::vector<std::uint32_t> potentially_visible_set(const Case& input) {
   std::vector<std::uint32_t> visible;
   for (std::uint32_t t = 0; t < input.triangles.size(); ++t) {
-    if (std::find(input.not_counted.begin(), input.not_counted.end(), t) == input.not_counted.end()) visible.push_back(t);
+    if (std::find(input.not_counted.begin(), input.not_counted.end(), t) == input.not_counted.end())
+      visible.push_back(t);
   }
   return visible;
 }
 // ------------------------------------------------------------------------------------------------------------------------
 
 Json start_reply() {
-  return {{"protocol", 1},
-          {"implementation", {{"name", "my implementation"}, {"version", "0.1"}, {"language", "C++"}}},
-          // input: "float32" if coordinates are stored in single precision: then only such scenes are sent.
-          // see_through: true if it knows triangles that do not block or do not count; without it such scenes are not sent.
-          {"capabilities", {{"modes", {"sheet", "solid"}}, {"input", "float64"}, {"see_through", true}}}};
+  return {
+      {"protocol", 1},
+      {"implementation", {{"name", "my implementation"}, {"version", "0.1"}, {"language", "C++"}}},
+      // input: "float32" if coordinates are stored in single precision: then only such scenes are sent.
+      // see_through: true if it knows triangles that do not block or do not count; without it such scenes are not sent.
+      {"capabilities", {{"modes", {"sheet", "solid"}}, {"input", "float64"}, {"see_through", true}}}};
 }
 
 Json run_reply(const Json& request) {
