@@ -10,6 +10,7 @@
 #include "app/json_output.h"
 #include "app/progress.h"
 #include "scene/cell_spec.h"
+#include "scene/levels/bsp_scene.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
 #include "scene/scenes/scene_io.h"
@@ -45,6 +46,30 @@ void judge_plain(validate::Judgement& judgement, validate::Surroundings& around,
   around.first_order_fractions = validate::first_order_fractions(mesh, map);
 }
 
+struct SceneAndList {
+  scene::FlaggedMesh scene;
+  std::vector<std::uint32_t> pvs;  // ascending
+};
+
+// A level is judged with all sides of its hulls, since to leave out what blocks would accuse lists of what only cracks show. The lists of `clues map` are of the
+// scene without the covered sides; drawn triangles have the same ids in both, and no others count.
+SceneAndList read_what_is_judged(const CheckRequest& request, const std::vector<scene::Point>& cell) {
+  const auto list_for = [&](const scene::FlaggedMesh& scene) {
+    return scene::read_pvs(
+        request.pvs, {scene.mesh.triangles.size(), scene::sha256_of_file(request.scene), request.method.mode, cell});
+  };
+  const auto level = scene::read_level(request.scene);
+  if (!level) {
+    auto scene = scene::read_scene(request.scene);
+    auto pvs = list_for(scene);
+    return {std::move(scene), std::move(pvs)};
+  }
+  const auto mapped = scene::scene_of_level(*level).scene;
+  auto pvs = list_for(mapped);
+  std::erase_if(pvs, [&](std::uint32_t t) { return !mapped.counting(t); });
+  return {scene::scene_of_level(*level, scene::HullSides::all).scene, std::move(pvs)};
+}
+
 int run_check(const CheckRequest& request) {
   if (request.all_cells) {
     if (!request.cell.empty() || !request.pvs.empty())
@@ -62,16 +87,14 @@ int run_check(const CheckRequest& request) {
   auto options = request.method.to_reference();
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.pvs});
-  const auto scene = scene::read_scene(request.scene);
+  const auto spec = scene::parse_cell(request.cell);
+  const auto [scene, pvs] = read_what_is_judged(request, spec.points);
   const auto& mesh = scene.mesh;
   if (!scene.is_plain() && request.method.mode == "solid") {
     throw scene::Error(scene::ErrorCode::unsupported,
                        request.scene + ": some triangles do not block or do not count; leave out --mode solid");
   }
-  const auto spec = scene::parse_cell(request.cell);
   const auto cell = exact::ConvexCell::from_doubles(spec.points);
-  const auto pvs = scene::read_pvs(
-      request.pvs, {mesh.triangles.size(), scene::sha256_of_file(request.scene), request.method.mode, spec.points});
 
   validate::Judgement judgement;
   validate::Surroundings around{request.scene, spec.points, {}, {}, {}};
@@ -135,7 +158,9 @@ void add_check_command(CLI::App& program, int& status) {
           "  Qo and Qu are the over- and underestimate of Bittner et al. (2005): triangles (or area) listed and "
           "hidden, and\n"
           "  visible and missing, over visible ones; from the lowest to the highest value that the undecided "
-          "allow.\n\n"
+          "allow.\n"
+          "  A level is judged with all sides of its hulls (docs/real-levels.md), whatever scene the list was made "
+          "in.\n\n"
           "ALL CELLS\n"
           "  The fast kernel says what may be seen from each cell; what is missing of that is looked for by sight "
           "lines that "

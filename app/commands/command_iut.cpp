@@ -11,10 +11,12 @@
 #include "exact/cell/convex_cell.h"
 #include "exact/threads.h"
 #include "fastpath/visibility/first_order.h"
+#include "fastpath/visibility/see_through.h"
 #include "reference/visibility/first_order.h"
 #include "scene/messages/error.h"
 #include "validate/conform/library_host.h"
 #include "validate/conform/server.h"
+#include "validate/see_through/layers.h"
 
 namespace clues::app {
 namespace {
@@ -24,12 +26,22 @@ struct IutRequest {
 };
 
 // One thread: `clues conform --jobs` starts as many of us as it likes.
+// Solid mode is of closed meshes, all of which block (D4).
+scene::FlaggedMesh flagged(const validate::Request& request) {
+  if (request.mode == validate::CaseMode::solid)
+    throw scene::Error(scene::ErrorCode::unsupported, "some triangles do not block or do not count; use mode sheet");
+  return {request.mesh, request.blocks, request.counts, {}};
+}
+
 std::vector<std::uint32_t> exact_pvs(const validate::Request& request) {
   reference::Options options;
   options.threads = 1;
   options.mode = request.mode == validate::CaseMode::solid ? reference::Mode::solid : reference::Mode::sheet;
-  return reference::first_order_visibility(request.mesh, exact::ConvexCell::from_doubles(request.cell), options)
-      .visible;
+  const auto cell = exact::ConvexCell::from_doubles(request.cell);
+  const auto list = [&](const scene::TriangleMesh& mesh) {
+    return reference::first_order_visibility(mesh, cell, options).visible;
+  };
+  return request.is_plain() ? list(request.mesh) : validate::visible_in_layers(flagged(request), list);
 }
 
 std::vector<std::uint32_t> fast_pvs(const validate::Request& request) {
@@ -37,6 +49,11 @@ std::vector<std::uint32_t> fast_pvs(const validate::Request& request) {
   if (request.mode == validate::CaseMode::solid) {
     fastpath::require_solid(request.mesh);
     options.mode = fastpath::SideMode::solid;
+  }
+  if (!request.is_plain()) {
+    const fastpath::SeeThroughScene scene(flagged(request));
+    return exact::by_threads(
+        1, [&] { return fastpath::visible_through(scene, request.cell, options).counting(scene.scene()); });
   }
   return exact::by_threads(
       1, [&] { return fastpath::first_order_visibility(fastpath::Bvh(request.mesh), request.cell, options).visible; });
@@ -50,6 +67,7 @@ void serve_kernel(const std::string& kernel) {
   about.name = kernel == "fast" ? "clues fast path" : "clues first-order reference";
   about.version = CLUES_VERSION;
   about.language = "C++";
+  about.see_through = true;
   validate::serve(std::cin, stdout, about, [&](const validate::Request& request) {
     validate::Answer answer;
     answer.visible = kernel == "fast" ? fast_pvs(request) : exact_pvs(request);

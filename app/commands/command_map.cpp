@@ -21,6 +21,7 @@
 #include "exact/threads.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
+#include "scene/levels/bsp_scene.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
 #include "scene/scenes/scene_io.h"
@@ -189,7 +190,14 @@ int run_map(MapRequest request) {
   require_apart({&request.out, &request.json.file(), &request.umbra.file, &request.fragments, &request.overlap_graph},
                 {&request.scene, &request.cell, &request.cells});
   const std::string sha256 = scene::sha256_of_file(request.scene);
-  const auto scene = scene::read_scene(request.scene);
+  scene::FlaggedMesh scene;
+  if (const auto level = scene::read_level(request.scene)) {
+    auto of_level = scene::scene_of_level(*level);
+    request.covered_sides = of_level.covered_sides;
+    scene = std::move(of_level.scene);
+  } else {
+    scene = scene::read_scene(request.scene);
+  }
   if (scene::sha256_of_file(request.scene) != sha256)
     throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
   const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
@@ -285,10 +293,8 @@ void add_map_command(CLI::App& program, int& status) {
       "  In glTF files and levels some triangles do not block (alphaMode BLEND and MASK, curves), and some do not "
       "count "
       "(walls\n"
-      "  behind what is drawn). They are listed as they are seen through one another; of such scenes lists are made "
-      "and "
-      "no maps\n"
-      "  (docs/real-levels.md).\n\n"
+      "  behind what is drawn). They are listed as they are seen through one another; --map has the regions of all\n"
+      "  that count, --umbra the umbra of what blocks (docs/real-levels.md).\n\n"
       "EXAMPLES\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --map -o town.clues.json\n"

@@ -13,6 +13,7 @@
 #include "app/json_output.h"
 #include "app/progress.h"
 #include "scene/cell_spec.h"
+#include "scene/messages/error.h"
 #include "scene/scenes/scene_io.h"
 #include "validate/certificates/point_query.h"
 #include "validate/certificates/points_file.h"
@@ -35,6 +36,14 @@ struct Asked {
   validate::PointReport report;
   std::vector<validate::SegmentPart> parts;  // of a segment; then there is no report
 };
+
+// D22: the engines know what blocks only; its numbers there and in the scene.
+void name_as_in_scene(validate::PointReport& report, const std::vector<std::uint32_t>& ids) {
+  for (validate::PointAnswer& a : report.answers) {
+    if (a.triangle) a.triangle = ids[*a.triangle];
+    for (std::uint32_t& t : a.covered_by) t = ids[t];
+  }
+}
 
 void move_back(Asked& q, const exact::StandardRange& range) {
   for (validate::PointAnswer& a : q.report.answers) {
@@ -163,7 +172,12 @@ int run_query(const QueryRequest& request) {
   auto options = request.method.to_reference();
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.points});
-  const auto mesh = scene::read_plain_scene(request.scene);
+  const auto scene = scene::read_scene(request.scene);
+  if (!scene.is_plain() && request.method.mode == "solid")
+    throw scene::Error(scene::ErrorCode::unsupported,
+                       request.scene + ": some triangles do not block or do not count; leave out --mode solid");
+  const auto blocking = scene::blocking_ids(scene);
+  const auto mesh = scene::part_of(scene.mesh, blocking);
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
   const auto points = validate::read_points(request.points);
   std::vector<Asked> all;
@@ -190,6 +204,7 @@ int run_query(const QueryRequest& request) {
         all.push_back({points[i], query.ask(from[i]), {}});
       }
       move_back(all.back(), range);
+      name_as_in_scene(all.back().report, blocking);
       bar.show("points", all.size(), points.size());
     }
   }
@@ -229,6 +244,9 @@ void add_query_command(CLI::App& program, int& status) {
           "  A point in free space has one answer, a point of a surface one for each side; a point of an edge or a "
           "vertex has\n"
           "  the answers of all triangles there. A point of the cell is visible.\n"
+          "  What does not block (glass, curves: docs/real-levels.md) is air: its points are points of space, and "
+          "nothing is\n"
+          "  hidden behind it.\n"
           "  A segment is cut into parts (from 0 at its first end to 1): visible at a point that is named, hidden as a "
           "whole, or\n"
           "  undecided: visible to the first-order method, but no free sight line was found.\n\n") +

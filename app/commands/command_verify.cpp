@@ -11,6 +11,7 @@
 #include "app/common.h"
 #include "exact/complex/complex.h"
 #include "scene/cell_spec.h"
+#include "scene/messages/error.h"
 #include "scene/scenes/scene_io.h"
 #include "validate/certificates/umbra_certificate.h"
 #include "validate/certificates/umbra_file.h"
@@ -24,24 +25,31 @@ struct VerifyRequest {
 };
 
 int run_verify(const VerifyRequest& request) {
-  const auto mesh = scene::read_plain_scene(request.scene);
+  const auto scene = scene::read_scene(request.scene);
+  const auto& mesh = scene.mesh;
+  if (request.solid && !scene.is_plain())
+    throw scene::Error(scene::ErrorCode::unsupported,
+                       request.scene + ": some triangles do not block or do not count; leave out --solid");
   const auto cell = exact::ConvexCell::from_doubles(scene::parse_cell(request.cell).points);
   if (request.solid) exact::require_solid(exact::build_complex(mesh, &cell));  // D4
   const auto facets = validate::read_umbra(request.umbra, mesh.triangles.size()).facets;
-  const auto verdict = validate::check_umbra_certificate(mesh, cell, facets);
+  const auto verdict = validate::check_umbra_certificate(scene, cell, facets);
   if (!verdict.valid) {
     std::fputs(fmt::format("not an umbra: {}\n", verdict.reason).c_str(), stdout);
     return findings;
   }
   std::vector<std::uint32_t> hidden;
+  std::size_t asked = 0;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!scene.counting(t)) continue;
+    ++asked;
     if (validate::proves_hidden(mesh, cell, facets, t, true) &&
         (request.solid || validate::proves_hidden(mesh, cell, facets, t, false)))
       hidden.push_back(t);
   }
   std::string text = fmt::format("umbra: {} facets, volume {:.6g}: nothing in it can be seen from the cell\n",
                                  facets.size(), validate::enclosed_volume(facets).get_d());
-  text += fmt::format("hidden triangles: {} of {}\n", hidden.size(), mesh.triangles.size());
+  text += fmt::format("hidden triangles: {} of {}\n", hidden.size(), asked);
   if (request.list) {
     for (const auto t : hidden) text += fmt::format("{}\n", t);
   }
@@ -71,7 +79,7 @@ void add_verify_command(CLI::App& program, int& status) {
                   "scene, or has the\n"
                   "  cell on the inner side of its plane; together they are closed; the cell is outside. Then says how "
                   "many triangles\n"
-                  "  of the scene this proves hidden.\n\n") +
+                  "  of the scene this proves hidden. A surface has to be one that blocks (docs/real-levels.md).\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues map town.obj --cell box:0,0,1,2,2,2 --umbra town.umbra.json\n"

@@ -27,6 +27,7 @@ struct MapRequest {
   validate::Refinement refinement = validate::Refinement::none;  // as --method and --refine together say
   SimplifyChoice simplify;
   UmbraRequest umbra;
+  std::optional<std::uint32_t> covered_sides;  // of a level: how many sides of hulls its scene leaves out
 };
 
 struct MappedCell {
@@ -62,7 +63,7 @@ std::unique_ptr<CellMapper> exact_mapper(const scene::TriangleMesh& mesh, const 
                                          const MapRequest& request);
 std::unique_ptr<CellMapper> fast_mapper(const scene::TriangleMesh& mesh, const std::string& sha256,
                                         const MapRequest& request);
-// For a scene that is not plain (D22), by either kernel: lists only.
+// For a scene that is not plain (D22): lists by either kernel, maps and umbrae by the exact one.
 std::unique_ptr<CellMapper> see_through_mapper(const scene::FlaggedMesh& scene, const std::string& sha256,
                                                const MapRequest& request);
 

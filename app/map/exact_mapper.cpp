@@ -42,7 +42,8 @@ class ExactMapper : public CellMapper {
     if (request_.umbra.file.empty()) return simplified(std::move(omega).take_map(), spec, threads);
     if (progress) progress("umbra", 0, 1);
     MappedCell out = mapped(omega.map(), spec);
-    UmbraOutput umbra = make_umbra(omega, mesh_, spec, request_.scene, sha256_, request_.umbra, threads);
+    UmbraOutput umbra = make_umbra(omega, scene::FlaggedMesh{mesh_, {}, {}, {}}, spec, request_.scene, sha256_,
+                                   request_.umbra, threads);
     out.umbra_bytes = std::move(umbra.bytes);
     out.umbra_summary = std::move(umbra.summary);
     return out;

@@ -84,13 +84,18 @@ reference::Umbra checked_umbra(const reference::Omega& omega, const scene::Trian
   throw Error(ErrorCode::internal, "the umbra's certificate fails: " + verdict.reason);
 }
 
-UmbraOutput make_umbra(const reference::Omega& omega, const scene::TriangleMesh& mesh, const scene::CellSpec& cell,
+UmbraOutput make_umbra(const reference::Omega& omega, const scene::FlaggedMesh& scene, const scene::CellSpec& cell,
                        const std::string& scene_path, const std::string& scene_sha256, const UmbraRequest& request,
                        int threads) {
-  validate::UmbraRecord record = validate::record_of(checked_umbra(omega, mesh, request.bounds, threads));
+  const auto blocking = scene::blocking_ids(scene);
+  validate::UmbraRecord record =
+      validate::record_of(checked_umbra(omega, scene::part_of(scene.mesh, blocking), request.bounds, threads));
+  for (auto& facet : record.facets) {
+    if (facet.triangle) facet.triangle = blocking[*facet.triangle];
+  }
   record.scene_file = fs::path(scene_path).filename().string();
   record.scene_sha256 = scene_sha256;
-  record.scene_triangles = mesh.triangles.size();
+  record.scene_triangles = scene.mesh.triangles.size();
   record.cell = cell.points;
   UmbraOutput out;
   const auto extension = fs::path(request.file).extension();

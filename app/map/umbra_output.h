@@ -7,7 +7,7 @@
 #include "reference/visibility/hidden/umbra.h"
 #include "reference/visibility/map/omega.h"
 #include "scene/cell_spec.h"
-#include "scene/mesh/mesh.h"
+#include "scene/mesh/flagged_mesh.h"
 
 namespace clues::app {
 
@@ -29,8 +29,8 @@ struct UmbraOutput {
   std::string bytes, summary;
 };
 
-// Throws as checked_umbra.
-UmbraOutput make_umbra(const reference::Omega& omega, const scene::TriangleMesh& mesh, const scene::CellSpec& cell,
+// `omega` is of what blocks in the scene (D22), in that order; the facets name triangles of the scene. Throws as checked_umbra.
+UmbraOutput make_umbra(const reference::Omega& omega, const scene::FlaggedMesh& scene, const scene::CellSpec& cell,
                        const std::string& scene_path, const std::string& scene_sha256, const UmbraRequest& request,
                        int threads);
 

@@ -82,7 +82,7 @@ bool rests_on_a_sight_line(const std::string& verdict) {
 
 bool is_about_a_triangle(const std::string& verdict) {
   return rests_on_a_sight_line(verdict) || verdict == "hidden/meets-cell" || verdict == "hidden/first-order-visible" ||
-         verdict == "visible/first-order-hidden";
+         verdict == "hidden/seen-through" || verdict == "visible/first-order-hidden";
 }
 
 bool is_about_the_answer(const std::string& verdict) {

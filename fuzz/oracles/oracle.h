@@ -91,5 +91,6 @@ validate::Witness to_witness(const WitnessText& text);
 std::unique_ptr<Oracle> make_sight_lines();      // sight_lines.cpp
 std::unique_ptr<Oracle> make_point_occlusion();  // oracles.cpp
 std::unique_ptr<Oracle> make_metamorphic();      // metamorphic.cpp
+std::unique_ptr<Oracle> make_see_through();      // see_through.cpp
 
 }  // namespace clues::fuzz

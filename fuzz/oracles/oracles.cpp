@@ -154,6 +154,7 @@ std::vector<std::unique_ptr<Oracle>> make_all() {
   all.push_back(make_metamorphic());
   all.push_back(std::make_unique<TwoWalks>());
   all.push_back(std::make_unique<Agreement>());
+  all.push_back(make_see_through());
   return all;
 }
 

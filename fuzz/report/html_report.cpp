@@ -10,6 +10,7 @@
 #include <set>
 
 #include "fuzz/findings/json_fields.h"
+#include "fuzz/report/cells_section.h"
 #include "fuzz/shrinking/finding_folder.h"
 #include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
@@ -262,9 +263,10 @@ std::optional<ReportSection> section_of(const std::string& bytes, const fs::path
     if (!j.is_object() || format == j.end() || !format->is_string()) return std::nullopt;
     const std::string name = *format;
     if (name == "clues-judgement/1") return judgement_section(j, look_around);
+    if (name == "clues-check-cells/1") return cells_section(j);
     if (name == "clues-conformance/1") return conformance_section(j, look_around);
     if (name == "clues-finding/2" && look_around) return finding_section(file.parent_path());
-    for (const char* kind : {"clues-judgement/", "clues-conformance/", "clues-finding/"}) {
+    for (const char* kind : {"clues-judgement/", "clues-check-cells/", "clues-conformance/", "clues-finding/"}) {
       if (name.starts_with(kind) && name != "clues-finding/2")
         throw Error(ErrorCode::unsupported, file.string() + ": is of another version of clues; make it anew");
     }

@@ -72,7 +72,7 @@ void promote(const Finding& finding, const std::string& id, const fs::path& give
   c.mode = finding.where.solid ? validate::CaseMode::solid : validate::CaseMode::sheet;
   c.mesh = finding.where.mesh;
   c.cell = finding.where.cell;
-  file.scenes[id] = {c.mesh.points, c.mesh.triangles};
+  file.scenes[id] = {c.mesh.points, c.mesh.triangles, {}, {}};
   file.cases.push_back(std::move(c));
   const std::string index_before = bytes_or_none(suite / "index.json"), found_before = bytes_or_none(path);
   const scene::TemporaryFolder copy;

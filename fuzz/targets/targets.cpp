@@ -207,9 +207,12 @@ bool protocol(std::string_view bytes) {
         c.mesh = request.mesh;
         c.cell = request.cell;
         c.mode = request.mode;
+        c.blocks = request.blocks;
+        c.counts = request.counts;
         const Request again = parse_request(run_request(request.seq, c));
         require(same_bits(again.mesh.points, request.mesh.points) && again.mesh.triangles == request.mesh.triangles &&
-                    same_bits(again.cell, request.cell) && again.mode == request.mode && again.seq == request.seq,
+                    same_bits(again.cell, request.cell) && again.mode == request.mode && again.seq == request.seq &&
+                    again.blocks == request.blocks && again.counts == request.counts,
                 "a request survives being written");
       }
     } catch (const ProtocolError&) {

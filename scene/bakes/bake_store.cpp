@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "scene/bakes/bake_deltas.h"
 #include "scene/bakes/packed_list.h"
 #include "scene/messages/error.h"
 #include "scene/messages/printable.h"
@@ -209,7 +210,10 @@ void BakeStore::finish() {
   try {
     Statement(*db_, "VACUUM INTO ?").with(copy.string()).next();
     const Database finished(copy, Database::Access::write, "the copy", "remove it");
+    finished.run("BEGIN");
+    write_deltas(finished, plan_.cells, plan_.triangles);
     finished.run("UPDATE about SET value = 'yes' WHERE name = 'finished'");
+    finished.run("COMMIT");
   } catch (const Error& cause) {
     throw Error(cause.code(), db_->file() + ": is all there but cannot be written anew: " + cause.what());
   }

@@ -33,6 +33,14 @@ std::string FlaggedMesh::name_of(std::uint32_t triangle) const {
   return after == parts.begin() ? std::string() : std::prev(after)->name;
 }
 
+std::vector<std::uint32_t> blocking_ids(const FlaggedMesh& scene) {
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    if (scene.blocking(t)) ids.push_back(t);
+  }
+  return ids;
+}
+
 TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ids) {
   TriangleMesh part;
   part.points = mesh.points;

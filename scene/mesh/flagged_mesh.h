@@ -29,6 +29,9 @@ struct FlaggedMesh {
   std::string name_of(std::uint32_t triangle) const;  // empty: it has none
 };
 
+// Ids of the triangles that block, ascending: the scene S of D22.
+std::vector<std::uint32_t> blocking_ids(const FlaggedMesh& scene);
+
 // The triangles of these ids (ascending), with all points.
 TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& ids);
 

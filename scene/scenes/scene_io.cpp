@@ -36,7 +36,7 @@ TriangleMesh read_plain_scene(const std::filesystem::path& path) {
   if (scene.is_plain()) return std::move(scene.mesh);
   const auto without = [](const std::vector<std::uint8_t>& flags) { return std::count(flags.begin(), flags.end(), 0); };
   throw Error(ErrorCode::unsupported, fmt::format("{}: {} triangles do not block and {} do not count (glass, curves, "
-                                                  "hulls); only `clues map` and `clues check` take such scenes",
+                                                  "hulls); `clues map`, check, bake, query and verify take such scenes",
                                                   path.string(), without(scene.blocks), without(scene.counts)));
 }
 

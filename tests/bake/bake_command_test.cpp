@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "scene/bakes/bake_deltas.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/messages/error.h"
 #include "tests/app/program.h"
@@ -42,6 +44,36 @@ TEST(Bake, ListsAreThoseOfMap) {
       EXPECT_EQ(json["visible"].get<std::vector<std::uint32_t>>(), baked.cell(c).list);
     }
   }
+}
+
+TEST(Bake, DeltasLeadFromCellToCell) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  ASSERT_EQ(
+      run_clues({"bake", "scene.off", "--cells", "grid:1x1x6:box:-1,-1,-1,1,1,3.5", "-o", "it.bake"}, folder.path())
+          .exit_code,
+      0);
+  const scene::FinishedBake baked(folder.path() / "it.bake");
+  const scene::BakeDeltas deltas(folder.path() / "it.bake");
+  std::size_t changes = 0;
+  for (std::uint32_t a = 0; a < 6; ++a) {
+    const auto neighbours = deltas.neighbours_of(a);
+    EXPECT_EQ(neighbours.size(), a == 0 || a == 5 ? 1U : 2U);
+    for (std::uint32_t b = 0; b < 6; ++b) {
+      const auto delta = deltas.between(a, b);
+      ASSERT_EQ(delta.has_value(), std::binary_search(neighbours.begin(), neighbours.end(), b)) << a << " " << b;
+      if (!delta) continue;
+      std::vector<std::uint32_t> kept, there;
+      const auto here = baked.cell(a).list;
+      std::set_difference(here.begin(), here.end(), delta->disappears.begin(), delta->disappears.end(),
+                          std::back_inserter(kept));
+      EXPECT_EQ(kept.size() + delta->disappears.size(), here.size()) << "only what was there disappears";
+      std::merge(kept.begin(), kept.end(), delta->appears.begin(), delta->appears.end(), std::back_inserter(there));
+      EXPECT_EQ(there, baked.cell(b).list);
+      changes += delta->appears.size();
+    }
+  }
+  EXPECT_GT(changes, 0U) << "all cells would see the same";
 }
 
 TEST(Bake, SameBytesForAnyNumberOfThreads) {

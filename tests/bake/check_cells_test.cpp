@@ -29,6 +29,19 @@ TEST(CheckCells, JudgesWhatALevelWasShippedWith) {
   for (const auto& cell : json["cells"]) {
     for (const auto& hole : cell["holes"]) EXPECT_EQ(hole["p"].size(), 3U);
   }
+  // As a page: a row for each cell, with the sight lines of its holes.
+  std::filesystem::create_directory(folder.path() / "results");
+  folder.write("results/made.json", json.dump());
+  ASSERT_EQ(run_clues({"report", "results"}, folder.path()).exit_code, 0);
+  const std::string page = read_all(folder.path() / "results/report.html");
+  EXPECT_THAT(page, HasSubstr("<td>holes</td><td>cell 0, cluster 0</td>"));
+  EXPECT_THAT(page, HasSubstr("<td>sound</td><td>cell 1, cluster 1</td>"));
+  EXPECT_THAT(page, HasSubstr("side: free sight line"));
+  EXPECT_THAT(page, HasSubstr("2 cells: on average"));
+  auto broken = json;
+  broken["cells"][0].erase("listed");
+  folder.write("results/made.json", broken.dump());
+  EXPECT_EQ(run_clues({"report", "results"}, folder.path()).exit_code, 2);
 }
 
 TEST(CheckCells, FindsNoHoleInABakeAndEveryOneThatIsMade) {

@@ -51,6 +51,24 @@ TEST(Protocol, CoordinatesSurviveBitForBit) {
   EXPECT_EQ(request.mesh.triangles, test.mesh.triangles);
 }
 
+TEST(Protocol, FlagsSurvive) {
+  auto test = some_case();
+  EXPECT_TRUE(parse_request(run_request(1, test)).is_plain());
+  EXPECT_EQ(run_request(1, test).find("see_through"), std::string::npos)
+      << "who knows no flags reads what it always read";
+  test.blocks = {1, 0};
+  test.counts = {0, 1};
+  const auto request = parse_request(run_request(1, test));
+  EXPECT_EQ(request.blocks, test.blocks);
+  EXPECT_EQ(request.counts, test.counts);
+  test.counts = {1, 0};
+  EXPECT_THROW(parse_request(run_request(1, test)), ProtocolError) << "triangle 1 would do neither";
+  EXPECT_FALSE(parse_start_reply(start_reply({})).see_through);
+  Implementation about;
+  about.see_through = true;
+  EXPECT_TRUE(parse_start_reply(start_reply(about)).see_through);
+}
+
 TEST(Protocol, BothEndsAgree) {
   Implementation about;
   about.name = "n";

@@ -44,6 +44,28 @@ TEST(Agreement, FindsATriangleTooFewAndTrianglesTooMany) {
   EXPECT_EQ(disagreements(*make_subject("fast")), std::set<std::string>{});
 }
 
+// The verdicts of the oracle `see-through` in the first cases of two generators, and how many had flags.
+std::set<std::string> seen_through(const Subject& subject, std::uint64_t& scenes) {
+  std::set<std::string> verdicts;
+  const GivenScenes none;
+  for (const auto& g : generators_named({"loose_triangles", "axis_boxes"}, none)) {
+    for (std::uint64_t i = 0; i < 8; ++i) {
+      const Outcome outcome = judge_case(g.make(7, i), subject, oracles_named({"see-through"}));
+      EXPECT_TRUE(outcome.contradictions.empty());
+      if (outcome.counters.contains("scenes with flags")) ++scenes;
+      for (const Finding& f : outcome.findings) verdicts.insert(f.verdict);
+    }
+  }
+  return verdicts;
+}
+
+TEST(SeeThroughOracle, FindsWhatIsHiddenPastWhatDoesNotBlock) {
+  std::uint64_t scenes = 0;
+  EXPECT_EQ(seen_through(HidesOneTriangle(), scenes), std::set<std::string>{"hidden/seen-through"});
+  EXPECT_GE(scenes, 3U);
+  EXPECT_EQ(seen_through(*make_subject("fast"), scenes), std::set<std::string>{});
+}
+
 TEST(PlantedSubject, NothingIsFoundInASoundAnswer) {
   const scene::TemporaryFolder folder;
   CampaignOptions options;

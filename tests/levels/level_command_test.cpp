@@ -59,6 +59,28 @@ TEST(LevelCommand, LeadsToAVerdictOnTheShippedLists) {
   }
 }
 
+// What only a crack between drawn faces shows is in the lists of `clues map`, which leave out sides of hulls, and nobody is accused of lacking it.
+TEST(LevelCommand, ChecksOneCellWithAllSidesOfHulls) {
+  const TestFolder folder;
+  folder.write("slab.bsp", cracked_slab().bytes());
+  const std::string above = "box:127,60,40,129,66,48";
+  const auto mapped = run_clues({"map", "slab.bsp", "--cell", above, "-o", "slab.clues.json"}, folder.path());
+  ASSERT_EQ(mapped.exit_code, 0) << mapped.err;
+  const auto result = nlohmann::json::parse(read_all(folder.path() / "slab.clues.json"));
+  const auto listed = result["visible"].get<std::vector<std::uint32_t>>();
+  ASSERT_TRUE(std::find(listed.begin(), listed.end(), 8U) != listed.end() ||
+              std::find(listed.begin(), listed.end(), 9U) != listed.end())
+      << "the crack shows nothing";
+  EXPECT_EQ(result["stats"]["covered_hull_sides_left_out"], 2);
+  folder.write("tight.txt", "0 1 2 3\n");
+  EXPECT_EQ(run_clues({"check", "slab.bsp", "--cell", above, "--pvs", "tight.txt"}, folder.path()).exit_code, 0);
+  const auto judged = run_clues({"check", "slab.bsp", "--cell", above, "--pvs", "slab.clues.json"}, folder.path());
+  EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
+  EXPECT_THAT(judged.out, HasSubstr("loose"));
+  folder.write("hole.txt", "0 1 2\n");
+  EXPECT_EQ(run_clues({"check", "slab.bsp", "--cell", above, "--pvs", "hole.txt"}, folder.path()).exit_code, 1);
+}
+
 TEST(LevelCommand, WhatTakesEverythingForOpaqueRefusesGlass) {
   const TestFolder folder;
   auto glass = one_triangle();
@@ -71,7 +93,7 @@ TEST(LevelCommand, WhatTakesEverythingForOpaqueRefusesGlass) {
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("1 triangles do not block"));
   for (const auto& option : std::vector<std::vector<std::string>>{
-           {"--map"}, {"--umbra", "u.json"}, {"--mode", "solid"}, {"--refine", "cell"}}) {
+           {"--map", "--render-states"}, {"--fragments", "f.obj"}, {"--mode", "solid"}, {"--refine", "cell"}}) {
     std::vector<std::string> words{"map", "glass.glb", "--cell", cell};
     words.insert(words.end(), option.begin(), option.end());
     const auto map = run_clues(words, folder.path());

@@ -117,4 +117,28 @@ MadeLevel two_rooms() {
   return level;
 }
 
+MadeLevel cracked_slab() {
+  MadeLevel level;
+  level.add_shader("textures/stone", 0, 1);
+  level.add_plane(1, 0, 0, 128);
+  const auto quad = [&](double x0, double x1, double z) {
+    for (const scene::Point& p : {scene::Point{x0, 0, z}, {x1, 0, z}, {x1, 128, z}, {x0, 128, z}}) level.add_vertex(p);
+    level.add_quad(0);
+  };
+  for (const double z : {0.0, -16.0}) {
+    quad(0, 128, z);
+    quad(128 + 0x1p-10, 256, z);
+  }
+  quad(100, 156, -20);
+  level.add_brush_box({0, 0, -16}, {256, 128, 0}, 0);
+  level.add_model(0, 5, 0, 1);
+  append_words(level.lumps[nodes_lump], {0, -2, -1, 0, 0, 0, 0, 0, 0});
+  append_words(level.lumps[leaves_lump], {0, 0, 0, 0, 0, 0, 0, 0, 0, 3, 0, 0});
+  append_words(level.lumps[leaves_lump], {1, 0, 0, 0, 0, 0, 0, 0, 3, 2, 0, 0});
+  append_words(level.lumps[leaf_faces_lump], {0, 2, 4, 1, 3});
+  append_words(level.lumps[visibility_lump], {2, 4});
+  level.lumps[visibility_lump] += std::string("\x03\0\0\0\x03\0\0\0", 8);
+  return level;
+}
+
 }  // namespace clues::tests

@@ -36,4 +36,8 @@ inline constexpr std::size_t shaders_lump = 1, planes_lump = 2, nodes_lump = 3, 
 
 MadeLevel two_rooms();
 
+// A slab whose floor (triangles 0 to 3) and ceiling (4 to 7) are drawn in two parts each that do not quite meet, one crack under the other, and a
+// quadrilateral (8, 9) below: through the cracks it is seen from above where the sides of the slab's hull are left out.
+MadeLevel cracked_slab();
+
 }  // namespace clues::tests

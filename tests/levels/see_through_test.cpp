@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <random>
 #include <utility>
 #include <vector>
@@ -11,8 +12,10 @@
 #include "fastpath/visibility/first_order.h"
 #include "fastpath/visibility/see_through.h"
 #include "reference/visibility/first_order.h"
+#include "validate/certificates/chain.h"
 #include "validate/see_through/judge_layers.h"
 #include "validate/see_through/layers.h"
+#include "validate/vectors/reader.h"
 #include "validate/visible_set/visible_set.h"
 
 namespace clues::tests {
@@ -189,6 +192,29 @@ TEST(SeeThrough, TheJudgeSeesThroughPanes) {
       EXPECT_TRUE(exact::check_witness(mesh, cell(), place, w.front, w.v, w.p).valid) << w.triangle;
     }
   }
+}
+
+// In Omega and yet hidden: the chain that the judge of layers finds holds in the scene of what blocks and the triangle itself.
+TEST(SeeThrough, ChainsHoldInTheSceneOfWhatBlocks) {
+  std::size_t chains = 0;
+  for (const auto& c : validate::read_suite(std::filesystem::path(CLUES_SOURCE_DIR) / "vectors")) {
+    const auto open = std::find_if(c.expect->umbra.begin(), c.expect->umbra.end(),
+                                   [](const auto& u) { return u.proof == validate::UmbraProof::exhaustive; });
+    if (!c.is_plain() || c.mode != validate::CaseMode::sheet || open == c.expect->umbra.end() || chains >= 2) continue;
+    FlaggedMesh scene = c.flagged();
+    scene.blocks.assign(scene.mesh.triangles.size(), 1);
+    scene.blocks[open->triangle] = 0;
+    const auto from = exact::ConvexCell::from_doubles(c.cell);
+    for (const auto& chain : validate::judge_see_through(scene, from, {open->triangle}, {}).judgement.chains) {
+      if (chain.triangle != open->triangle) continue;
+      const auto alone = validate::asked_alone(scene, chain.triangle);
+      auto there = chain;
+      there.triangle = alone.triangle;
+      EXPECT_TRUE(validate::check_chain(alone.mesh, from, there).valid) << c.id;
+      ++chains;
+    }
+  }
+  EXPECT_GE(chains, 1U);
 }
 
 TEST(SeeThrough, TheJudgeAgreesWithTheDefinition) {

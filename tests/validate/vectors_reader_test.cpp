@@ -90,6 +90,20 @@ TEST(VectorReader, ErrorsNameFileCaseAndField) {
       {[](auto& f) { f["scenes"]["screen"]["vertices"][2].push_back("0x0p+0"); }, "at most 3"},
       {[](auto& f) { f["scenes"]["screen"]["triangles"][1][2] = 16; }, "16 is out of range"},
       {[](auto& f) { f["scenes"]["screen"]["triangles"][1][2] = -1; }, "scenes.screen.triangles[1][2]"},
+      {[](auto& f) { f["scenes"]["screen"]["see_through"] = ordered_json::array(); }, "see_through: is empty"},
+      {[](auto& f) { f["scenes"]["screen"]["see_through"] = {16}; }, "16 is out of range"},
+      {[](auto& f) {
+         f["scenes"]["screen"]["not_counted"] = {1, 0};
+       },
+       "must ascend"},
+      {[](auto& f) { f["scenes"]["screen"]["see_through"] = f["scenes"]["screen"]["not_counted"] = {1}; },
+       "triangle 1 neither blocks nor counts"},
+      {[](auto& f) { f["scenes"]["screen"]["not_counted"] = {1}; }, "triangle 1 does not count"},
+      {[](auto& f) {
+         f["scenes"]["screen"]["see_through"] = {1};
+         f["cases"][0]["mode"] = "solid";
+       },
+       "in solid mode every triangle blocks"},
       {[](auto& f) { f["cases"] = ordered_json::array(); }, "at least 1"},
       {[](auto& f) { f["cases"].push_back(f["cases"][0]); }, "is there twice"},
       {in_case("id", "Screen_1"), "cases[0].id"},

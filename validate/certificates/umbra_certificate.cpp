@@ -238,6 +238,16 @@ std::optional<int> winding_number(const UmbraCertificate& facets, const RVector&
   return std::nullopt;
 }
 
+CertificateVerdict check_umbra_certificate(const scene::FlaggedMesh& scene, const exact::ConvexCell& cell,
+                                           const UmbraCertificate& facets) {
+  for (std::size_t i = 0; i < facets.size(); ++i) {
+    const auto& triangle = facets[i].triangle;
+    if (triangle && *triangle < scene.mesh.triangles.size() && !scene.blocking(*triangle))
+      return {false, fmt::format("facet {} lies in triangle {}, which does not block", i, *triangle)};
+  }
+  return check_umbra_certificate(scene.mesh, cell, facets);
+}
+
 bool proves_hidden(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const UmbraCertificate& facets,
                    std::uint32_t triangle, bool front) {
   const Corners t = corners_of(mesh, triangle);

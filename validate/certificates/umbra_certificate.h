@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "exact/cell/convex_cell.h"
-#include "scene/mesh/mesh.h"
+#include "scene/mesh/flagged_mesh.h"
 #include "validate/windows/rational.h"
 
 namespace clues::validate {
@@ -50,6 +50,10 @@ struct CertificateVerdict {
 CertificateVerdict check_umbra_certificate(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
                                            const UmbraCertificate& facets);
 
+// D22: the same where some triangles do not block. A surface facet lies in one that does: the proof needs no more.
+CertificateVerdict check_umbra_certificate(const scene::FlaggedMesh& scene, const exact::ConvexCell& cell,
+                                           const UmbraCertificate& facets);
+
 // w(p) for facets without border; none when p lies on a facet. O(n).
 std::optional<int> winding_number(const UmbraCertificate& facets, const RVector& p);
 
@@ -57,7 +61,8 @@ std::optional<int> winding_number(const UmbraCertificate& facets, const RVector&
 // triangle from that side, and w > 0 beside it. Then w > 0 holds for all points just before the triangle, and
 // a sight line to a point of it would have free sight lines to some of these. A side that no point of the
 // cell is strictly in front of is hidden without proof. False for a triangle without area, and for one that
-// has a point in the closed cell: that is visible (D3), whatever its sides. O(n).
+// has a point in the closed cell: that is visible (D3), whatever its sides. Whether the triangle itself blocks
+// does not matter (D22): sight lines end on it. O(n).
 bool proves_hidden(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, const UmbraCertificate& facets,
                    std::uint32_t triangle, bool front);
 

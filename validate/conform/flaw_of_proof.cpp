@@ -5,6 +5,7 @@
 #include "exact/sight/scene_query.h"
 #include "exact/sight/witness.h"
 #include "validate/conform/grade.h"
+#include "validate/see_through/layers.h"
 
 namespace clues::validate {
 namespace {
@@ -20,8 +21,9 @@ std::string flaw_of_proof(const VectorCase& test, const MustBeVisible& proof) {
   const auto cell = exact::ConvexCell::from_doubles(test.cell);
   if (!proof.meets_cell) {
     if (test.mode == CaseMode::solid && !proof.front) return "a back side does not count in solid mode (D4)";
+    const AskedAlone alone = asked_alone(test.flagged(), proof.triangle);
     const auto verdict =
-        exact::check_witness(test.mesh, cell, proof.triangle, proof.front, point_of(proof.v), point_of(proof.p));
+        exact::check_witness(alone.mesh, cell, alone.triangle, proof.front, point_of(proof.v), point_of(proof.p));
     return verdict.valid ? "" : verdict.reason;
   }
   const auto& [a, b, c] = test.mesh.triangles[proof.triangle];

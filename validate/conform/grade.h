@@ -41,7 +41,7 @@ struct CaseResult {
   const VectorCase* test = nullptr;
   Outcome outcome = Outcome::tight;
   Answer answer;
-  // Of a PVS. Triangles without area count nowhere: they are no surface.
+  // Of a PVS. Triangles without area count nowhere: they are no surface. Nor do those that nobody asks about (D22).
   std::vector<const MustBeVisible*> missed;       // visible, not listed
   std::vector<std::uint32_t> extra;               // hidden, listed
   std::vector<std::uint32_t> out_of_first_order;  // listed, though not even first-order visible (T1)

@@ -44,6 +44,12 @@ Function load(const std::filesystem::path& library) {
 }
 
 Answer call(Function function, const Request& request) {
+  if (!request.is_plain()) {  // by a request that does not keep to what serve_library said of itself
+    Answer answer;
+    answer.kind = AnswerKind::skipped;
+    answer.message = "clues_iut_pvs is not told which triangles block";
+    return answer;
+  }
   constexpr std::uint8_t unwritten = 0xa5;
   std::vector<std::uint8_t> visible(request.mesh.triangles.size(), unwritten);
   const int status =

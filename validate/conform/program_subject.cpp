@@ -278,6 +278,8 @@ std::vector<Answer> ProgramSubject::answer(std::span<const VectorCase* const> ca
     const bool solid = test->mode == CaseMode::solid;
     if (solid ? !about_.solid : !about_.sheet) {
       block.put(refusal(AnswerKind::unsupported, solid ? "mode solid" : "mode sheet"));
+    } else if (!test->is_plain() && !about_.see_through) {
+      block.put(refusal(AnswerKind::unsupported, "triangles that do not block or do not count"));
     } else if (about_.float32 && !is_exact_in_float32(*test)) {
       block.put(refusal(AnswerKind::skipped, "coordinates that are not single-precision numbers"));
     } else {

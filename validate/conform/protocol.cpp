@@ -140,7 +140,7 @@ std::vector<scene::Point> points_of(const Json& list, const char* name) {
 }
 
 scene::TriangleMesh mesh_of(const Json& json) {
-  only_fields(json, {"vertices", "triangles"}, "'scene'");
+  only_fields(json, {"vertices", "triangles", "see_through", "not_counted"}, "'scene'");
   scene::TriangleMesh mesh;
   mesh.points = points_of(field(json, "vertices", "'scene'"), "vertices");
   const auto& triangles = field(json, "triangles", "'scene'");
@@ -158,6 +158,35 @@ scene::TriangleMesh mesh_of(const Json& json) {
   return mesh;
 }
 
+// The flags of n triangles, of which those listed in the field lack one; none where the field is not there.
+std::vector<std::uint8_t> flags_of(const Json& scene, const char* name, std::size_t n) {
+  const auto found = scene.find(name);
+  if (found == scene.end()) return {};
+  if (!found->is_array() || found->empty()) throw ProtocolError(fmt::format("'{}' is not a list of triangles", name));
+  std::vector<std::uint8_t> flags(n, 1);
+  for (const auto& id : *found) {
+    if (!is_index(id) || id.get<std::uint32_t>() >= n)
+      throw ProtocolError(fmt::format("'{}' holds {}, which is no triangle", name, scene::json_excerpt(id)));
+    flags[id.get<std::uint32_t>()] = 0;
+  }
+  return flags;
+}
+
+std::vector<std::uint32_t> ids_without(const std::vector<std::uint8_t>& flags) {
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t t = 0; t < flags.size(); ++t) {
+    if (flags[t] == 0) ids.push_back(t);
+  }
+  return ids;
+}
+
+Json scene_json(const VectorCase& test) {
+  Json scene = {{"vertices", test.mesh.points}, {"triangles", test.mesh.triangles}};
+  if (!test.blocks.empty()) scene["see_through"] = ids_without(test.blocks);
+  if (!test.counts.empty()) scene["not_counted"] = ids_without(test.counts);
+  return scene;
+}
+
 // What an implementation writes need not be UTF-8; JSON must be.
 std::string dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
@@ -173,7 +202,7 @@ std::string run_request(std::uint32_t seq, const VectorCase& test) {
                 {{"id", test.id},
                  {"mode", test.mode == CaseMode::solid ? "solid" : "sheet"},
                  {"cell", test.cell},
-                 {"scene", {{"vertices", test.mesh.points}, {"triangles", test.mesh.triangles}}}}}});
+                 {"scene", scene_json(test)}}}});
 }
 
 std::string stop_request() { return dump({{"cmd", "stop"}}); }
@@ -192,7 +221,7 @@ Implementation parse_start_reply(std::string_view line) {
   result.homepage = optional_text(about, "homepage", "'implementation'");
   result.issues = optional_text(about, "issues", "'implementation'");
   const auto& can = field(json, "capabilities", where);
-  only_fields(can, {"modes", "input"}, "'capabilities'");
+  only_fields(can, {"modes", "input", "see_through"}, "'capabilities'");
   const auto& modes = field(can, "modes", "'capabilities'");
   if (!modes.is_array() || modes.empty()) throw ProtocolError("'modes' is not a list of \"sheet\" and \"solid\"");
   result.sheet = result.solid = false;
@@ -205,6 +234,10 @@ Implementation parse_start_reply(std::string_view line) {
   if (input != "float64" && input != "float32")
     throw ProtocolError("'input' is " + scene::json_excerpt(input) + "; use \"float64\" or \"float32\"");
   result.float32 = input == "float32";
+  if (const auto found = can.find("see_through"); found != can.end()) {
+    if (!found->is_boolean()) throw ProtocolError("'see_through' is neither true nor false");
+    result.see_through = found->get<bool>();
+  }
   return result;
 }
 
@@ -242,7 +275,14 @@ Request parse_request(std::string_view line) {
     if (mode != "sheet" && mode != "solid") throw ProtocolError("'mode' is " + excerpt(mode) + "; use sheet or solid");
     request.mode = mode == "solid" ? CaseMode::solid : CaseMode::sheet;
     request.cell = points_of(field(test, "cell", "'case'"), "cell");
-    request.mesh = mesh_of(field(test, "scene", "'case'"));
+    const auto& scene = field(test, "scene", "'case'");
+    request.mesh = mesh_of(scene);
+    request.blocks = flags_of(scene, "see_through", request.mesh.triangles.size());
+    request.counts = flags_of(scene, "not_counted", request.mesh.triangles.size());
+    for (std::size_t t = 0; t < std::min(request.blocks.size(), request.counts.size()); ++t) {
+      if (request.blocks[t] == 0 && request.counts[t] == 0)
+        throw ProtocolError(fmt::format("triangle {} is in 'see_through' and in 'not_counted'", t));
+    }
   } else {
     throw ProtocolError("the command " + scene::json_excerpt(cmd) + " is not one of start, run and stop");
   }
@@ -257,9 +297,9 @@ std::string start_reply(const Implementation& implementation) {
   Json modes = Json::array();
   if (implementation.sheet) modes.push_back("sheet");
   if (implementation.solid) modes.push_back("solid");
-  return dump({{"protocol", protocol_version},
-               {"implementation", about},
-               {"capabilities", {{"modes", modes}, {"input", implementation.float32 ? "float32" : "float64"}}}});
+  Json can = {{"modes", modes}, {"input", implementation.float32 ? "float32" : "float64"}};
+  if (implementation.see_through) can["see_through"] = true;
+  return dump({{"protocol", protocol_version}, {"implementation", about}, {"capabilities", can}});
 }
 
 std::string run_reply(std::uint32_t seq, const Answer& answer) {

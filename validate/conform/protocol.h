@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/mesh/mesh.h"
+#include "scene/mesh/flagged_mesh.h"
 #include "validate/vectors/suite.h"
 
 namespace clues::validate {
@@ -21,6 +21,7 @@ struct Implementation {
   std::string language, homepage, issues;  // optional
   bool sheet = true, solid = true;         // the modes that it knows
   bool float32 = false;                    // it reads coordinates as single precision
+  bool see_through = false;                // it knows triangles that do not block or do not count (D22)
 };
 
 // What came of one question.
@@ -64,7 +65,10 @@ struct Request {
   std::uint32_t seq = 0;  // of run, as the rest
   CaseMode mode = CaseMode::sheet;
   scene::TriangleMesh mesh;
+  std::vector<std::uint8_t> blocks, counts;  // D22, as in FlaggedMesh
   std::vector<scene::Point> cell;
+
+  bool is_plain() const { return blocks.empty() && counts.empty(); }
 };
 Request parse_request(std::string_view line);  // throws ProtocolError
 std::string start_reply(const Implementation& implementation);

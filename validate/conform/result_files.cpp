@@ -24,7 +24,10 @@ Answer read_answer(const VectorCase& test, const fs::path& folder) {
     auto path = folder / (test.id + ending);
     if (fs::exists(path, ignored)) found.push_back(std::move(path));
   }
-  if (found.empty()) {
+  if (found.empty() && !test.is_plain()) {
+    answer.kind = AnswerKind::unsupported;
+    answer.message = "triangles that do not block or do not count";
+  } else if (found.empty()) {
     answer.kind = AnswerKind::errored;
     answer.message = "no result file " + test.id + ".clues.json, .pvs or .txt";
   } else if (found.size() > 1) {
@@ -72,6 +75,7 @@ void export_cases(std::span<const VectorCase* const> cases, const fs::path& fold
   }
   auto list = nlohmann::json::array();
   for (const auto* test : cases) {
+    if (!test->is_plain()) continue;  // an OFF file would call panes walls
     const auto scene_file = test->id + ".scene.off", cell_file = test->id + ".cell.off";
     scene::write_file_atomically(folder / scene_file, scene::to_off_text(test->mesh));
     scene::TriangleMesh cell;

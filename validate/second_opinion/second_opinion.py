@@ -110,9 +110,12 @@ class Surface:
     def facing(self, front: bool) -> Plane: return self.plane if front else back(self.plane)
 class Scene:
     """What is looked at, and the cell from which."""
-    def __init__(self, triangles: Sequence[Sequence[Point]], cell: Hull, solid: bool) -> None:
+    def __init__(self, triangles: Sequence[Sequence[Point]], cell: Hull, solid: bool,
+                 see_through: Iterable[int] = ()) -> None:
         self.triangles = [Surface(i, t) if any(plane(*t)) else None for i, t in enumerate(triangles)]
-        self.surfaces, self.cell, self.fronts = [x for x in self.triangles if x], cell, (True, False)[:2 - solid]
+        self.input, self.passed = triangles, set(see_through)  # D22: these do not block
+        self.surfaces = [x for x in self.triangles if x and x.number not in self.passed]
+        self.cell, self.fronts = cell, (True, False)[:2 - solid]
         edges = collections.Counter((t[i - 1], t[i]) for t in triangles for i in range(3) if t[i - 1] != t[i])
         demand(triangles, "a scene without triangles")
         demand(not solid or all(edges[b, a] == n for (a, b), n in edges.items()),
@@ -121,6 +124,9 @@ class Scene:
         x = self.triangles[number] if number in range(len(self.triangles)) else None
         need(x, f"there is no triangle {number}, or it has no area")
         return x
+    def alone(self, number: int) -> Scene:
+        """D22: where one is asked about that does not block, there is what blocks, and itself."""
+        return Scene(self.input, self.cell, False, self.passed - {number}) if number in self.passed else self
     def touching(self, p: Point) -> list[Surface]: return [x for x in self.surfaces if x.holds(p)]
     def planes_at(self, p: Point) -> int: return len({max(x.plane, back(x.plane)) for x in self.touching(p)})
 
@@ -294,19 +300,20 @@ def check_hidden(s: Scene, number: int) -> None:
     for ahead, weights in itertools.product(map(x.facing, s.fronts), itertools.product((1, 9), repeat=3)):
         check_not_seen(s, middle(c for c, n in zip(x.corners, weights) for _ in range(n)), ahead)
 def examine_hidden(s: Scene, number: int, where: str, proof: str, o: Opinion) -> None:
-    o.examine(where, "hidden triangles of which eight points are occluded", check_hidden, s, number)
+    o.examine(where, "hidden triangles of which eight points are occluded", check_hidden, s.alone(number), number)
     o.unchecked[f"hidden triangles as a whole ({proof})"] += 1
-def expectations(s: Scene, e: Json, where: str, o: Opinion) -> None:
+def expectations(s: Scene, e: Json, mute: set[int], where: str, o: Opinion) -> None:
     listed = [[x["triangle"] for x in e[key]] for key in ("must_be_visible", "umbra")] + [e["no_surface"]]
     for m in e["must_be_visible"]:
         place, t, touches = f"{where}, triangle {m['triangle']}", m["triangle"], m.get("meets_cell", False)
         o.examine(place, "cell contacts" if touches else "seen triangles off the cell", check_contact, s, t, touches)
-        if not touches: o.examine(place, "witnesses", check_chain, s, t, m["front"], [(exact(m["v"]), exact(m["p"]))])
+        if not touches: o.examine(place, "witnesses", check_chain, s.alone(t), t, m["front"], [(exact(m["v"]), exact(m["p"]))])
     for u in e["umbra"]:
         proof = one_of(u["proof"], "exhaustive", "first_order_map")
         examine_hidden(s, u["triangle"], f"{where}, triangle {u['triangle']}", proof, o)
-    o.same(where + ": no_surface", e["no_surface"], [i for i, x in enumerate(s.triangles) if x is None])
-    o.same(where + ": what is listed", sorted(sum(listed, [])), list(range(len(s.triangles))))
+    counting = [i for i in range(len(s.triangles)) if i not in mute]
+    o.same(where + ": no_surface", e["no_surface"], [i for i in counting if s.triangles[i] is None])
+    o.same(where + ": what is listed", sorted(sum(listed, [])), counting)
     o.same(where + ": the order", listed, [sorted(ids) for ids in listed])
     more = [u["triangle"] for u in e["umbra"] if u["proof"] == "exhaustive"]
     o.same(where + ": first_order_visible", e["first_order_visible"], sorted(listed[0] + more))
@@ -321,7 +328,11 @@ def suite(folder: pathlib.Path, glob: str, o: Opinion) -> None:
             if fnmatch.fnmatchcase(case["id"], glob):
                 mesh, cell = data["scenes"][case["scene"]], Hull(point(map(number, p)) for p in case["cell"])
                 triangles = [[point(map(number, pick(mesh["vertices"], i))) for i in t] for t in mesh["triangles"]]
-                expectations(Scene(triangles, cell, is_solid(case["mode"])), case["expect"], where, o)
+                passed, mute = (set(mesh.get(key, [])) for key in ("see_through", "not_counted"))
+                demand(not passed & mute and passed | mute <= set(range(len(triangles))), "flags of no triangle, or both")
+                demand(not (passed | mute and is_solid(case["mode"])), "in solid mode all triangles block and count")
+                s = Scene(triangles, cell, is_solid(case["mode"]), passed)
+                expectations(s, case["expect"], mute, where, o)
                 o.confirmed["cases"] += 1
     demand(o.confirmed["cases"], "no case has such an id")
     n, said = sum(topics.values()), [index[key] for key in ("active", "withdrawn", "topics")]
@@ -447,7 +458,7 @@ def umbra(s: Scene, u: Json, o: Opinion, listed: list[int] | None) -> None:
         found.examine(f"triangle {t}", "hidden triangles", check_enclosed, s, facets, t)
     if listed is None: o.confirmed += found.confirmed
 NO_SIGHT_LINE = ("answer/other-answer", "label/other-label", "hidden/first-order-visible", "visible/first-order-hidden",
-                 "no-answer/answer", "crash/answer", "no-end/answer")
+                 "hidden/seen-through", "no-answer/answer", "crash/answer", "no-end/answer")
 def finding(folder: pathlib.Path, o: Opinion) -> None:
     about = load(folder / "finding.json", "clues-finding/2")
     said, text = about.pop("checksum"), json.dumps(about, indent=2, sort_keys=True, ensure_ascii=False) + "\n"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "validate/certificates/chain_search.h"
 #include "validate/see_through/layers.h"
 #include "validate/verdicts/measures.h"
 #include "validate/visible_set/settle.h"
@@ -36,8 +37,9 @@ class LayerJudge {
     for (const auto t : layer.asked) {
       if (has(map.visible, t) && !has(found.proved_hidden, t)) decided.push_back(t);
     }
-    const bool all = !layer.see_through || decided.empty();
-    take(layer, found, first_order_fractions(layer.mesh, map), all ? layer.asked : decided);
+    const auto& settled = !layer.see_through || decided.empty() ? layer.asked : decided;
+    take(layer, found, first_order_fractions(layer.mesh, map), settled);
+    take_chains(layer, map, found, settled);
     return decided;
   }
 
@@ -53,6 +55,8 @@ class LayerJudge {
     const auto by_triangle = [](const Witness& a, const Witness& b) { return a.triangle < b.triangle; };
     std::sort(all.witnesses.begin(), all.witnesses.end(), by_triangle);
     std::sort(all.contradictions.begin(), all.contradictions.end(), by_triangle);
+    std::sort(all.chains.begin(), all.chains.end(),
+              [](const Chain& a, const Chain& b) { return a.triangle < b.triangle; });
     std::sort(all.meet_cell.begin(), all.meet_cell.end());
     std::sort(all.proved_hidden.begin(), all.proved_hidden.end());
     all.verdict = verdict_of(all);
@@ -91,6 +95,19 @@ class LayerJudge {
     take_ids(found.proved_hidden, all.proved_hidden);
     take_witnesses(found.witnesses, all.witnesses, false);
     take_witnesses(found.contradictions, all.contradictions, true);  // a layer is a scene like any other
+  }
+
+  // A chain that is free of a layer is free of what blocks: with fewer triangles every continuation is longer (D8).
+  void take_chains(const Layer& layer, const reference::VisibilityMap& map, const Judgement& found,
+                   const std::vector<std::uint32_t>& decided) {
+    std::vector<std::uint32_t> open;
+    for (const auto t : undecided(found)) {
+      if (has(decided, t)) open.push_back(t);
+    }
+    for (Chain chain : find_chains(layer.mesh, map, open)) {
+      chain.triangle = layer.ids[chain.triangle];
+      out_.judgement.chains.push_back(std::move(chain));
+    }
   }
 
   const exact::ConvexCell& cell_;

@@ -14,7 +14,7 @@
 namespace clues::validate {
 
 struct SeeThroughJudgement {
-  Judgement judgement;  // per triangle of the scene; without chains. What does not count is `hidden`, listed or not.
+  Judgement judgement;  // per triangle of the scene, with chains. What does not count is `hidden`, listed or not.
   std::vector<std::array<exact::FT, 2>> first_order_fractions;  // as in measures.h, of the layer that decided
   std::uint64_t layers = 0;
 };

@@ -22,6 +22,16 @@ Layer layer_of(const scene::FlaggedMesh& scene, const std::vector<bool>& in_laye
 
 }  // namespace
 
+AskedAlone asked_alone(const scene::FlaggedMesh& scene, std::uint32_t t) {
+  AskedAlone alone;
+  alone.ids = scene::blocking_ids(scene);
+  const auto at = std::lower_bound(alone.ids.begin(), alone.ids.end(), t);
+  alone.triangle = static_cast<std::uint32_t>(at - alone.ids.begin());
+  if (at == alone.ids.end() || *at != t) alone.ids.insert(at, t);
+  alone.mesh = scene::part_of(scene.mesh, alone.ids);
+  return alone;
+}
+
 void each_layer(const scene::FlaggedMesh& scene, const DecideLayer& decide) {
   const auto total = static_cast<std::uint32_t>(scene.mesh.triangles.size());
   std::vector<bool> in_layer(total);

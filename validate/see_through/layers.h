@@ -21,6 +21,14 @@
 
 namespace clues::validate {
 
+// D22 word for word: the scene of all that blocks and triangle t alone. O(n).
+struct AskedAlone {
+  scene::TriangleMesh mesh;        // all of it blocks
+  std::vector<std::uint32_t> ids;  // of its triangles in the scene, ascending
+  std::uint32_t triangle = 0;      // the place of t in it
+};
+AskedAlone asked_alone(const scene::FlaggedMesh& scene, std::uint32_t t);
+
 struct Layer {
   scene::TriangleMesh mesh;        // all of it blocks
   std::vector<std::uint32_t> ids;  // of its triangles in the scene, ascending

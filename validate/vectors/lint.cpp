@@ -177,7 +177,7 @@ class Linter {
                                             to_json_text(*c.expect), derived));
       if (!options_.accept) return false;
     }
-    c.expect = parse_expectation(derived, c.mesh.triangles.size());
+    c.expect = parse_expectation(derived, c);
     return true;
   }
 

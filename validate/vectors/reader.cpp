@@ -22,8 +22,25 @@ using nlohmann::json;
 using scene::Error;
 using scene::ErrorCode;
 
+std::vector<std::uint32_t> read_ids(const Field& field, std::uint64_t triangles) {
+  std::vector<std::uint32_t> ids;
+  for (const auto& item : field.array(0)) {
+    ids.push_back(item.index(triangles, "triangles"));
+    if (ids.size() > 1 && ids[ids.size() - 2] >= ids.back()) item.fail("the list must ascend");
+  }
+  return ids;
+}
+
+// D22: the ids that lack a flag; a list that is there is not empty.
+std::vector<std::uint32_t> read_flag(const Field& scene, const char* name, std::uint64_t triangles) {
+  if (!scene.has(name)) return {};
+  auto ids = read_ids(scene[name], triangles);
+  if (ids.empty()) scene[name].fail("is empty: leave it out");
+  return ids;
+}
+
 VectorScene read_scene(const Field& field) {
-  field.object({"vertices", "triangles"});
+  field.object({"vertices", "triangles"}, {"see_through", "not_counted"});
   VectorScene scene;
   for (const auto& vertex : field["vertices"].array(1)) scene.vertices.push_back(vertex.point());
   for (const auto& triangle : field["triangles"].array(1)) {
@@ -32,16 +49,20 @@ VectorScene read_scene(const Field& field) {
     for (std::size_t i = 0; i < 3; ++i) t[i] = corners[i].index(scene.vertices.size(), "vertices");
     scene.triangles.push_back(t);
   }
+  scene.see_through = read_flag(field, "see_through", scene.triangles.size());
+  scene.not_counted = read_flag(field, "not_counted", scene.triangles.size());
+  for (const auto t : scene.see_through) {
+    if (std::binary_search(scene.not_counted.begin(), scene.not_counted.end(), t))
+      field.fail(fmt::format("triangle {} neither blocks nor counts: leave it out of the scene", t));
+  }
   return scene;
 }
 
-std::vector<std::uint32_t> read_ids(const Field& field, std::uint64_t triangles) {
-  std::vector<std::uint32_t> ids;
-  for (const auto& item : field.array(0)) {
-    ids.push_back(item.index(triangles, "triangles"));
-    if (ids.size() > 1 && ids[ids.size() - 2] >= ids.back()) item.fail("the list must ascend");
-  }
-  return ids;
+// The flags of n triangles; none when all have it.
+std::vector<std::uint8_t> flags_without(const std::vector<std::uint32_t>& ids, std::size_t n) {
+  std::vector<std::uint8_t> flags(ids.empty() ? 0 : n, 1);
+  for (const auto t : ids) flags[t] = 0;
+  return flags;
 }
 
 MustBeVisible read_visible(const Field& field, std::uint64_t triangles) {
@@ -60,7 +81,8 @@ MustBeVisible read_visible(const Field& field, std::uint64_t triangles) {
   return visible;
 }
 
-Expectation read_expectation(const Field& field, std::uint64_t triangles) {
+// `counts` as in VectorCase.
+Expectation read_expectation(const Field& field, std::uint64_t triangles, const std::vector<std::uint8_t>& counts) {
   field.object({"must_be_visible", "umbra", "no_surface", "first_order_visible"});
   Expectation expect;
   std::vector<int> said(triangles, 0);
@@ -83,13 +105,19 @@ Expectation read_expectation(const Field& field, std::uint64_t triangles) {
   expect.no_surface = read_ids(field["no_surface"], triangles);
   for (const std::uint32_t t : expect.no_surface) ++said[t];
   for (std::size_t t = 0; t < said.size(); ++t) {
-    if (said[t] != 1) {
+    if (!counts.empty() && counts[t] == 0) {
+      if (said[t] != 0) field.fail(fmt::format("triangle {} does not count, and nothing is said about it", t));
+    } else if (said[t] != 1) {
       field.fail(
           fmt::format("triangle {} must be in exactly one of must_be_visible, umbra and no_surface, and is in {}", t,
                       said[t] == 0 ? "none" : "several"));
     }
   }
   expect.first_order_visible = read_ids(field["first_order_visible"], triangles);
+  for (const auto t : expect.first_order_visible) {
+    if (!counts.empty() && counts[t] == 0)
+      field["first_order_visible"].fail(fmt::format("triangle {} does not count", t));
+  }
   return expect;
 }
 
@@ -117,9 +145,13 @@ VectorCase read_case(const Field& field, Where& where, const VectorFile& file, b
   c.mesh.points = scene->second.vertices;
   c.mesh.triangles = scene->second.triangles;
   for (std::uint32_t t = 0; t < c.mesh.triangles.size(); ++t) c.mesh.face_of.push_back(t);
+  c.blocks = flags_without(scene->second.see_through, c.mesh.triangles.size());
+  c.counts = flags_without(scene->second.not_counted, c.mesh.triangles.size());
   c.mode = field["mode"].one_of({"sheet", "solid"}) == 0 ? CaseMode::sheet : CaseMode::solid;
+  if (c.mode == CaseMode::solid && !c.is_plain())
+    field["mode"].fail("in solid mode every triangle blocks and counts; take another scene");
   for (const auto& corner : field["cell"].array(1)) c.cell.push_back(corner.point());
-  if (field.has("expect")) c.expect = read_expectation(field["expect"], c.mesh.triangles.size());
+  if (field.has("expect")) c.expect = read_expectation(field["expect"], c.mesh.triangles.size(), c.counts);
   where.case_id.clear();
   return c;
 }
@@ -191,10 +223,10 @@ VectorFile parse_vector_file(std::string_view text, const std::string& name, boo
   return file;
 }
 
-Expectation parse_expectation(std::string_view text, std::uint64_t triangles) {
+Expectation parse_expectation(std::string_view text, const VectorCase& about) {
   const json value = scene::parse_json(text, "expect");
   const Where where{"expect", ""};
-  return read_expectation(Field(value, where, ""), triangles);
+  return read_expectation(Field(value, where, ""), about.mesh.triangles.size(), about.counts);
 }
 
 VectorFile read_vector_file(const fs::path& path, bool drafts) {

@@ -26,7 +26,7 @@ VectorFile read_vector_file(const std::filesystem::path& path, bool drafts = fal
 VectorFile parse_vector_file(std::string_view text, const std::string& name, bool drafts = false);
 VectorIndex parse_vector_index(std::string_view text, const std::string& name);
 VectorIndex read_vector_index(const std::filesystem::path& folder);
-Expectation parse_expectation(std::string_view text, std::uint64_t triangles);
+Expectation parse_expectation(std::string_view text, const VectorCase& about);
 
 // '*' stands for any characters, '?' for one. For --case GLOB.
 bool matches_glob(std::string_view text, std::string_view glob);

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/mesh/mesh.h"
+#include "scene/mesh/flagged_mesh.h"
 
 namespace clues::validate {
 
@@ -38,12 +38,13 @@ struct Umbra {
   UmbraProof proof = UmbraProof::first_order_map;
 };
 
-// Every triangle of the scene is in exactly one of must_be_visible, umbra and no_surface. All lists ascend.
+// Every triangle that counts is in exactly one of must_be_visible, umbra and no_surface, and no other is in any. All lists ascend.
 struct Expectation {
   std::vector<MustBeVisible> must_be_visible;
   std::vector<Umbra> umbra;
-  std::vector<std::uint32_t> no_surface;           // without area: neither visible nor an occluder
-  std::vector<std::uint32_t> first_order_visible;  // the PVS of Omega: contains must_be_visible (T1)
+  std::vector<std::uint32_t> no_surface;  // without area: neither visible nor an occluder
+  // The PVS of Omega: contains must_be_visible (T1). A triangle that does not block is asked about in the scene of what blocks and itself (D22).
+  std::vector<std::uint32_t> first_order_visible;
 };
 
 enum class CaseMode { sheet, solid };  // D4
@@ -57,9 +58,15 @@ struct VectorCase {
   CaseLevel level = CaseLevel::core;
   std::string scene;         // its name in the file
   scene::TriangleMesh mesh;  // every triangle is a face of its own
+  std::vector<std::uint8_t> blocks,
+      counts;  // D22, as in FlaggedMesh: per triangle; empty: all do. Solid cases are plain
   std::vector<scene::Point> cell;
   CaseMode mode = CaseMode::sheet;
   std::optional<Expectation> expect;  // read_suite: always there
+
+  // Whoever takes all of `mesh` for opaque, or asks about all of it, has to look at this first.
+  bool is_plain() const { return blocks.empty() && counts.empty(); }
+  scene::FlaggedMesh flagged() const { return {mesh, blocks, counts, {}}; }
 };
 
 // What a flag means, once per file.
@@ -81,6 +88,8 @@ struct VectorSource {
 struct VectorScene {
   std::vector<scene::Point> vertices;
   std::vector<scene::Triangle> triangles;
+  std::vector<std::uint32_t> see_through{},
+      not_counted{};  // D22: what does not block, what does not count; ascending, no id in both
 };
 
 struct VectorFile {

@@ -107,8 +107,11 @@ std::string to_json_text(const VectorFile& file) {
                    {"effect", note.effect},
                    {"hazards", note.hazards}};
   }
-  for (const auto& [name, scene] : file.scenes)
+  for (const auto& [name, scene] : file.scenes) {
     scenes[name] = {{"vertices", points_json(scene.vertices)}, {"triangles", scene.triangles}};
+    if (!scene.see_through.empty()) scenes[name]["see_through"] = scene.see_through;
+    if (!scene.not_counted.empty()) scenes[name]["not_counted"] = scene.not_counted;
+  }
   auto cases = ordered_json::array();
   for (const auto& c : file.cases) cases.push_back(case_json(c));
   return text_of({{"format", "clues-vectors/1"},

@@ -8,6 +8,7 @@
 //     clues conform --impl ./clues_adapter
 //
 // Replace potentially_visible_set, and what start_reply says about your program.
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <exception>
@@ -25,6 +26,8 @@ struct Case {
   std::vector<Point> vertices;
   std::vector<Triangle> triangles;  // vertex numbers
   std::vector<Point> cell;          // the view cell is the convex hull of these points
+  std::vector<std::uint32_t> see_through,
+      not_counted;     // triangles that sight lines pass; that block and are not asked about
   bool solid = false;  // closed meshes, only front sides can be seen; else both sides of every triangle can
 };
 
@@ -38,16 +41,21 @@ struct Skip : std::runtime_error {
 // can be.
 std::vector<std::uint32_t> potentially_visible_set(const Case& input) {
   std::vector<std::uint32_t> visible;
-  for (std::uint32_t t = 0; t < input.triangles.size(); ++t) visible.push_back(t);
+  for (std::uint32_t t = 0; t < input.triangles.size(); ++t) {
+    if (std::find(input.not_counted.begin(), input.not_counted.end(), t) == input.not_counted.end())
+      visible.push_back(t);
+  }
   return visible;
 }
 // ------------------------------------------------------------------------------------------------------------------------
 
 Json start_reply() {
-  return {{"protocol", 1},
-          {"implementation", {{"name", "my implementation"}, {"version", "0.1"}, {"language", "C++"}}},
-          // input: "float32" if coordinates are stored in single precision: then only such scenes are sent.
-          {"capabilities", {{"modes", {"sheet", "solid"}}, {"input", "float64"}}}};
+  return {
+      {"protocol", 1},
+      {"implementation", {{"name", "my implementation"}, {"version", "0.1"}, {"language", "C++"}}},
+      // input: "float32" if coordinates are stored in single precision: then only such scenes are sent.
+      // see_through: true if it knows triangles that do not block or do not count; without it such scenes are not sent.
+      {"capabilities", {{"modes", {"sheet", "solid"}}, {"input", "float64"}, {"see_through", true}}}};
 }
 
 Json run_reply(const Json& request) {
@@ -57,6 +65,8 @@ Json run_reply(const Json& request) {
     Case input;
     test.at("scene").at("vertices").get_to(input.vertices);
     test.at("scene").at("triangles").get_to(input.triangles);
+    if (test.at("scene").contains("see_through")) test.at("scene").at("see_through").get_to(input.see_through);
+    if (test.at("scene").contains("not_counted")) test.at("scene").at("not_counted").get_to(input.not_counted);
     test.at("cell").get_to(input.cell);
     input.solid = test.at("mode") == "solid";
     reply["result"] = {{"visible", potentially_visible_set(input)}};

@@ -15,7 +15,8 @@ START = {
     "implementation": {"name": "my implementation", "version": "0.1", "language": "Python"},
     # modes: "sheet" (both sides of a triangle can be seen) and "solid" (closed meshes, only front sides can).
     # input: "float32" if coordinates are stored in single precision: then only such scenes are sent.
-    "capabilities": {"modes": ["sheet", "solid"], "input": "float64"},
+    # see_through: true if it knows triangles that do not block or do not count; without it such scenes are not sent.
+    "capabilities": {"modes": ["sheet", "solid"], "input": "float64", "see_through": True},
 }
 
 
@@ -24,19 +25,22 @@ class Skip(Exception):
 
 
 # ---------------------------------------------------------------- replace this function ----------------------------------
-def potentially_visible_set(vertices, triangles, cell, mode):
+def potentially_visible_set(vertices, triangles, cell, mode, see_through, not_counted):
     """The numbers of all triangles that may be visible from some point of the cell.
 
     vertices: list of [x, y, z]; triangles: list of [a, b, c], vertex numbers; cell: list of [x, y, z] whose convex hull is the view
-    cell; mode: "sheet" or "solid". This one lists everything: sound, and as conservative as can be."""
-    return list(range(len(triangles)))
+    cell; mode: "sheet" or "solid"; see_through: numbers of triangles that sight lines pass; not_counted: of triangles that block and are not
+    asked about. This one lists everything: sound, and as conservative as can be."""
+    return [t for t in range(len(triangles)) if t not in not_counted]
 # ------------------------------------------------------------------------------------------------------------------------
 
 
 def run(request):
     case = request["case"]
     try:
-        visible = potentially_visible_set(case["scene"]["vertices"], case["scene"]["triangles"], case["cell"], case["mode"])
+        scene = case["scene"]
+        visible = potentially_visible_set(scene["vertices"], scene["triangles"], case["cell"], case["mode"],
+                                          set(scene.get("see_through", [])), set(scene.get("not_counted", [])))
         return {"seq": request["seq"], "result": {"visible": visible}}
     except Skip as reason:
         return {"seq": request["seq"], "skipped": {"message": str(reason)}}
