@@ -1,6 +1,7 @@
 #include "app/bake/bake_ranks.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -16,6 +17,9 @@ namespace {
 
 using scene::PlaceKind;
 using Done = std::vector<scene::BakeStore::Done>;
+
+constexpr std::chrono::milliseconds look_up{200};
+constexpr std::size_t most_in_one = 256;  // places of one transaction
 
 // Ranks are machines of one kind.
 struct PlaceHead {
@@ -116,16 +120,22 @@ void bake_by_ranks(Cluster& cluster, int threads, const scene::FlaggedMesh& scen
   const auto pool = cluster.pool(question_to_ranks(plan), std::make_unique<ThreadPool>(threads, own), threads, known,
                                  [&](std::uint64_t piece, const std::string& text) { work.learn(piece, text); });
   const auto order = validate::longest_first(expected);
-  for (std::size_t next = 0; true;) {
+  std::size_t next = 0;
+  const auto hand_out = [&] {
     while (pool->idle() && next < order.size() && !stop) pool->start(open[order[next++]]);
-    if (pool->empty()) return;
-    const auto reply = pool->wait(std::chrono::milliseconds(200));
-    if (!reply) continue;
-    if (!reply->finished) throw scene::Error(scene::ErrorCode::internal, "a cell: " + reply->text);
-    const auto done = done_of(reply->text, plan.triangles);
-    store.commit(done);
+  };
+  for (hand_out(); !pool->empty(); hand_out()) {
+    // One transaction for all that came meanwhile; who has sent something works on before it is written.
+    Done batch;
+    for (auto reply = pool->wait(look_up); reply; reply = batch.size() < most_in_one ? pool->wait({}) : std::nullopt) {
+      if (!reply->finished) throw scene::Error(scene::ErrorCode::internal, "a cell: " + reply->text);
+      for (auto& done : done_of(reply->text, plan.triangles)) batch.push_back(std::move(done));
+      hand_out();
+    }
+    if (batch.empty()) continue;
+    store.commit(batch);
     cells += static_cast<std::uint64_t>(
-        std::count_if(done.begin(), done.end(), [](const auto& d) { return d.kind == PlaceKind::cell; }));
+        std::count_if(batch.begin(), batch.end(), [](const auto& d) { return d.kind == PlaceKind::cell; }));
     progress(cells);
   }
 }

@@ -63,7 +63,8 @@ class RankPool : public WorkPool {
   }
 
   std::optional<WorkerReply> wait(std::chrono::milliseconds most) override {
-    for (const auto end = Clock::now() + most; Clock::now() < end;) {
+    const auto end = Clock::now() + most;
+    do {
       while (auto message = ranks_.receive()) {
         const auto from = static_cast<std::size_t>(message->from);
         if (message->text[0] == places_are) {
@@ -75,12 +76,12 @@ class RankPool : public WorkPool {
                            0};
       }
       if (own_->empty()) {
-        poll(nullptr, 0, static_cast<int>(look_up.count()));
-      } else if (auto reply = own_->wait(look_up)) {
+        poll(nullptr, 0, static_cast<int>(std::min(most, look_up).count()));
+      } else if (auto reply = own_->wait(std::min(most, look_up))) {
         dispatcher_.done(0);
         return reply;
       }
-    }
+    } while (Clock::now() < end);
     return std::nullopt;
   }
 
