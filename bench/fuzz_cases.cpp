@@ -3,6 +3,7 @@
 // each case, in the order of a campaign, for clues_bench_cluster.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
   fuzz::Counters counters;
   double all_seconds = 0, of_subject = 0, of_guides = 0;
   std::uint64_t all_cases = 0;
+  std::size_t all_bytes = 0, most_bytes = 0;  // of outcomes, as processes send them
   std::vector<double> of_oracles(oracles.size());
   const fuzz::GivenScenes none;
   const auto generators = fuzz::generators_named({}, none);
@@ -80,6 +82,9 @@ int main(int argc, char** argv) {
         oracles[k]->examine(exam);
         shares[k] += cpu_seconds() - before;
       }
+      const std::size_t bytes = fuzz::to_json_text(outcome).size();
+      all_bytes += bytes;
+      most_bytes = std::max(most_bytes, bytes);
       for (const auto& [counter, n] : outcome.counters) counters[counter] += n;
       times[i * generators.size() + static_cast<std::uint64_t>(&g - generators.data())] = cpu_seconds() - started;
     }
@@ -104,6 +109,7 @@ int main(int argc, char** argv) {
   for (const double s : of_oracles) fmt::print(" {:>17.1f}", 1e3 * s / static_cast<double>(all_cases));
   fmt::print("\n{} scenes in {:.1f} s of CPU time: {:.2f} a second\n", all_cases, all_seconds,
              static_cast<double>(all_cases) / all_seconds);
+  fmt::print("bytes of an outcome: {} on average, {} at most\n", all_bytes / all_cases, most_bytes);
   for (const char* counter :
        {"sight lines decided", "blocks of triangles decided in floats", "triangles decided in doubles",
         "triangles decided in whole numbers", "first-order fallbacks"})

@@ -139,14 +139,14 @@ def main():
         for kind in ("bake", "fuzz"):
             folder = pathlib.Path(name) / kind
             folder.mkdir()
-            (folder / "town.obj").write_text(town(3 if what == "same" else 5))
-            cells = "grid:4x4x1:box:0,0,0.5,12,12,2" if what == "same" else "grid:8x8x1:box:0,0,0.5,20,20,2"
+            (folder / "town.obj").write_text(town(3))
+            cells = "grid:4x4x1:box:0,0,0.5,12,12,2"
             # A program that lists nothing: there is something to find, to shrink and to store.
             work = (Work(clues, folder, "bake", ["bake", "town.obj", "--cells", cells, "--threads", "1"], 0)
                     if kind == "bake" else
                     Work(clues, folder, "fuzz", ["fuzz", "--subject", "sh -c ': > {pvs}'", "--generator", "coplanar_walls",
                                                  "--generator", "cell_contacts", "--oracle", "cell-contact", "--oracle",
-                                                 "sight-lines", "--cases", "40"], 1))
+                                                 "sight-lines", "--cases", "16"], 1))
             if what == "same":
                 wrong_commands(work)
                 same(work)
