@@ -367,10 +367,10 @@ std::string to_text(const CampaignSummary& s, const fs::path& out) {
   for (const auto& [name, value] : s.counters) {
     if (!is_a_pair(name)) text += fmt::format("{:>14}  {}\n", value, scene::printable(name));
   }
-  const PairsMet pairs = pairs_met(s.counters);
-  text += fmt::format("{:>14}  pairs of rules of {} met in one case; never met:{}\n", pairs.met, pairs.all,
-                      pairs.never.empty() ? " none" : "");
-  for (const auto& pair : pairs.never) text += fmt::format("{:>14}  {}\n", "-", pair);
+  const RulesMet met = rules_met(s.counters);
+  text += fmt::format("{:>14}  of {} pairs of rules met in one case\n", met.pairs, met.all_pairs);
+  for (const auto& rule : met.never) text += fmt::format("{:>14}  met: rule {}\n", "never", rule);
+  for (const auto& pair : met.apart) text += fmt::format("{:>14}  met together: {}\n", "never", pair);
   for (const auto& name : s.never_occurred) text += "NEVER OCCURRED: " + scene::printable(name) + "\n";
   text += fmt::format("{} cases, {} of them in this run; {} different findings{}\n", s.cases, s.cases_now,
                       s.findings.size(), s.interrupted ? "; interrupted: the same command goes on" : "");

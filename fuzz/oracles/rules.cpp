@@ -90,15 +90,6 @@ std::string pair_of(const Rule& a, const Rule& b) { return std::string(a.name) +
 
 }  // namespace
 
-const std::vector<std::string>& all_rules() {
-  static const std::vector<std::string> all = [] {
-    std::vector<std::string> names;
-    for (const Rule& r : rules) names.emplace_back(r.name);
-    return names;
-  }();
-  return all;
-}
-
 void count_rules(const Case& scene, const VisibilityMap& map, Counters& counters) {
   std::vector<const Rule*> met;
   for (const Rule& r : rules) {
@@ -110,17 +101,19 @@ void count_rules(const Case& scene, const VisibilityMap& map, Counters& counters
   }
 }
 
-PairsMet pairs_met(const Counters& counters) {
-  PairsMet out;
+RulesMet rules_met(const Counters& counters) {
+  RulesMet out;
+  const auto met = [&](const Rule& r) { return counters.contains(std::string("rule ") + r.name); };
   for (std::size_t i = 0; i < rules.size(); ++i) {
+    if (!met(rules[i])) out.never.emplace_back(rules[i].name);
     for (std::size_t k = i + 1; k < rules.size(); ++k) {
       if (rules[i].excludes != 0 && rules[i].excludes == rules[k].excludes) continue;
-      ++out.all;
+      ++out.all_pairs;
       const std::string pair = pair_of(rules[i], rules[k]);
       if (counters.contains("pair " + pair)) {
-        ++out.met;
-      } else {
-        out.never.push_back(pair);
+        ++out.pairs;
+      } else if (met(rules[i]) && met(rules[k])) {
+        out.apart.push_back(pair);
       }
     }
   }

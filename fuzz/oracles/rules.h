@@ -10,19 +10,17 @@
 
 namespace clues::fuzz {
 
-// By number, with what is meant of it: "D12 inside corner".
-const std::vector<std::string>& all_rules();
-
-// Adds "rule R" for each that was met, and "pair R + Q" for each two, in their order.
+// Adds "rule R" for each that was met, such as "rule D12 inside corner", and "pair R + Q" for each two, in their order.
 void count_rules(const Case& scene, const reference::VisibilityMap& map, Counters& counters);
 
 inline bool is_a_pair(const std::string& counter) { return counter.starts_with("pair "); }
 
-// Of all pairs of rules that can meet at all: how many, and which never did.
-struct PairsMet {
-  std::size_t met = 0, all = 0;
-  std::vector<std::string> never;  // "R + Q"
+// What a campaign met: of the pairs whose rules were each met, and that can meet at all.
+struct RulesMet {
+  std::vector<std::string> never;        // rules
+  std::size_t pairs = 0, all_pairs = 0;  // met, of all
+  std::vector<std::string> apart;        // "R + Q": each was met, and never both
 };
-PairsMet pairs_met(const Counters& counters);
+RulesMet rules_met(const Counters& counters);
 
 }  // namespace clues::fuzz
