@@ -20,7 +20,7 @@ using validate::WorkPool;
 using Clock = std::chrono::steady_clock;
 
 // MPI has nothing that waits without burning a processor, which on this node belongs to those who work.
-constexpr std::chrono::milliseconds look_up{1};
+constexpr std::chrono::milliseconds look_up{2}, look_up_at_work{20};
 
 // The first byte of a message: from rank 0
 constexpr char question_is = 'q', task_is = 't', leave_now = 'l';
@@ -140,16 +140,20 @@ std::optional<std::string> Cluster::question() {
 
 void Cluster::serve(WorkPool& own, int places, const Learn& learn) {
   ranks_->send(0, with_number(places_are, static_cast<std::int32_t>(places), {}));
-  while (true) {
+  for (int busy = 0; true;) {
     while (const auto message = ranks_->receive()) {
       if (message->text[0] == leave_now) return;
       const auto task = number_of<std::uint64_t>(message->text);
       if (learn) learn(task, rest_of(message->text));
       own.start(task);
+      ++busy;
     }
-    if (own.empty()) {
-      poll(nullptr, 0, static_cast<int>(look_up.count()));
-    } else if (auto reply = own.wait(look_up)) {
+    // With no place free nothing is to be heard but the end.
+    const auto most = busy == places ? look_up_at_work : look_up;
+    if (busy == 0) {
+      poll(nullptr, 0, static_cast<int>(most.count()));
+    } else if (auto reply = own.wait(most)) {
+      --busy;
       ranks_->send(0, with_number(reply->finished ? done_is : failed_is, reply->task, reply->text));
     }
   }

@@ -17,7 +17,7 @@ def flaws_of_script(text, clues, what):
     ran = subprocess.run(["bash", "-n"], input=text, capture_output=True, text=True)
     if ran.returncode != 0:
         yield f"{what}: {ran.stderr}"
-    commands = re.findall(r"clues (\w+)((?:[^\n]|\\\n)*)", re.sub(r"(?m)^\s*#.*", "", text))
+    commands = re.findall(r"clues (\w+)((?:\\\n|[^\n])*)", re.sub(r"(?m)^\s*#.*", "", text))
     if not commands:
         yield f"{what}: no clues in it"
     for name, words in commands:

@@ -36,7 +36,6 @@ TEST(Rules, AreCountedWhereAMapShowsThem) {
   met = rules_of(mesh, {{-0.1, -0.1, -1}, {0.1, -0.1, -1}, {0, 0.1, -1}, {0, 0, -0.5}});
   EXPECT_EQ(met["rule D2 solid cell"], 1U);
   EXPECT_EQ(met["rule D16 triangle cut by another"], 1U);
-  EXPECT_EQ(met["rule D12 SE-MV"], 1U);
 }
 
 TEST(Rules, WhatNeverMetIsNamed) {
