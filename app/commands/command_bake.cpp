@@ -131,9 +131,11 @@ int run_bake(const BakeRequest& request) {
   std::optional<std::string> question;
   if (!cluster.leads() && !(question = cluster.question())) return fine;
   const Shard shard = parse_shard(request.shard);
-  require_writable_parent(request.out);
-  require_writable_parent(request.json.file());
-  require_apart({&request.out, &request.json.file()}, {&request.scene, &request.cells});
+  if (cluster.leads()) {  // the others write nothing
+    require_writable_parent(request.out);
+    require_writable_parent(request.json.file());
+    require_apart({&request.out, &request.json.file()}, {&request.scene, &request.cells});
+  }
   const auto sha256 = scene::sha256_of_file(request.scene);
   const auto level = scene::read_level(request.scene);
   const auto scene = level ? scene::scene_of_level(*level).scene : scene::read_scene(request.scene);
