@@ -33,7 +33,7 @@ CHAPTERS = {
                  "motion", "multires", "stream"],
     "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets",
              "motion", "multires"],
-    "app": [".", "map", "view", "engine", "bake", "demo", "maps", "motion", "stream", "commands"],
+    "app": [".", "cluster", "cluster/mpi", "map", "view", "engine", "bake", "demo", "maps", "motion", "stream", "commands"],
 }
 NO_CHAPTERS = {"validate/adapters"}  # to be copied; they include nothing of ours
 MOST_FILES = 22

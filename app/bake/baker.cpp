@@ -87,80 +87,117 @@ struct Part {
   }
 };
 
-class Baker {
+// What is known of places, and where goes what is found. Called by several threads.
+class Places {
  public:
-  Baker(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, scene::BakeStore& store,
-        const ListerMaker& make_lister, BakeShard shard, const std::atomic<bool>& stop, const BakeProgress& progress)
-      : scene_(scene),
-        plan_(plan),
-        store_(store),
-        make_lister_(make_lister),
-        shard_(shard),
-        stop_(stop),
-        progress_(progress),
-        below_(plan.nodes.size()) {
-    for (std::uint32_t i = 1; i < plan.nodes.size(); ++i) below_[plan.nodes[i].node].nodes.push_back(i);
-    for (std::uint32_t i = 0; i < plan.cells.size(); ++i) below_[plan.cells[i].node].cells.push_back(i);
-    for (std::uint32_t i = 0; i < plan.cells.size(); ++i) done_ += store.has(PlaceKind::cell, i) ? 1 : 0;
+  virtual ~Places() = default;
+  virtual bool has(PlaceKind kind, std::uint32_t index) const = 0;
+  virtual std::optional<scene::BakedPlace> find(PlaceKind kind, std::uint32_t index) const = 0;
+  virtual void keep(scene::BakeStore::Done done) = 0;
+};
+
+class PlacesOfAStore : public Places {
+ public:
+  PlacesOfAStore(scene::BakeStore& store, std::size_t cells, const BakeProgress& progress)
+      : store_(store), progress_(progress) {
+    for (std::uint32_t i = 0; i < cells; ++i) done_ += store.has(PlaceKind::cell, i) ? 1 : 0;
   }
-
-  void run() {
-    if (done_ == plan_.cells.size()) return;
-    tbb::task_group tasks;
-    const auto whole = std::make_shared<const Part>(Part{make_lister_(scene_), {}});
-    map_below(0, whole, tasks);
-    tasks.wait();
+  bool has(PlaceKind kind, std::uint32_t index) const override {
+    const std::lock_guard lock(mutex_);
+    return store_.has(kind, index);
   }
-
- private:
-  struct Below {
-    Ids nodes, cells;
-  };
-
-  bool is_ours(std::uint32_t top) const { return top % shard_.count == shard_.index; }
-  std::optional<scene::BakedPlace> stored(PlaceKind kind, std::uint32_t index) const {
+  std::optional<scene::BakedPlace> find(PlaceKind kind, std::uint32_t index) const override {
     const std::lock_guard lock(mutex_);
     return store_.find(kind, index);
   }
-  bool has_cell(std::uint32_t cell) const {
+  void keep(scene::BakeStore::Done done) override {
     const std::lock_guard lock(mutex_);
-    return store_.has(PlaceKind::cell, cell);
+    const bool is_cell = done.kind == PlaceKind::cell;
+    store_.commit({std::move(done)});
+    if (is_cell) progress_(++done_);
   }
+  std::uint64_t done() const { return done_; }
+
+ private:
+  scene::BakeStore& store_;
+  const BakeProgress& progress_;
+  mutable std::mutex mutex_;
+  std::uint64_t done_ = 0;
+};
+
+// Those of one piece, which one thread maps.
+class PlacesInMemory : public Places {
+ public:
+  explicit PlacesInMemory(std::vector<scene::BakeStore::Done> known) : all_(std::move(known)), known_(all_.size()) {}
+  bool has(PlaceKind kind, std::uint32_t index) const override { return at(kind, index) != all_.end(); }
+  std::optional<scene::BakedPlace> find(PlaceKind kind, std::uint32_t index) const override {
+    const auto found = at(kind, index);
+    return found == all_.end() ? std::nullopt : std::optional(found->place);
+  }
+  void keep(scene::BakeStore::Done done) override { all_.push_back(std::move(done)); }
+  std::vector<scene::BakeStore::Done> kept() && {
+    all_.erase(all_.begin(), all_.begin() + static_cast<std::ptrdiff_t>(known_));
+    return std::move(all_);
+  }
+
+ private:
+  std::vector<scene::BakeStore::Done>::const_iterator at(PlaceKind kind, std::uint32_t index) const {
+    return std::find_if(all_.begin(), all_.end(), [&](const auto& d) { return d.kind == kind && d.index == index; });
+  }
+
+  std::vector<scene::BakeStore::Done> all_;
+  std::size_t known_;
+};
+
+struct Below {
+  Ids nodes, cells;
+};
+
+std::vector<Below> below_in(const scene::BakePlan& plan) {
+  std::vector<Below> below(plan.nodes.size());
+  for (std::uint32_t i = 1; i < plan.nodes.size(); ++i) below[plan.nodes[i].node].nodes.push_back(i);
+  for (std::uint32_t i = 0; i < plan.cells.size(); ++i) below[plan.cells[i].node].cells.push_back(i);
+  return below;
+}
+
+class Baker {
+ public:
+  Baker(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, const std::vector<Below>& below, Places& places,
+        const ListerMaker& make_lister, const std::atomic<bool>& stop)
+      : scene_(scene), plan_(plan), below_(below), places_(places), make_lister_(make_lister), stop_(stop) {}
+
+  // A piece that is not done.
+  void map_piece(PlaceKind kind, std::uint32_t index, const std::shared_ptr<const Part>& whole,
+                 tbb::task_group& tasks) {
+    if (kind == PlaceKind::node) return map_node(index, whole, tasks);
+    map_cell(index, *whole, {});
+  }
+
+ private:
   bool is_done(std::uint32_t node) const {
     return std::all_of(below_[node].cells.begin(), below_[node].cells.end(),
-                       [&](std::uint32_t c) { return has_cell(c); }) &&
+                       [&](std::uint32_t c) { return places_.has(PlaceKind::cell, c); }) &&
            std::all_of(below_[node].nodes.begin(), below_[node].nodes.end(),
                        [&](std::uint32_t n) { return is_done(n); });
   }
 
   void keep(PlaceKind kind, std::uint32_t index, const CellList& found, Ids list) {
-    const std::lock_guard lock(mutex_);
-    store_.commit({{kind, index, {std::move(list), found.fallbacks, found.mapped, found.passes}}});
-    if (kind != PlaceKind::cell) return;
-    progress_(++done_);
+    places_.keep({kind, index, {std::move(list), found.fallbacks, found.mapped, found.passes}});
   }
 
   void map_below(std::uint32_t node, const std::shared_ptr<const Part>& part, tbb::task_group& tasks) {
     for (const auto child : below_[node].nodes) {
-      if ((node == 0 && !is_ours(child)) || is_done(child)) continue;
-      tasks.run([this, child, part, &tasks] { map_node(child, part, tasks); });
-    }
-    // At the root cells have nothing in common: each is a task.
-    if (node == 0) {
-      for (const auto cell : below_[0].cells) {
-        if (is_ours(cell)) tasks.run([this, cell, part] { map_cell(cell, *part, {}); });
-      }
-      return;
+      if (!is_done(child)) tasks.run([this, child, part, &tasks] { map_node(child, part, tasks); });
     }
     Ids guess;
     for (const auto cell : below_[node].cells) guess = map_cell(cell, *part, guess);
   }
 
   void map_node(std::uint32_t node, const std::shared_ptr<const Part>& part, tbb::task_group& tasks) {
-    if (stop_) return;
+    if (stop_ || is_done(node)) return;
     if (plan_.nodes[node].points.empty()) return map_below(node, part, tasks);
     Ids ids;
-    if (auto there = stored(PlaceKind::node, node)) {
+    if (auto there = places_.find(PlaceKind::node, node)) {
       ids = std::move(there->list);
     } else {
       const CellList found = part->list(plan_.nodes[node].points, {});
@@ -173,7 +210,7 @@ class Baker {
 
   // All that is visible, of which the store gets what counts.
   Ids map_cell(std::uint32_t cell, const Part& part, const Ids& guess) {
-    if (auto there = stored(PlaceKind::cell, cell)) return std::move(there->list);
+    if (auto there = places_.find(PlaceKind::cell, cell)) return std::move(there->list);
     if (stop_) return {};
     const CellList found = part.list(plan_.cells[cell].points, guess);
     Ids counting;
@@ -185,17 +222,57 @@ class Baker {
 
   const scene::FlaggedMesh& scene_;
   const scene::BakePlan& plan_;
-  scene::BakeStore& store_;
+  const std::vector<Below>& below_;
+  Places& places_;
   const ListerMaker& make_lister_;
-  const BakeShard shard_;
   const std::atomic<bool>& stop_;
-  const BakeProgress& progress_;
-  std::vector<Below> below_;
-  mutable std::mutex mutex_;
-  std::uint64_t done_ = 0;
 };
 
+void add_below(const std::vector<Below>& below, std::uint32_t node, BakePiece& piece) {
+  piece.nodes.push_back(node);
+  piece.cells.insert(piece.cells.end(), below[node].cells.begin(), below[node].cells.end());
+  for (const auto child : below[node].nodes) add_below(below, child, piece);
+}
+
 }  // namespace
+
+struct PieceBaker::Whole {
+  const scene::FlaggedMesh& scene;
+  const scene::BakePlan& plan;
+  const ListerMaker& make_lister;
+  std::vector<Below> below;
+  std::shared_ptr<const Part> part;
+};
+
+PieceBaker::PieceBaker(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, const ListerMaker& make_lister)
+    : whole_(new Whole{scene, plan, make_lister, below_in(plan),
+                       std::make_shared<const Part>(Part{make_lister(scene), {}})}) {}
+PieceBaker::~PieceBaker() = default;
+
+std::vector<scene::BakeStore::Done> PieceBaker::map(const BakePiece& piece,
+                                                    std::vector<scene::BakeStore::Done> known) const {
+  const std::atomic<bool> never{false};
+  PlacesInMemory places(std::move(known));
+  exact::by_threads(1, [&] {
+    tbb::task_group tasks;
+    Baker(whole_->scene, whole_->plan, whole_->below, places, whole_->make_lister, never)
+        .map_piece(piece.kind, piece.index, whole_->part, tasks);
+    tasks.wait();
+  });
+  return std::move(places).kept();
+}
+
+std::vector<BakePiece> pieces_of(const scene::BakePlan& plan) {
+  std::vector<BakePiece> pieces;
+  const auto below = below_in(plan);
+  for (const auto node : below[0].nodes) {
+    BakePiece piece{PlaceKind::node, node, {}, {}};
+    add_below(below, node, piece);
+    pieces.push_back(std::move(piece));
+  }
+  for (const auto cell : below[0].cells) pieces.push_back({PlaceKind::cell, cell, {}, {cell}});
+  return pieces;
+}
 
 ListerMaker fast_lister() {
   return [](scene::FlaggedMesh scene) { return std::make_unique<FastLister>(std::move(scene)); };
@@ -205,9 +282,20 @@ ListerMaker exact_lister() {
 }
 
 void bake(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, scene::BakeStore& store,
-          const ListerMaker& make_lister, BakeShard shard, const std::atomic<bool>& stop,
-          const BakeProgress& progress) {
-  Baker(scene, plan, store, make_lister, shard, stop, progress).run();
+          const ListerMaker& make_lister, Shard shard, const std::atomic<bool>& stop, const BakeProgress& progress) {
+  PlacesOfAStore places(store, plan.cells.size(), progress);
+  if (places.done() == plan.cells.size()) return;
+  const auto below = below_in(plan);
+  Baker baker(scene, plan, below, places, make_lister, stop);
+  const auto whole = std::make_shared<const Part>(Part{make_lister(scene), {}});
+  tbb::task_group tasks;
+  for (const auto& piece : pieces_of(plan)) {
+    if (piece.index % shard.count != shard.index) continue;
+    tasks.run([&baker, kind = piece.kind, index = piece.index, &whole, &tasks] {
+      baker.map_piece(kind, index, whole, tasks);
+    });
+  }
+  tasks.wait();
 }
 
 }  // namespace clues::app

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "app/shard.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/mesh/flagged_mesh.h"
 
@@ -37,14 +38,33 @@ ListerMaker exact_lister();
 // Called after each commit with how many cells are done.
 using BakeProgress = std::function<void(std::uint64_t cells)>;
 
-// A share of the work: of the cells and groups of cells that are mapped in the scene, those whose number leaves `index` when divided by `count`.
-struct BakeShard {
-  std::uint32_t index = 0, count = 1;
+// A part of a bake that needs nothing of the others: a node of the root with all that is below it, or a cell of the root.
+struct BakePiece {
+  scene::PlaceKind kind = scene::PlaceKind::cell;
+  std::uint32_t index = 0;
+  std::vector<std::uint32_t> nodes, cells;  // all of it
 };
+std::vector<BakePiece> pieces_of(const scene::BakePlan& plan);
 
-// `plan` is what the store was made with. Once `stop` is set, what is begun is finished and nothing else is begun. Lists do not depend on the number of threads, nor on what was there already. Throws what kernels and the store throw; what was
+// `plan` is what the store was made with. Once `stop` is set, what is begun is finished and nothing else is begun. Of the pieces those of `shard` are done,
+// by number. Lists do not depend on the number of threads, nor on what was there already. Throws what kernels and the store throw; what was
 // committed stays.
 void bake(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, scene::BakeStore& store,
-          const ListerMaker& make_lister, BakeShard shard, const std::atomic<bool>& stop, const BakeProgress& progress);
+          const ListerMaker& make_lister, Shard shard, const std::atomic<bool>& stop, const BakeProgress& progress);
+
+// The same, a piece at a time, away from the store.
+class PieceBaker {
+ public:
+  PieceBaker(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, const ListerMaker& make_lister);
+  ~PieceBaker();
+  PieceBaker(const PieceBaker&) = delete;
+  PieceBaker& operator=(const PieceBaker&) = delete;
+  // What is not among `known`, by one thread. Several may ask at once.
+  std::vector<scene::BakeStore::Done> map(const BakePiece& piece, std::vector<scene::BakeStore::Done> known) const;
+
+ private:
+  struct Whole;
+  std::unique_ptr<const Whole> whole_;
+};
 
 }  // namespace clues::app

@@ -13,16 +13,18 @@
 
 #include "app/bake/bake_cells.h"
 #include "app/bake/bake_export.h"
+#include "app/bake/bake_ranks.h"
 #include "app/bake/baker.h"
 #include "app/bake/cell_groups.h"
+#include "app/cluster/cluster.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/interrupt.h"
 #include "app/json_output.h"
 #include "app/progress.h"
+#include "app/shard.h"
 #include "exact/threads.h"
 #include "scene/bakes/bake_store.h"
-#include "scene/formats/number.h"
 #include "scene/levels/bsp_scene.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
@@ -124,21 +126,16 @@ void report(const BakeRequest& request, const Summary& s, const std::string& not
                   s.average(), s.least, s.most, s.fallbacks, fs::file_size(request.out), note));
 }
 
-BakeShard parse_shard(const std::string& text) {
-  if (text.empty()) return {};
-  const auto slash = text.find('/');
-  const auto index = scene::parse_integer(text.substr(0, slash));
-  const auto count = slash == std::string::npos ? std::nullopt : scene::parse_integer(text.substr(slash + 1));
-  if (!index || !count || *index < 1 || *index > *count || *count > 1000000)
-    throw Error(ErrorCode::bad_argument, "--shard " + text + ": expected I/N, with I from 1 to N");
-  return {static_cast<std::uint32_t>(*index - 1), static_cast<std::uint32_t>(*count)};
-}
-
 int run_bake(const BakeRequest& request) {
-  const BakeShard shard = parse_shard(request.shard);
-  require_writable_parent(request.out);
-  require_writable_parent(request.json.file());
-  require_apart({&request.out, &request.json.file()}, {&request.scene, &request.cells});
+  Cluster cluster;
+  std::optional<std::string> question;
+  if (!cluster.leads() && !(question = cluster.question())) return fine;
+  const Shard shard = parse_shard(request.shard);
+  if (cluster.leads()) {  // the others write nothing
+    require_writable_parent(request.out);
+    require_writable_parent(request.json.file());
+    require_apart({&request.out, &request.json.file()}, {&request.scene, &request.cells});
+  }
   const auto sha256 = scene::sha256_of_file(request.scene);
   const auto level = scene::read_level(request.scene);
   const auto scene = level ? scene::scene_of_level(*level).scene : scene::read_scene(request.scene);
@@ -146,6 +143,12 @@ int run_bake(const BakeRequest& request) {
     throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
   const auto plan =
       plan_of(request, sha256, scene, parse_bake_cells(request.cells, request.scene, scene, level, up_of(request)));
+  const auto make_lister = request.kernel == "fast" ? fast_lister() : exact_lister();
+  const int threads = cluster.threads(request.threads);
+  if (!cluster.leads()) {
+    serve_bake(cluster, threads, scene, plan, make_lister, *question);
+    return fine;
+  }
   {
     scene::BakeStore store(request.out, plan);
     if (!store.is_finished()) {
@@ -155,10 +158,15 @@ int run_bake(const BakeRequest& request) {
       std::uint64_t done = 0;
       {
         ProgressBar bar("clues bake");
-        exact::by_threads(request.threads, [&] {
-          bake(scene, plan, store, request.kernel == "fast" ? fast_lister() : exact_lister(), shard, stop,
-               [&](std::uint64_t cells) { bar.show("cells", done = cells, plan.cells.size()); });
-        });
+        const BakeProgress progress = [&](std::uint64_t cells) {
+          bar.show(cluster.alone() ? "cells" : fmt::format("cells by {} ranks", cluster.size()), done = cells,
+                   plan.cells.size());
+        };
+        if (!cluster.alone()) {
+          bake_by_ranks(cluster, threads, scene, plan, store, make_lister, shard, stop, progress);
+        } else {
+          exact::by_threads(threads, [&] { bake(scene, plan, store, make_lister, shard, stop, progress); });
+        }
       }
       if (stop)
         throw Unfinished(fmt::format("{}: interrupted with {} of {} cells; the same command goes on", request.out, done,
@@ -198,7 +206,7 @@ void add_bake_command(CLI::App& program, int& status) {
       ->capture_default_str();
   command->add_option("--up", request->up, "Which way is up, for --cells auto (default: y in glTF files, else z)")
       ->check(CLI::IsMember({"y", "z"}));
-  command->add_option("--threads", request->threads, "Threads; 0: all")
+  command->add_option("--threads", request->threads, "Threads, of each rank under mpirun; 0: all")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command
@@ -230,7 +238,8 @@ void add_bake_command(CLI::App& program, int& status) {
       "  clues bake level.bsp --cells leaves -o level.bake --export engine\n"
       "  clues bake town.obj --cells auto:16:2 -o walkable.bake --json\n"
       "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 --shard 1/2 -o first.bake\n"
-      "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 --merge first.bake -o all.bake\n\n"
+      "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 --merge first.bake -o all.bake\n"
+      "  mpirun -n 2 clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 -o ranks.bake   # docs/clusters.md\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   3 interrupted: the same command goes on   4 an oracle contradicted itself");
   command->callback([request, &status] { status = run_bake(*request); });

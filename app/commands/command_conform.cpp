@@ -1,7 +1,6 @@
 // clues conform: runs the conformance suite against an implementation, and says what came of it.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "app/common.h"
 #include "app/json_output.h"
 #include "app/progress.h"
+#include "app/shard.h"
 #include "scene/duration.h"
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
@@ -46,18 +46,6 @@ struct ConformRequest {
   throw Error(ErrorCode::bad_argument, message + " (see `clues conform --help`)");
 }
 
-// "3/8" -> 3 of 8.
-void parse_shard(const std::string& text, validate::Selection& selection) {
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, selection.shard);
-  const bool has_slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
-  const auto second = has_slash ? std::from_chars(first.ptr + 1, end, selection.shards) : first;
-  if (!has_slash || second.ec != std::errc() || second.ptr != end || selection.shard < 1 ||
-      selection.shard > selection.shards) {
-    fail_usage("--shard " + text + ": write it as I/N, with 1 <= I <= N");
-  }
-}
-
 validate::Selection selection_of(const ConformRequest& request) {
   validate::Selection selection;
   selection.case_globs = request.globs;
@@ -65,7 +53,9 @@ validate::Selection selection_of(const ConformRequest& request) {
   selection.topics = request.topics;
   if (request.level != "core" && request.level != "full") fail_usage("--level " + request.level + ": use core or full");
   selection.core_only = request.level == "core";
-  if (!request.shard.empty()) parse_shard(request.shard, selection);
+  const Shard shard = parse_shard(request.shard);
+  selection.shard = shard.index + 1;
+  selection.shards = shard.count;
   return selection;
 }
 

@@ -8,10 +8,12 @@
 #include <memory>
 #include <string>
 
+#include "app/cluster/cluster.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/interrupt.h"
 #include "app/progress.h"
+#include "app/shard.h"
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/generators.h"
 #include "fuzz/findings/dials.h"
@@ -21,6 +23,7 @@
 #include "scene/duration.h"
 #include "scene/messages/error.h"
 #include "scene/messages/printable.h"
+#include "validate/processes/workers.h"
 
 namespace clues::app {
 namespace {
@@ -33,20 +36,53 @@ struct FuzzRequest {
   std::string subject = "reference";
   std::vector<std::string> scenes;
   std::uint64_t cases = 0;
-  std::string time;
+  std::string time, shard, agreement;
   bool no_dials = false;
 };
 
 constexpr const char* usual_time = "60";
 
+// "fast" and "1/16": "fast/16".
+std::string compared(const std::string& subject, const std::string& share) {
+  if (share.empty() || (share == "1/1" && subject == "fast")) return subject;
+  const std::string name = subject + (share.starts_with("1/") ? share.substr(1) : "");
+  if (subject != "fast" || name == "fast" || !fuzz::cases_for_a_comparison(name))
+    throw Error(ErrorCode::bad_argument, "--agreement " + share + ": give 1/N, N up to 1000000, with --subject fast");
+  return name;
+}
+
 int run_fuzz(FuzzRequest& request) {
+  Cluster cluster;
+  std::optional<std::string> question;
+  if (!cluster.leads() && !(question = cluster.question())) return fine;
   auto& options = request.options;
   if (request.cases > 0) options.cases = request.cases;
   if (request.time.empty() && !options.cases) request.time = usual_time;
   if (!request.time.empty()) options.time = scene::parse_duration("--time", request.time);
   options.dials = !request.no_dials;
-  const auto subject = fuzz::make_subject(request.subject);
+  const Shard shard = parse_shard(request.shard);
+  options.shard = shard.index;
+  options.shards = shard.count;
+  if (shard.count > 1 && !options.cases)
+    throw Error(ErrorCode::bad_argument, "--shard: say with --cases where all shards end");
+  if (shard.count > 1 && options.errors > 0)
+    throw Error(ErrorCode::bad_argument, "--shard: a shard cannot know when all have --errors; leave that out");
+  const auto subject = fuzz::make_subject(compared(request.subject, request.agreement));
   options.given = fuzz::read_given_scenes(request.scenes);
+  if (!cluster.leads()) {
+    fuzz::serve_campaign(options, *subject, [&](const std::string& plan, const fuzz::CaseWork& work) {
+      if (plan != question) throw Error(ErrorCode::bad_argument, "clues fuzz: other scenes than on the first rank");
+      validate::Workers own(options.jobs, work, options.time_for_one);
+      cluster.serve(own, options.jobs, nullptr);
+    });
+    return fine;
+  }
+  if (!cluster.alone()) {
+    options.pool = [&](const std::string& plan, const fuzz::CaseWork& work, std::chrono::seconds time_for_one) {
+      return cluster.pool(plan, std::make_unique<validate::Workers>(options.jobs, work, time_for_one), options.jobs,
+                          nullptr, nullptr);
+    };
+  }
   ProgressBar bar("clues fuzz");
   const auto begin = std::chrono::steady_clock::now();
   std::uint64_t first = UINT64_MAX;
@@ -141,7 +177,8 @@ std::string fuzz_footer() {
       "  Case n is a pure function of the seed and n, so findings do not depend on --jobs.\n"
       "\nSUBJECT\n"
       "  reference      the exact first-order reference of clues (default)\n"
-      "  fast           the fast path, compared with the reference too\n"
+      "  fast           the fast path, compared with the reference too; \"fast/16\", or --agreement 1/16: in one case\n"
+      "                 of 16, which the case's name says\n"
       "  subdivided, backprojected\n"
       "                 the reference refined to depth 2, its hidden regions included\n"
       "  fast:subdivided, fast:backprojected\n"
@@ -161,9 +198,14 @@ std::string fuzz_footer() {
          "\nEXAMPLES\n"
          "  clues fuzz --time 10m --jobs 2 --out fuzz-out\n"
          "  clues fuzz --subject './bake {scene} {cell} -o {pvs}' --seed 7 --cases 1000 --errors 5 --out fuzz-bake\n"
+         "  clues fuzz --subject fast --agreement 1/16 --cases 400 --out fuzz-quick\n"
          "  clues fuzz --generator axis_boxes --oracle sight-lines --cases 50 --out fuzz-boxes\n"
          "  clues fuzz --generator umbrellas:1 --cases 50 --out fuzz-gaps            # gaps of one ulp only\n"
          "  clues fuzz --scenes vectors --scenes meshes --time 10m --out fuzz-scenes\n"
+         "  clues fuzz --cases 60 --shard 1/2 --out fuzz-first\n"
+         "  clues fuzz --cases 60 --shard 2/2 --out fuzz-second\n"
+         "  clues fuzz --cases 60 --merge fuzz-first fuzz-second --out fuzz-both\n"
+         "  mpirun -n 2 clues fuzz --cases 60 --out fuzz-ranks               # docs/clusters.md\n"
          "\nFILES\n"
          "  DIR/findings.sqlite, and a folder for each finding (docs/fuzzing.md)\n"
          "\nEXIT CODES\n"
@@ -197,7 +239,7 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   fuzz->add_option("--time", request->time,
                    "For new cases: 90 or 90s, 10m, 2h (default 60 without --cases); shrinking comes on top")
       ->type_name("T");
-  fuzz->add_option("--jobs", options.jobs, "Processes that work at once (default 1)")
+  fuzz->add_option("--jobs", options.jobs, "Processes that work at once, of each rank under mpirun (default 1)")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
   fuzz->add_option("--generator", options.generators,
@@ -208,11 +250,21 @@ void add_fuzz_commands(CLI::App& program, int& status) {
       ->type_name("PATH");
   fuzz->add_flag("--no-dials", request->no_dials,
                  "All settings of the engines as usual, all scenes where they are made");
+  fuzz->add_option("--agreement", request->agreement,
+                   "With --subject fast: ask the reference about one case in N only (default 1/1)")
+      ->type_name("1/N");
   fuzz->add_option("--oracle", options.oracles, "Only this oracle; may be repeated")->type_name("NAME");
   fuzz->add_option("--errors", options.errors, "Stop at this many different findings; 0: never (default)")
       ->type_name("N");
   fuzz->add_flag("--require-coverage", options.require_coverage,
                  "Exit with 3 where something that the campaign must meet never occurred, however short it was");
+  auto* shard = fuzz->add_option("--shard", request->shard,
+                                 "Judge only a share of the --cases, the I-th of N, for one of N machines")
+                    ->type_name("I/N");
+  fuzz->add_option("--merge", options.merged,
+                   "Take over first what all shards of this campaign hold, once they are done")
+      ->type_name("DIR...")
+      ->excludes(shard);
   fuzz->add_option("--out", options.out, "Folder of the campaign (default fuzz-out)")->type_name("DIR");
   fuzz->footer(fuzz_footer());
   fuzz->callback([request, &status] { status = run_fuzz(*request); });

@@ -9,7 +9,9 @@
 
 #include "fuzz/campaign/generators.h"
 #include "fuzz/findings/dials.h"
+#include "fuzz/findings/store_content.h"
 #include "fuzz/oracles/oracle.h"
+#include "fuzz/oracles/rules.h"
 #include "fuzz/shrinking/finding_folder.h"
 #include "scene/json_reader.h"
 #include "scene/messages/error.h"
@@ -22,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using scene::Error;
+using scene::ErrorCode;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds look_up{200};
@@ -29,23 +33,56 @@ constexpr std::chrono::milliseconds look_up{200};
 constexpr std::uint64_t rounds_to_judge = 4, least_to_judge = 100;
 
 std::string plan_of(const CampaignOptions& options, const std::vector<NamedGenerator>& generators,
-                    const std::vector<const Oracle*>& oracles, const Subject& subject) {
+                    const std::vector<const Oracle*>& oracles, const Subject& subject, std::uint64_t shard,
+                    std::uint64_t shards) {
   json plan{
       {"seed", options.seed}, {"first", options.first}, {"subject", subject.name()}, {"scenes", options.given.hashes}};
   if (options.dials) plan["dials"] = true;
+  if (shards > 1) plan["shard"] = fmt::format("{}/{}", shard + 1, shards);
   for (const auto& g : generators) plan["generators"].push_back(g.name);
   for (const Oracle* o : oracles) plan["oracles"].push_back(o->name());
   return plan.dump();
 }
+
+// What the cases are, and how one is judged.
+class Cases {
+ public:
+  Cases(const CampaignOptions& options, const Subject& subject)
+      : options_(options),
+        subject_(subject),
+        generators_(generators_named(options.generators, options.given)),
+        oracles_(oracles_named(options.oracles)) {}
+
+  std::string plan(std::uint64_t shard, std::uint64_t shards) const {
+    return plan_of(options_, generators_, oracles_, subject_, shard, shards);
+  }
+
+  Case make(std::uint64_t number) const {
+    const auto& g = generators_[number % generators_.size()];
+    Case made = g.make(options_.seed, options_.first + number / generators_.size());
+    return options_.dials ? with_dials(std::move(made), subject_.takes_dials()) : made;
+  }
+
+  std::string judged(std::uint64_t number) const { return to_json_text(judge_case(make(number), subject_, oracles_)); }
+
+  const std::vector<NamedGenerator>& generators() const { return generators_; }
+  const std::vector<const Oracle*>& oracles() const { return oracles_; }
+
+ private:
+  const CampaignOptions& options_;
+  const Subject& subject_;
+  std::vector<NamedGenerator> generators_;
+  std::vector<const Oracle*> oracles_;
+};
 
 class Campaign {
  public:
   Campaign(const CampaignOptions& options, const Subject& subject)
       : options_(options),
         subject_(subject),
-        generators_(generators_named(options.generators, options.given)),
-        oracles_(oracles_named(options.oracles)),
-        store_(made(options.out) / "findings.sqlite", plan_of(options, generators_, oracles_, subject)) {}
+        cases_(options, subject),
+        file_(made(options.out) / "findings.sqlite"),
+        store_(with_shards(), cases_.plan(options.shard, options.shards)) {}
 
   CampaignSummary run() {
     const auto begin = Clock::now();
@@ -53,19 +90,21 @@ class Campaign {
     for (const auto& f : store_.findings()) signatures_.insert(f.finding.signature());
     run_cases();
     CampaignSummary summary;
+    summary.is_shard = options_.shards > 1;
     summary.subject = subject_.name();
     summary.seconds_now = std::chrono::duration<double>(Clock::now() - begin).count();
-    if (!stopped()) save_findings();
+    if (!stopped() && !summary.is_shard) save_findings();
     summary.interrupted = stopped();
-    summary.cases = store_.cases_done();
-    summary.cases_now = summary.cases - before;
+    summary.cases = ours_below(store_.cases_done());
+    summary.cases_now = summary.cases - ours_below(before);
     summary.counters = store_.counters();
     summary.findings = store_.findings();
     summary.contradictions = store_.contradictions();
     summary.never_occurred = never_occurred(summary.counters);
-    summary.generators = generators_.size();
-    summary.enough = std::max(rounds_to_judge * generators_.size(), least_to_judge);
-    summary.judged = options_.require_coverage || summary.cases >= summary.enough;
+    summary.generators = cases_.generators().size();
+    summary.enough = std::max(rounds_to_judge * cases_.generators().size(), least_to_judge);
+    summary.judged = !summary.is_shard && (options_.require_coverage || summary.cases >= summary.enough);
+    store_.finish();
     return summary;
   }
 
@@ -81,44 +120,85 @@ class Campaign {
   bool stopped() const { return options_.stop && options_.stop->load(); }
   bool enough_errors() const { return options_.errors > 0 && signatures_.size() >= options_.errors; }
 
-  Case make(std::uint64_t number) const {
-    const auto& g = generators_[number % generators_.size()];
-    Case made = g.make(options_.seed, options_.first + number / generators_.size());
-    return options_.dials ? with_dials(std::move(made), subject_.takes_dials()) : made;
+  // How many of the cases below this number are of this shard.
+  std::uint64_t ours_below(std::uint64_t number) const {
+    return (number + options_.shards - 1 - options_.shard) / options_.shards;
+  }
+
+  // The store, which holds what all shards hold before anything else is done with it.
+  const fs::path& with_shards() const {
+    if (options_.merged.empty()) return file_;
+    std::vector<StoreContent> shards(options_.merged.size());
+    for (const auto& folder : options_.merged) {
+      auto content = read_store(folder / "findings.sqlite");
+      std::size_t i = 0;
+      while (i < shards.size() && content.plan != cases_.plan(i, shards.size())) ++i;
+      if (i == shards.size() || !shards[i].plan.empty())
+        throw Error(ErrorCode::bad_argument,
+                    fmt::format("--merge {}: is {}; name the folders of all shards of this campaign, each once",
+                                folder.string(),
+                                i < shards.size() ? std::string("a shard that was named already")
+                                                  : fmt::format("no shard of {} of this campaign: {}", shards.size(),
+                                                                scene::printable(content.plan, 400))));
+      shards[i] = std::move(content);
+    }
+    for (std::size_t i = 0; i < shards.size(); ++i) {
+      if (shards[i].cases_done == shards[0].cases_done) continue;
+      throw Error(ErrorCode::bad_argument,
+                  fmt::format("--merge: shard 1/{} has done the cases below {}, and shard {}/{} those below {}; repeat "
+                              "their commands with the same --cases",
+                              shards.size(), shards[0].cases_done, i + 1, shards.size(), shards[i].cases_done));
+    }
+    const auto all = merged(shards, cases_.plan(0, 1));
+    // What is there already may be further: its findings have been shrunk.
+    if (Store(file_, all.plan).cases_done() < all.cases_done) write_store(file_, all);
+    return file_;
   }
 
   void run_cases() {
-    std::uint64_t next = store_.cases_done();
+    const std::uint64_t step = options_.shards, done = store_.cases_done();
+    std::uint64_t next = ours_below(done) * step + options_.shard;
     const auto end = options_.time ? Clock::now() + *options_.time : Clock::time_point::max();
     const std::uint64_t last = options_.cases.value_or(UINT64_MAX);
-    if (next >= last || enough_errors()) return;
-    validate::Workers workers(
-        options_.jobs, [this](std::uint64_t n) { return to_json_text(judge_case(make(n), subject_, oracles_)); },
-        options_.time_for_one);
+    if (done >= last || enough_errors()) return;
+    const auto workers = new_pool();
     std::uint64_t expected = next;  // the case to go into the store next
     std::map<std::uint64_t, Outcome> early;
-    std::vector<Outcome> block;
+    std::vector<Judged> block;
     const auto commit = [&] {
-      if (!block.empty()) store_.commit(block);
+      const std::uint64_t below = std::min(expected, last);
+      if (!block.empty() || below > store_.cases_done()) store_.commit(block, below);
       block.clear();
     };
     while (true) {
-      while (workers.idle() && next < last && !stopped() && Clock::now() < end) workers.start(next++);
-      if (workers.empty()) break;
-      const auto reply = workers.wait(look_up);
+      while (workers->idle() && next < last && !stopped() && Clock::now() < end) {
+        workers->start(next);
+        next += step;
+      }
+      if (workers->empty()) break;
+      const auto reply = workers->wait(look_up);
       if (!reply) continue;
       early[reply->task] = reply->finished ? outcome_from_json_text(reply->text) : lost(reply->task, reply->text);
-      for (auto at = early.find(expected); at != early.end(); at = early.find(++expected)) {
+      for (auto at = early.find(expected); at != early.end(); at = early.find(expected)) {
         for (const Finding& f : at->second.findings) signatures_.insert(f.signature());
-        block.push_back(std::move(at->second));
+        block.push_back({expected, std::move(at->second)});
         early.erase(at);
+        expected += step;
         if (enough_errors()) return commit();
         if (block.size() >= options_.block) commit();
       }
       if (options_.progress)
-        options_.progress(fmt::format("cases, {} findings", signatures_.size()), expected, std::min(last, next));
+        options_.progress(fmt::format("cases, {} findings", signatures_.size()), ours_below(expected),
+                          ours_below(std::min(last, next)));
     }
     commit();
+  }
+
+  std::unique_ptr<validate::WorkPool> new_pool() const {
+    const auto judged = [this](std::uint64_t n) { return cases_.judged(n); };
+    if (options_.pool)
+      return options_.pool(cases_.plan(options_.shard, options_.shards), judged, options_.time_for_one);
+    return std::make_unique<validate::Workers>(options_.jobs, judged, options_.time_for_one);
   }
 
   Outcome lost(std::uint64_t number, const std::string& failure) const {
@@ -126,7 +206,7 @@ class Campaign {
     Finding f;
     f.oracle = "subject";
     f.verdict = failure.starts_with("no end") ? "no-end/answer" : "crash/answer";
-    f.where = make(number);
+    f.where = cases_.make(number);
     f.explanation = "the process that worked on this case: " + failure;
     outcome.counters["cases of " + f.where.generator] = 1;
     outcome.findings.push_back(std::move(f));
@@ -177,7 +257,7 @@ class Campaign {
       saved.finding = finding_from_json_text(in.at("finding").get<std::string>());
       saved.steps = in.at("steps").get<std::uint64_t>();
       const auto flaw = in.at("flaw").get<std::string>();
-      if (!flaw.empty()) store_.contradict(stored.finding.signature() + ": does not replay: " + flaw);
+      if (!flaw.empty()) store_.contradict(stored, stored.finding.signature() + ": does not replay: " + flaw);
     }
     const std::string name = free_name(stored);
     save_finding(saved, options_.out / name);
@@ -201,8 +281,8 @@ class Campaign {
     std::vector<std::string> needed{
         "triangles visible", "triangles hidden", "triangles partly visible",    "wedges SV-ME",
         "wedges SE-ME",      "wedges SE-MV",     "compound silhouette vertices"};
-    for (const auto& g : generators_) needed.push_back("cases of " + g.name);
-    for (const Oracle* o : oracles_) {
+    for (const auto& g : cases_.generators()) needed.push_back("cases of " + g.name);
+    for (const Oracle* o : cases_.oracles()) {
       for (const char* name : o->needs()) needed.emplace_back(name);
     }
     for (const NamedDial& d : all_dials()) {
@@ -219,8 +299,8 @@ class Campaign {
 
   const CampaignOptions& options_;
   const Subject& subject_;
-  std::vector<NamedGenerator> generators_;
-  std::vector<const Oracle*> oracles_;
+  const Cases cases_;
+  const fs::path file_;
   Store store_;
   std::set<std::string> signatures_;
 };
@@ -237,10 +317,20 @@ CampaignSummary run_campaign(const CampaignOptions& options, const Subject& subj
   return Campaign(options, subject).run();
 }
 
+void serve_campaign(const CampaignOptions& options, const Subject& subject,
+                    const std::function<void(const std::string& plan, const CaseWork& work)>& serve) {
+  const Cases cases(options, subject);
+  serve(cases.plan(options.shard, options.shards), [&](std::uint64_t number) { return cases.judged(number); });
+}
+
 namespace {
 
-// What a run says that is too short to be judged.
+// What a run says that is too short to be judged, or is a part of one.
 std::string short_line(const CampaignSummary& s) {
+  if (s.is_shard)
+    return fmt::format("{} cases of this shard; {} different findings{}\n", s.cases, s.findings.size(),
+                       s.interrupted ? "; interrupted: the same command goes on"
+                                     : "; --merge brings shards together, and shrinks what they found");
   const std::size_t count = s.findings.size();
   const std::string found =
       count == 0 ? "nothing found yet" : fmt::format("{} finding{}", count, count == 1 ? "" : "s");
@@ -267,13 +357,20 @@ std::string to_text(const CampaignSummary& s, const fs::path& out) {
       text += fmt::format("  triangle {} ({} side), witness ({}, {}, {}) - ({}, {}, {})\n", w->triangle,
                           w->front ? "front" : "back", w->v[0], w->v[1], w->v[2], w->p[0], w->p[1], w->p[2]);
     }
-    text += f.folder ? fmt::format("  repeat: clues replay {}{}\n", scene::shell_word((out / *f.folder).string()),
+    text += f.folder     ? fmt::format("  repeat: clues replay {}{}\n", scene::shell_word((out / *f.folder).string()),
                                    is_program(s.subject) ? " --run-subject" : "")
-                     : "  not shrunk yet: run the same command again\n";
+            : s.is_shard ? ""
+                         : "  not shrunk yet: run the same command again\n";
   }
   for (const auto& c : s.contradictions) text += "CONTRADICTION " + scene::printable(c) + "\n";
   if (!s.judged) return text + short_line(s);
-  for (const auto& [name, value] : s.counters) text += fmt::format("{:>14}  {}\n", value, scene::printable(name));
+  for (const auto& [name, value] : s.counters) {
+    if (!is_a_pair(name)) text += fmt::format("{:>14}  {}\n", value, scene::printable(name));
+  }
+  const RulesMet met = rules_met(s.counters);
+  text += fmt::format("{:>14}  of {} pairs of rules met in one case\n", met.pairs, met.all_pairs);
+  for (const auto& rule : met.never) text += fmt::format("{:>14}  met: rule {}\n", "never", rule);
+  for (const auto& pair : met.apart) text += fmt::format("{:>14}  met together: {}\n", "never", pair);
   for (const auto& name : s.never_occurred) text += "NEVER OCCURRED: " + scene::printable(name) + "\n";
   text += fmt::format("{} cases, {} of them in this run; {} different findings{}\n", s.cases, s.cases_now,
                       s.findings.size(), s.interrupted ? "; interrupted: the same command goes on" : "");

@@ -1,4 +1,4 @@
-// A campaign: cases of all generators by turns, put to a subject and judged by the oracles, in worker processes. Case number n is scene first + n / G of generator
+// A campaign: cases of all generators by turns, put to a subject and judged by the oracles, in worker processes of one machine or many. Case number n is scene first + n / G of generator
 // n modulo G, a pure function of the seed; outcomes are committed in the order of the cases, so the findings do not depend on the number of jobs.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +15,15 @@
 #include "fuzz/campaign/given_files.h"
 #include "fuzz/findings/store.h"
 #include "fuzz/shrinking/shrink.h"
+#include "validate/processes/work_pool.h"
 
 namespace clues::fuzz {
+
+// Judges the case of a number; what it answers is the outcome, as a text.
+using CaseWork = std::function<std::string(std::uint64_t number)>;
+// Makes the pool that the cases of the campaign `plan` are given to.
+using PoolMaker = std::function<std::unique_ptr<validate::WorkPool>(const std::string& plan, const CaseWork& work,
+                                                                    std::chrono::seconds time_for_one)>;
 
 struct CampaignOptions {
   std::uint64_t seed = 1, first = 0;
@@ -27,12 +35,16 @@ struct CampaignOptions {
   int jobs = 1;
   std::uint64_t errors = 0;  // stop at so many different findings; 0: never
   std::filesystem::path out = "fuzz-out";
+  // Of the cases only those whose number leaves `shard` when divided by `shards`; nothing is shrunk then, and `cases` must be given.
+  std::uint64_t shard = 0, shards = 1;
+  std::vector<std::filesystem::path> merged;  // folders of all shards, which are taken over first
   ShrinkLimits shrink;
   std::uint64_t block = 16;  // cases committed together
   std::chrono::seconds time_for_one{300};
   std::function<void(const std::string& stage, std::uint64_t done, std::uint64_t total)> progress;
   bool require_coverage = false;            // a campaign that is too short to be judged is vacuous too
   const std::atomic<bool>* stop = nullptr;  // set by a signal: finish what is begun, commit, leave
+  PoolMaker pool;                           // none: `jobs` processes of this machine
 };
 
 struct CampaignSummary {
@@ -43,6 +55,7 @@ struct CampaignSummary {
   bool judged = false;       // it has them, or was asked to be judged all the same
   double seconds_now = 0;
   bool interrupted = false;
+  bool is_shard = false;
   Counters counters;
   std::vector<StoredFinding> findings;
   std::vector<std::string> contradictions;
@@ -54,6 +67,10 @@ struct CampaignSummary {
 
 // Continues the campaign in options.out, or begins one. Throws scene::Error for bad options and an unusable folder.
 CampaignSummary run_campaign(const CampaignOptions& options, const Subject& subject);
+
+// Judges cases of another process' campaign: `serve` is told its plan, and how. No file is touched.
+void serve_campaign(const CampaignOptions& options, const Subject& subject,
+                    const std::function<void(const std::string& plan, const CaseWork& work)>& serve);
 
 std::string to_text(const CampaignSummary& summary, const std::filesystem::path& out);
 

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fuzz/generators/random.h"
+#include "fuzz/findings/case_random.h"
 
 namespace clues::fuzz {
 namespace {
 
 using scene::Point;
-
-std::uint64_t hash_of(const std::string& text) {  // FNV-1a
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return hash;
-}
 
 std::int64_t value_of(const CaseDials& dials, const std::string& name, std::int64_t otherwise) {
   const auto at = dials.find(name);
@@ -65,7 +59,7 @@ const std::vector<NamedDial>& all_dials() {
 }
 
 Case with_dials(Case scene, bool of_engines) {
-  Random random(Random(Random(scene.seed ^ hash_of("dials")).next() ^ scene.index).next() ^ hash_of(scene.generator));
+  Random random = random_for(scene, "dials");
   if (random.one_in(2)) return scene;
   for (int n = random.between(1, 3); n > 0; --n) {
     const auto& all = all_dials();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "fuzz/findings/store_content.h"
 #include "scene/messages/error.h"
 #include "scene/messages/printable.h"
 #include "scene/stores/database.h"
@@ -15,12 +16,20 @@ using scene::Statement;
 
 namespace {
 
-constexpr const char* schema =
-    "CREATE TABLE IF NOT EXISTS about (name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;"
-    "CREATE TABLE IF NOT EXISTS counters (name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID;"
-    "CREATE TABLE IF NOT EXISTS contradictions (id INTEGER PRIMARY KEY, text TEXT NOT NULL);"
-    "CREATE TABLE IF NOT EXISTS findings (id INTEGER PRIMARY KEY, signature TEXT NOT NULL UNIQUE,"
-    " case_number INTEGER NOT NULL, occurrences INTEGER NOT NULL, finding TEXT NOT NULL, folder TEXT);";
+// The number of a contradiction is that of its case and its place there; what does not replay comes in the second half.
+constexpr std::int64_t places = 1 << 20;
+
+std::int64_t first_place(std::uint64_t case_number) { return static_cast<std::int64_t>(case_number) * places; }
+
+void add_contradiction(const Database& db, std::int64_t from, const std::string& text) {
+  Statement(db,
+            "INSERT INTO contradictions (id, text) VALUES "
+            "((SELECT coalesce(max(id) + 1, ?1) FROM contradictions WHERE id >= ?1 AND id < ?2), ?3)")
+      .with(from)
+      .with(from + places / 2)
+      .with(text)
+      .next();
+}
 
 }  // namespace
 
@@ -28,7 +37,7 @@ Store::Store(const std::filesystem::path& file, const std::string& plan)
     : db_(std::make_unique<Database>(file, Database::Access::write, "the store of findings",
                                      "choose another folder for the campaign")) {
   db_->run("BEGIN IMMEDIATE");
-  db_->run(schema);
+  db_->run(store_schema);
   Statement(*db_, "INSERT OR IGNORE INTO about VALUES ('plan', ?)").with(plan).next();
   db_->run("INSERT OR IGNORE INTO about VALUES ('cases done', '0'); COMMIT;");
   Statement stored(*db_, "SELECT value FROM about WHERE name = 'plan'");
@@ -42,71 +51,41 @@ Store::Store(const std::filesystem::path& file, const std::string& plan)
 
 Store::~Store() = default;
 
-std::uint64_t Store::cases_done() const {
-  Statement s(*db_, "SELECT value FROM about WHERE name = 'cases done'");
-  if (!s.next() || s.number(0) < 0 || s.text(0) != std::to_string(s.number(0)))
-    throw Error(ErrorCode::malformed,
-                db_->file() + ": the number of cases that are done is none; the store was changed");
-  return static_cast<std::uint64_t>(s.number(0));
-}
-
-Counters Store::counters() const {
-  Counters out;
-  for (Statement s(*db_, "SELECT name, value FROM counters"); s.next();)
-    out[s.text(0)] = static_cast<std::uint64_t>(s.number(1));
-  return out;
-}
+std::uint64_t Store::cases_done() const { return stored_cases_done(*db_); }
+Counters Store::counters() const { return stored_counters(*db_); }
+std::vector<StoredFinding> Store::findings() const { return stored_findings(*db_); }
 
 std::vector<std::string> Store::contradictions() const {
   std::vector<std::string> out;
-  for (Statement s(*db_, "SELECT text FROM contradictions ORDER BY id"); s.next();) out.push_back(s.text(0));
+  for (auto& [id, text] : stored_contradictions(*db_)) out.push_back(std::move(text));
   return out;
 }
 
-std::vector<StoredFinding> Store::findings() const {
-  std::vector<StoredFinding> out;
-  for (Statement s(*db_, "SELECT id, case_number, occurrences, finding, folder FROM findings ORDER BY id"); s.next();) {
-    StoredFinding f{
-        s.number(0), static_cast<std::uint64_t>(s.number(1)), static_cast<std::uint64_t>(s.number(2)), {}, {}};
-    try {
-      f.finding = finding_from_json_text(s.text(3));
-    } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{}: finding {}: {}", db_->file(), f.id, error.what()));
-    }
-    if (!s.null(4)) f.folder = s.text(4);
-    out.push_back(std::move(f));
-  }
-  return out;
-}
-
-void Store::commit(const std::vector<Outcome>& outcomes) {
-  const std::uint64_t done = cases_done();
+void Store::commit(const std::vector<Judged>& judged, std::uint64_t done) {
   db_->run("BEGIN IMMEDIATE");
   try {
-    for (std::size_t i = 0; i < outcomes.size(); ++i) {
-      for (const auto& [name, value] : outcomes[i].counters) {
-        Statement(
-            *db_,
-            "INSERT INTO counters VALUES (?1, ?2) ON CONFLICT (name) DO UPDATE SET value = value + excluded.value")
-            .with(name)
-            .with(static_cast<std::int64_t>(value))
-            .next();
-      }
-      for (const auto& text : outcomes[i].contradictions)
-        Statement(*db_, "INSERT INTO contradictions (text) VALUES (?)").with(text).next();
-      for (const Finding& f : outcomes[i].findings) {
+    Counters sums;
+    for (const auto& [number, outcome] : judged) {
+      for (const auto& [name, value] : outcome.counters) sums[name] += value;
+      for (const auto& text : outcome.contradictions) add_contradiction(*db_, first_place(number), text);
+      for (const Finding& f : outcome.findings) {
         Statement(*db_,
                   "INSERT INTO findings (signature, case_number, occurrences, finding) VALUES (?1, ?2, 1, ?3)"
                   " ON CONFLICT (signature) DO UPDATE SET occurrences = occurrences + 1")
             .with(f.signature())
-            .with(static_cast<std::int64_t>(done + i))
+            .with(static_cast<std::int64_t>(number))
             .with(to_json_text(f))
             .next();
       }
     }
-    Statement(*db_, "UPDATE about SET value = ? WHERE name = 'cases done'")
-        .with(std::to_string(done + outcomes.size()))
-        .next();
+    for (const auto& [name, value] : sums) {
+      Statement(*db_,
+                "INSERT INTO counters VALUES (?1, ?2) ON CONFLICT (name) DO UPDATE SET value = value + excluded.value")
+          .with(name)
+          .with(static_cast<std::int64_t>(value))
+          .next();
+    }
+    Statement(*db_, "UPDATE about SET value = ? WHERE name = 'cases done'").with(std::to_string(done)).next();
     db_->run("COMMIT");
   } catch (...) {
     db_->rollback();
@@ -118,8 +97,15 @@ void Store::saved(std::int64_t id, const std::string& folder) {
   Statement(*db_, "UPDATE findings SET folder = ?1 WHERE id = ?2").with(folder).with(id).next();
 }
 
-void Store::contradict(const std::string& text) {
-  Statement(*db_, "INSERT INTO contradictions (text) VALUES (?)").with(text).next();
+void Store::contradict(const StoredFinding& finding, const std::string& text) {
+  add_contradiction(*db_, first_place(finding.case_number) + places / 2, text);
+}
+
+void Store::finish() {
+  const StoreContent content = content_of(*db_);
+  const std::filesystem::path file = db_->file();
+  db_.reset();
+  write_store(file, content);
 }
 
 }  // namespace clues::fuzz

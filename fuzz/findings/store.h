@@ -1,5 +1,6 @@
 // The campaign's memory: DIR/findings.sqlite. Progress, counters and findings of a block of cases are committed in one transaction, so that after kill -9
-// nothing is lost or counted twice. Findings are kept once for each signature, with the number of times they occurred.
+// nothing is lost or counted twice. Findings are kept once for each signature, with the number of times they occurred. A run that ends in order leaves
+// the store written anew: its bytes tell what was found, and not by how many runs, ranks or shards (store_content.h).
 #pragma once
 
 #include <cstdint>
@@ -21,6 +22,12 @@ struct StoredFinding {
   std::optional<std::string> folder;  // once it is shrunk and saved
 };
 
+// What came of the case of this number.
+struct Judged {
+  std::uint64_t number = 0;
+  Outcome outcome;
+};
+
 class Store {
  public:
   // Opens or makes it. `plan` says what the campaign does; throws scene::Error bad_argument when the store was made for another plan,
@@ -30,15 +37,17 @@ class Store {
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
-  std::uint64_t cases_done() const;  // all cases below this number
+  std::uint64_t cases_done() const;  // all cases below this number that the campaign, or this shard of it, has
   Counters counters() const;
   std::vector<std::string> contradictions() const;
   std::vector<StoredFinding> findings() const;  // by id, which is the order in which they were found
 
-  // The outcomes of the cases cases_done(), cases_done() + 1, ...; all or nothing.
-  void commit(const std::vector<Outcome>& outcomes);
+  // The next cases, in order; `done` is what cases_done() says from now on. All or nothing.
+  void commit(const std::vector<Judged>& judged, std::uint64_t done);
   void saved(std::int64_t id, const std::string& folder);
-  void contradict(const std::string& text);
+  void contradict(const StoredFinding& finding, const std::string& text);
+  // Writes the file anew; nothing may be asked afterwards.
+  void finish();
 
  private:
   std::unique_ptr<scene::Database> db_;

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 
+#include "exact/cell/standard_range.h"
+#include "exact/complex/complex.h"
 #include "exact/sight/scene_query.h"
 #include "exact/sight/witness.h"
+#include "fuzz/findings/case_random.h"
 #include "fuzz/oracles/oracle.h"
+#include "fuzz/oracles/rules.h"
 #include "scene/messages/error.h"
 #include "validate/certificates/region_points.h"
 #include "validate/certificates/words.h"
@@ -26,10 +30,32 @@ reference::VisibilityMap guide_for(const Case& scene) {
   return reference::first_order_visibility(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
 }
 
-std::uint64_t hash_of(const std::string& text) {  // FNV-1a
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return hash;
+// A place to look, no more: what meets a triangle that is listed is called visible, all of it.
+reference::VisibilityMap guide_by(const Case& scene, const std::vector<std::uint32_t>& pvs) {
+  const exact::StandardRange range(scene.mesh, scene.cell);
+  const auto cell = exact::ConvexCell::from_doubles(range.moved_in(scene.cell));
+  reference::VisibilityMap map{exact::build_complex(range.moved_in(scene.mesh), &cell),
+                               cell,
+                               reference::Mode::sheet,
+                               reference::Formulation::plain,
+                               {},
+                               {},
+                               {},
+                               pvs,
+                               {}};
+  map.range = range;
+  for (std::uint32_t p = 0; p < map.complex.pieces.size(); ++p) {
+    if (map.complex.in_cell[p]) continue;
+    const auto& piece = map.complex.pieces[p];
+    const auto& [a, b, c] = piece.corners;
+    const std::vector<Point3> ring{map.complex.points[a], map.complex.points[b], map.complex.points[c]};
+    const bool visible = std::any_of(piece.origins.begin(), piece.origins.end(), [&](const auto& o) {
+      return std::binary_search(pvs.begin(), pvs.end(), o.triangle);
+    });
+    for (const bool front : {true, false})
+      map.regions.push_back({p, front, visible, {ring}, 1, CGAL::centroid(ring[0], ring[1], ring[2])});
+  }
+  return reference::moved_back(std::move(map));
 }
 
 exact::Plane3 side_of(const reference::VisibilityMap& map, const Region& r) {
@@ -51,15 +77,17 @@ bool strictly_inside(const validate::ExactTriangle& t, const Point3& p) {
 
 Exam::Exam(const Case& scene, const Subject& subject, Outcome& outcome)
     : scene_(scene), subject_(subject), outcome_(outcome), answer_(subject.answer(scene)) {
-  if (!answer_.map) guide_ = guide_for(scene);
+  compared_ = answer_.map || subject.is_compared(scene);
+  if (!answer_.map) guide_ = compared_ ? guide_for(scene) : guide_by(scene, answer_.pvs);
   for (const auto& p : map().complex.pieces) {
     const auto& points = map().complex.points;
     soup_.push_back({points[p.corners[0]], points[p.corners[1]], points[p.corners[2]]});
   }
-  count_map();
+  if (compared_) count_map();
 }
 
 void Exam::count_map() {
+  count_rules(scene_, map(), outcome_.counters);
   const auto& s = map().statistics;
   count("wedges SV-ME", s.sv_me);
   count("wedges SE-ME", s.se_me);
@@ -79,9 +107,7 @@ void Exam::count_map() {
   }
 }
 
-Random Exam::random(const std::string& oracle) const {
-  return Random(Random(Random(scene_.seed ^ hash_of(oracle)).next() ^ scene_.index).next() ^ hash_of(scene_.generator));
-}
+Random Exam::random(const std::string& oracle) const { return random_for(scene_, oracle); }
 
 bool Exam::lists(std::uint32_t triangle) const {
   return std::binary_search(answer_.pvs.begin(), answer_.pvs.end(), triangle);

@@ -19,7 +19,8 @@ namespace clues::fuzz {
 // One case, answered: what oracles are asked about.
 class Exam {
  public:
-  // Asks the subject. A subject without a map of its own gets the reference's as a guide to the places worth looking at. Throws NoAnswer.
+  // Asks the subject. A subject without a map of its own gets the reference's as a guide to the places worth looking at, or one that has nothing but its
+  // own answer (Subject::is_compared). Throws NoAnswer.
   Exam(const Case& scene, const Subject& subject, Outcome& outcome);
 
   const Case& scene() const { return scene_; }
@@ -27,6 +28,7 @@ class Exam {
   const exact::ConvexCell& cell() const { return map().cell; }
   const Answer& answer() const { return answer_; }
   const reference::VisibilityMap& map() const { return answer_.map ? *answer_.map : *guide_; }
+  bool is_compared() const { return compared_; }  // the map is an engine's, and not just a guide
   const std::vector<exact::TriangleCorners>& soup() const { return soup_; }
   Random random(const std::string& oracle) const;  // of its own for each case and oracle
 
@@ -58,6 +60,7 @@ class Exam {
   const Subject& subject_;
   Outcome& outcome_;
   Answer answer_;
+  bool compared_ = true;
   std::optional<reference::VisibilityMap> guide_;
   std::vector<exact::TriangleCorners> soup_;
 };

@@ -108,7 +108,7 @@ class Agreement : public Oracle {
   const char* name() const override { return "agreement"; }
   const char* what() const override { return "the PVS is the reference's, triangle by triangle (fast path only)"; }
   void examine(Exam& exam) const override {
-    if (!exam.answer().fallbacks || is_limited(exam.scene().dials)) return;
+    if (!exam.answer().fallbacks || !exam.is_compared() || is_limited(exam.scene().dials)) return;
     exam.count("answers compared with the reference");
     exam.count("fallbacks of the subject", *exam.answer().fallbacks);
     const std::vector<std::uint32_t>& omega = exam.map().visible;

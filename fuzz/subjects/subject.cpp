@@ -8,6 +8,7 @@
 
 #include "fastpath/visibility/first_order.h"
 #include "fastpath/visibility/refinement/refinement.h"
+#include "fuzz/findings/case_random.h"
 #include "fuzz/findings/dials.h"
 #include "fuzz/findings/files.h"
 #include "reference/visibility/refinement/bounds.h"
@@ -101,8 +102,22 @@ std::unique_ptr<Subject> refined_subject(const std::string& name, validate::Refi
   });
 }
 
+// One case in so many is compared with the reference: which, its name and dials say.
+class ComparedSubject : public FunctionSubject {
+ public:
+  ComparedSubject(std::string name, std::uint64_t one_in, std::function<Answer(const Case&)> answer)
+      : FunctionSubject(std::move(name), true, std::move(answer)), one_in_(one_in) {}
+  bool is_compared(const Case& scene) const override {
+    // Where the dials limit it, the fast path does not promise the same.
+    return one_in_ == 1 || (!is_limited(scene.dials) && random_for(scene, "comparison").next() % one_in_ == 0);
+  }
+
+ private:
+  std::uint64_t one_in_;
+};
+
 std::unique_ptr<Subject> fast_subject(const std::string& name) {
-  return engine(name, [](const Case& scene) {
+  return std::make_unique<ComparedSubject>(name, *cases_for_a_comparison(name), [](const Case& scene) {
     const fastpath::FirstOrder found =
         fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene));
     return Answer{found.visible, std::nullopt, found.conservative_fallbacks};
@@ -178,7 +193,7 @@ std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<
 std::unique_ptr<Subject> make_subject(const std::string& text) {
   if (is_program(text)) return std::make_unique<CommandSubject>(text);
   if (text == "reference") return reference_subject(text);
-  if (text == "fast") return fast_subject(text);
+  if (cases_for_a_comparison(text)) return fast_subject(text);
   if (text == "subdivided") return refined_subject(text, validate::Refinement::cells);
   if (text == "backprojected") return refined_subject(text, validate::Refinement::backprojection);
   if (text == "fast:subdivided") return refined_fast_subject(text, fastpath::RefineBy::cells);

@@ -39,13 +39,19 @@ class Subject {
   virtual Answer answer(const Case& scene) const = 0;  // throws NoAnswer
   virtual std::string name() const = 0;                // make_subject(name()) is the same subject
   virtual bool takes_dials() const { return false; }   // answers as the dials of the case say (dials.h)
+  // Whether the reference is asked about the case, too: a function of the case's name and dials. Where it is not, oracles have the subject's own answer as a
+  // guide to the places worth looking at.
+  virtual bool is_compared(const Case&) const { return true; }
 };
 
-// "reference": the exact reference. "fast": the fast path. "subdivided",
+// "reference": the exact reference. "fast": the fast path; "fast/N": the same, with the reference asked about one case in N. "subdivided",
 // "backprojected": the reference refined to depth 2; after "fast:" the fast path to depth 3. Anything else is a command line (words and quotes as in
 // a shell), in which {scene}, {cell} and {pvs} stand for an OFF file, an OBJ file of the cell's points and the file that it has to write, {mode} for
 // sheet or solid; without any of these words, the first three are appended. Throws scene::Error bad_argument.
 std::unique_ptr<Subject> make_subject(const std::string& text);
+
+// N of "fast/N", 1 for "fast"; none: it is another subject. N from 2 to 10^6, without zeros in front.
+std::optional<std::uint64_t> cases_for_a_comparison(const std::string& name);
 
 // Whether make_subject() takes it for a command line. What a file names is not run unless the user says so.
 bool is_program(const std::string& text);

@@ -289,7 +289,7 @@ bool store(std::string_view bytes) {
     opened.counters();
     opened.contradictions();
     for (const StoredFinding& f : opened.findings()) check_mesh(f.finding.where.mesh);
-    opened.commit({Outcome{}});
+    opened.commit({{done, Outcome{}}}, done + 1);
     require(opened.cases_done() == done + 1, "a case that is done is counted");
   });
 }

@@ -64,7 +64,7 @@ EXIT_CODES = [
 ]
 
 # Campaigns are typed as they stand, but for their length.
-SHORTER = [(r"^(clues fuzz .*)--cases \d+", r"\1--cases 3"),
+SHORTER = [(r"^((?:mpirun -n \d+ )?clues fuzz .*)--cases \d+", r"\1--cases 3"),
            (r"^(clues fuzz (?!.*--cases)[^#]*)", r"\1 --cases 3 ")]
 
 # A wall (0, 1), a screen before it (2), a small triangle behind the screen (3), and one off to the side (4).
@@ -113,6 +113,9 @@ class Scratch:
         self.environment = {**os.environ, "LC_ALL": "C", "PATH": os.pathsep.join(
             [str(self.folder / "bin"), str(clues.parent), os.environ["PATH"]])}
         self.environment.pop("CLUES_MESH_DIR", None)
+        # Whoever the tests run as, and on however few processors.
+        self.environment.update({"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+                                 "OMPI_MCA_rmaps_base_oversubscribe": "1"})
 
     def sh(self, text):
         ran = examples.run(text, self.folder, self.environment)

@@ -29,7 +29,7 @@ std::string bytes_of(const fs::path& file) {
   return out.str();
 }
 
-// All that a campaign left: findings as stored, and every file of every finding.
+// All that a campaign left: findings as stored, every file of every finding, and the store, byte for byte.
 std::string left_by(const fs::path& out, const CampaignSummary& summary) {
   std::string all = std::to_string(summary.cases);
   for (const auto& [name, value] : summary.counters) all += "\n" + name + " " + std::to_string(value);
@@ -39,7 +39,7 @@ std::string left_by(const fs::path& out, const CampaignSummary& summary) {
   }
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(out)) {
-    if (entry.is_regular_file() && entry.path().extension() != ".sqlite") files.push_back(entry.path());
+    if (entry.is_regular_file()) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   for (const auto& file : files) all += "\n" + fs::relative(file, out).string() + "\n" + bytes_of(file);
@@ -68,6 +68,62 @@ TEST(Campaign, OneJobAndTwoLeaveTheSame) {
   }
   EXPECT_EQ(left[0], left[1]);
   EXPECT_NE(left[0].find("finding.json"), std::string::npos);
+}
+
+TEST(Campaign, ShardsMergedAreTheWhole) {
+  const scene::TemporaryFolder folder;
+  auto whole = options_for(folder.path() / "whole", 10);
+  whole.shrink.steps = 3;
+  const std::string expected = left_by(whole.out, run_campaign(whole, FromTheCentre()));
+  for (const std::uint64_t shards : {1, 2, 3, 4}) {
+    SCOPED_TRACE(shards);
+    auto all = whole;
+    all.out = folder.path() / ("merged" + std::to_string(shards));
+    std::uint64_t cases = 0;
+    for (std::uint64_t i = 0; i < shards; ++i) {
+      auto shard = options_for(folder.path() / (std::to_string(i) + "of" + std::to_string(shards)), 7);
+      shard.shard = i;
+      shard.shards = shards;
+      shard.block = 2;
+      run_campaign(shard, FromTheCentre());
+      shard.cases = 10;  // gone on with
+      cases += run_campaign(shard, FromTheCentre()).cases;
+      all.merged.insert(all.merged.begin(), shard.out);
+    }
+    EXPECT_EQ(cases, 10U);
+    EXPECT_EQ(left_by(all.out, run_campaign(all, FromTheCentre())), expected);
+    if (shards == 2) {
+      EXPECT_EQ(left_by(all.out, run_campaign(all, FromTheCentre())), expected) << "the same command again";
+    }
+  }
+}
+
+TEST(Campaign, ShardsThatAreNotAllOrNotDoneAreRefused) {
+  const scene::TemporaryFolder folder;
+  const auto shard = [&](const std::string& name, std::uint64_t index, std::uint64_t cases) {
+    auto options = options_for(folder.path() / name, cases);
+    options.shard = index;
+    options.shards = 2;
+    run_campaign(options, HidesOneTriangle());
+    return options.out;
+  };
+  const auto first = shard("first", 0, 2), second = shard("second", 1, 2), further = shard("further", 1, 4);
+  const auto why_not = [&](std::vector<fs::path> merged) -> std::string {
+    auto options = options_for(folder.path() / "all", 2);
+    options.merged = std::move(merged);
+    try {
+      run_campaign(options, HidesOneTriangle());
+    } catch (const scene::Error& error) {
+      EXPECT_FALSE(fs::exists(options.out / "findings.sqlite"));
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(why_not({first}).find("no shard of 1 of this campaign"), std::string::npos);
+  EXPECT_NE(why_not({first, first}).find("a shard that was named already"), std::string::npos);
+  EXPECT_NE(why_not({first, further}).find("repeat their commands with the same --cases"), std::string::npos);
+  EXPECT_NE(why_not({first, folder.path() / "none"}).find("no such file"), std::string::npos);
+  EXPECT_EQ(why_not({second, first}), "");
 }
 
 // Kills the campaign (and with it its workers) the moment `progress` has been called `calls` times; no time is involved.

@@ -11,17 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "validate/processes/work_pool.h"
+
 namespace clues::validate {
 
-// What came back for one task.
-struct WorkerReply {
-  std::uint64_t task = 0;
-  bool finished = false;
-  std::string text;  // what the task returned; when not finished: what it threw, or how its process ended
-  int signal = 0;    // that ended its process
-};
-
-class Workers {
+class Workers : public WorkPool {
  public:
   // `work` runs in a child process; what it returns is sent back. It may not write to files or to the standard output. Signals for the whole
   // group (Ctrl-C) are left to the caller. A process that is lost is replaced. time_for_one: none, or a task is given up after so much processor time of its
@@ -29,15 +23,12 @@ class Workers {
   // Throws scene::Error file_unreadable when no process can be made or read.
   Workers(int count, std::function<std::string(std::uint64_t task)> work,
           std::optional<std::chrono::seconds> time_for_one);
-  ~Workers();  // ends them
-  Workers(const Workers&) = delete;
-  Workers& operator=(const Workers&) = delete;
+  ~Workers() override;  // ends them
 
-  bool idle() const;   // some worker has no task
-  bool empty() const;  // none has one
-  void start(std::uint64_t task);
-  // Waits at most this long for a reply; none when none came or a signal arrived.
-  std::optional<WorkerReply> wait(std::chrono::milliseconds most);
+  bool idle() const override;   // some worker has no task
+  bool empty() const override;  // none has one
+  void start(std::uint64_t task) override;
+  std::optional<WorkerReply> wait(std::chrono::milliseconds most) override;
 
  private:
   struct Worker;
