@@ -71,11 +71,19 @@ Run simulate(const std::vector<std::uint64_t>& order, const std::vector<double>&
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 1) {
+    fmt::print("usage: clues_bench_cluster FILE MICROSECONDS [COPIES]; without a file there is nothing to simulate\n");
+    return 0;
+  }
   if (argc < 3 || argc > 4) {
     fmt::print(stderr, "usage: clues_bench_cluster FILE MICROSECONDS [COPIES]\n");
     return 2;
   }
   const Tasks tasks = read(argv[1], argc > 3 ? std::atoi(argv[3]) : 1);
+  if (tasks.seconds.empty()) {
+    fmt::print(stderr, "clues_bench_cluster: {}: no times in it\n", argv[1]);
+    return 2;
+  }
   const double service = 1e-6 * std::atof(argv[2]);
   double sum = 0, longest = 0;
   for (const double s : tasks.seconds) {

@@ -39,12 +39,18 @@ std::string text_of(const Done& done, std::uint32_t triangles) {
   return text;
 }
 
+scene::Error cut_off() {
+  return {scene::ErrorCode::internal, "what a rank sent is cut off; do all ranks run the same program?"};
+}
+
 Done done_of(const std::string& text, std::uint32_t triangles) {
   Done done;
   for (std::size_t at = 0; at < text.size();) {
     PlaceHead head{};
+    if (text.size() - at < sizeof head) throw cut_off();
     std::memcpy(&head, text.data() + at, sizeof head);
     at += sizeof head;
+    if (text.size() - at < head.bytes) throw cut_off();
     done.push_back({head.kind == 1 ? PlaceKind::cell : PlaceKind::node,
                     static_cast<std::uint32_t>(head.index),
                     {scene::unpacked_list(text.substr(at, head.bytes), triangles, "a rank"), head.fallbacks,

@@ -193,6 +193,10 @@ int run_walk(const WalkRequest& request) {
     throw Error(ErrorCode::bad_argument, "--routes is for --steps, and for figures alone");
   if (request.ahead > 0 && request.horizon == 0)
     throw Error(ErrorCode::bad_argument, "--ahead needs a --horizon of 1 or more: what he still sees would go");
+  if (!request.connect.empty() && (!request.link.empty() || request.horizon > 0 || request.drop > 0))
+    throw Error(ErrorCode::bad_argument,
+                "--connect: the link is a real one, and the server decides what it sends; leave out --link, --horizon "
+                "and --drop");
   if (!request.link.empty()) parse_link(request.link, 1);
   require_writable_parent(request.out);
   require_apart({&request.out}, {&request.choice.scene, &request.route.route, &request.route.camera,

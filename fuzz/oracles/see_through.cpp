@@ -74,7 +74,8 @@ class SeeThrough : public Oracle {
     } catch (const NoAnswer& error) {
       return exam.file(without_answer(exam.scene(), error.what()));
     }
-    if (exam.subject().name() == "fast") {
+    const std::string subject = exam.subject().name();
+    if (subject == "fast" || subject.starts_with("fast/")) {  // with --agreement
       const fastpath::SeeThroughScene scene(flagged);
       lists.emplace_back("at once", exact::by_threads(1, [&] {
                            return fastpath::visible_through(scene, exam.scene().cell, {}).counting(flagged);

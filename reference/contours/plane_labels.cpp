@@ -4,6 +4,8 @@
 #include <map>
 #include <set>
 
+#include "scene/messages/error.h"
+
 namespace clues::reference {
 
 using exact::Plane3;
@@ -48,13 +50,18 @@ Plane3 PlaneTable::plane_of(const PlaneLabel& label) const {
   }
   const Point3 a = point(label.points[0]), b = point(label.points[1]);
   const exact::FT at_a = exact::value_at(planes_[label.crossed], a), at_b = exact::value_at(planes_[label.crossed], b);
+  if (at_a == at_b)
+    throw scene::Error(scene::ErrorCode::malformed, "contours: an edge that does not cross the plane of its label");
   const Point3 x = exact::collapsed(a + (b - a) * (at_a / (at_a - at_b)));
   return {x, corner(label.cell[0]), corner(label.cell[1])};
 }
 
 std::size_t PlaneTable::add(const PlaneLabel& label) {
+  const Plane3 plane = plane_of(label);
+  if (plane.is_degenerate())
+    throw scene::Error(scene::ErrorCode::malformed, "contours: a label whose points are on one line makes no plane");
   labels_.push_back(label);
-  planes_.push_back(plane_of(label));
+  planes_.push_back(plane);
   return labels_.size() - 1;
 }
 

@@ -122,8 +122,7 @@ std::vector<StreamMessage> StreamServer::enter(std::uint32_t cell) {
 }
 
 std::vector<StreamMessage> StreamServer::resume(const std::vector<std::uint32_t>& route, std::uint64_t have) {
-  mirror_ = DisplayList(store_->mesh());
-  messages_ = 0;
+  restart();
   std::vector<StreamMessage> tail;
   for (const std::uint32_t cell : route) {
     std::uint64_t number = messages_;
@@ -131,11 +130,19 @@ std::vector<StreamMessage> StreamServer::resume(const std::vector<std::uint32_t>
       if (number++ >= have) tail.push_back(std::move(message));
     }
   }
-  if (have > messages_) {
-    throw scene::Error(scene::ErrorCode::bad_argument, "resume: this route has " + std::to_string(messages_) +
-                                                           " messages, and the client has more; begin anew");
-  }
+  require_said(have);
   return tail;
+}
+
+void StreamServer::restart() {
+  mirror_ = DisplayList(store_->mesh());
+  messages_ = 0;
+}
+
+void StreamServer::require_said(std::uint64_t have) const {
+  if (have <= messages_) return;
+  throw scene::Error(scene::ErrorCode::bad_argument, "resume: this route has " + std::to_string(messages_) +
+                                                         " messages, and the client has more; begin anew");
 }
 
 }  // namespace clues::reference

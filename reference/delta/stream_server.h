@@ -87,6 +87,9 @@ class StreamServer {
   // lost, and nothing is sent twice. Throws scene::Error bad_argument where the route has not so many messages.
   std::vector<scene::StreamMessage> resume(const std::vector<std::uint32_t>& route, std::uint64_t have);
 
+  // The same, message for message, where not all are to be in memory at once: from the beginning, cell by cell.
+  void restart();
+  void require_said(std::uint64_t have) const;          // throws as resume does
   std::uint64_t messages() const { return messages_; }  // of this session
   const DisplayList& mirror() const { return mirror_; }
 

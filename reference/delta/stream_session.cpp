@@ -1,5 +1,7 @@
 #include "reference/delta/stream_session.h"
 
+#include <algorithm>
+
 #include "scene/messages/error.h"
 
 namespace clues::reference {
@@ -7,18 +9,39 @@ namespace clues::reference {
 std::string StreamSession::answer_next() {
   if (over_) return {};
   try {
+    if (resumed_) return resume_some();
     const auto packet = reader_.next();
     if (!packet) return {};
     const auto request = scene::parse_request(*packet, "client", header_->cell_count);
-    std::string bytes;
-    for (const auto& message :
-         request.resumes ? server_.resume(request.route, request.have) : server_.enter(request.cell))
-      bytes += scene::to_packet(message);
-    return bytes + scene::end_packet(server_.messages());
+    if (!request.resumes) return said(server_.enter(request.cell)) + scene::end_packet(server_.messages());
+    server_.restart();
+    resumed_ = Resumed{request.route, request.have, 0};
+    return resume_some();
   } catch (const scene::Error& e) {
     over_ = true;
     return scene::refusal_packet(e.what());
   }
+}
+
+std::string StreamSession::said(std::span<const scene::StreamMessage> messages) {
+  std::string bytes;
+  for (const auto& message : messages) bytes += scene::to_packet(message);
+  return bytes;
+}
+
+std::string StreamSession::resume_some() {
+  auto& [route, have, next] = *resumed_;
+  std::string bytes;
+  while (bytes.empty() && next < route.size()) {
+    const std::uint64_t before = server_.messages();
+    const auto messages = server_.enter(route[next++]);
+    const auto known = have > before ? std::min<std::uint64_t>(have - before, messages.size()) : 0;
+    bytes = said(std::span(messages).subspan(static_cast<std::size_t>(known)));
+  }
+  if (next < route.size()) return bytes;
+  server_.require_said(have);
+  resumed_.reset();
+  return bytes + scene::end_packet(server_.messages());
 }
 
 }  // namespace clues::reference

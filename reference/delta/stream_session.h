@@ -2,8 +2,12 @@
 // no client says is told why, and the session is over; others do not notice.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "reference/delta/stream_server.h"
 #include "scene/stream/packets.h"
@@ -17,13 +21,22 @@ class StreamSession {
 
   std::string greeting() const { return scene::to_packet(*header_); }
   void feed(std::string_view bytes) { reader_.feed(bytes); }
-  // What to send for the next request that is there as a whole; empty: none is. One at a time, so that who asks much and
-  // takes nothing fills no memory but his own.
+  // What to send for the next request that is there as a whole, or for the next cell of a route that is resumed; empty:
+  // there is none. One at a time, so that who asks much and takes nothing fills no memory but his own.
   std::string answer_next();
   bool is_over() const { return over_; }
 
  private:
+  static std::string said(std::span<const scene::StreamMessage> messages);
+  std::string resume_some();
+
+  struct Resumed {
+    std::vector<std::uint32_t> route;
+    std::uint64_t have = 0;
+    std::size_t next = 0;
+  };
   StreamServer server_;
+  std::optional<Resumed> resumed_;
   const scene::StreamHeader* header_;
   scene::PacketReader reader_{scene::most_request_bytes, "client"};
   bool over_ = false;

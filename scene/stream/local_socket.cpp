@@ -56,15 +56,17 @@ Descriptor listen_at(const std::filesystem::path& path) {
   const sockaddr_un address = address_of(path);
   std::error_code ignored;
   if (std::filesystem::is_socket(path, ignored)) {
-    if (connect_to(path).is_open())
-      throw Error(ErrorCode::bad_argument, path.string() + ": another server listens there; give another path");
+    const Descriptor probe = new_socket();
+    const bool is_open = connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    if (is_open || errno != ECONNREFUSED)  // busy, or somebody else's: not ours to remove
+      throw Error(ErrorCode::bad_argument,
+                  path.string() + ": another server listens there, or may not be asked; give another path");
     std::filesystem::remove(path, ignored);
   }
   Descriptor made = new_socket();
   if (bind(made.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     if (errno == EADDRINUSE)
-      throw Error(ErrorCode::bad_argument,
-                  path.string() + ": something lies there that is no socket; give another path");
+      throw Error(ErrorCode::bad_argument, path.string() + ": something lies there; give another path");
     fail_unwritable(path, "cannot make a socket", errno);
   }
   if (listen(made.get(), SOMAXCONN) != 0) fail_unwritable(path, "cannot listen", errno);

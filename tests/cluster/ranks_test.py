@@ -16,7 +16,9 @@ import tempfile
 import time
 
 SEED = 20261123
-ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+# Whoever the tests run as, in whatever container, and with whatever else on the machine.
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_hwloc_base_binding_policy": "none"}
 
 
 def town(streets):
@@ -66,23 +68,20 @@ class Work:
         (self.folder / out).unlink(missing_ok=True) if not (self.folder / out).is_dir() else None
 
 
-def rank_of(process):
+def is_rank(process, mpirun, rank):
     try:
-        words = pathlib.Path(f"/proc/{process}/environ").read_bytes().split(b"\0")
+        parent = (process / "stat").read_text().rsplit(")", 1)[1].split()[1]
+        words = (process / "environ").read_bytes().split(b"\0")
     except OSError:
-        return None
-    return next((int(w.split(b"=")[1]) for w in words if w.startswith(b"OMPI_COMM_WORLD_RANK=")), None)
+        return False
+    return parent == str(mpirun) and f"OMPI_COMM_WORLD_RANK={rank}".encode() in words
 
 
 def kill_rank(mpirun, rank):
     """Whether there was one. mpirun starts the ranks of its own machine itself."""
-    try:
-        children = pathlib.Path(f"/proc/{mpirun}/task/{mpirun}/children").read_text().split()
-    except OSError:
-        return False
-    for child in map(int, children):
-        if rank_of(child) == rank:
-            os.kill(child, signal.SIGKILL)
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        if is_rank(process, mpirun, rank):
+            os.kill(int(process.name), signal.SIGKILL)
             return True
     return False
 
@@ -109,14 +108,16 @@ def kills(work, count):
     for victim in (1, 0):
         for _ in range(count):
             work.remove("killed")
-            # A new session: what mpirun leaves to itself ends with it.
             running = subprocess.Popen(work.command("killed", ranks=3), cwd=work.folder, env=ENVIRONMENT,
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            rank = 0 if victim == 0 else chance.randint(1, 2)
             try:
-                running.wait(chance.uniform(0.1, 1) * seconds)
-            except subprocess.TimeoutExpired:
-                rank = 0 if victim == 0 else chance.randint(1, 2)
-                met += kill_rank(running.pid, rank)
+                running.wait(chance.uniform(0.1, 0.8) * seconds)
+            except subprocess.TimeoutExpired:  # and where mpirun has not come so far: as soon as the rank is there
+                hit = False
+                while not hit and running.poll() is None:
+                    hit = kill_rank(running.pid, rank)
+                met += hit
             running.wait()
             ranks = chance.randint(1, 4)
             work.run("killed", ranks=ranks)

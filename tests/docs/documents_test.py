@@ -115,7 +115,9 @@ class Scratch:
         self.environment.pop("CLUES_MESH_DIR", None)
         # Whoever the tests run as, and on however few processors.
         self.environment.update({"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-                                 "OMPI_MCA_rmaps_base_oversubscribe": "1"})
+                                 "OMPI_MCA_rmaps_base_oversubscribe": "1",
+                                 "OMPI_MCA_btl_vader_single_copy_mechanism": "none",
+                                 "OMPI_MCA_hwloc_base_binding_policy": "none"})
 
     def sh(self, text):
         ran = examples.run(text, self.folder, self.environment)

@@ -37,23 +37,18 @@ def point(coordinates: Iterable[Fraction | float]) -> Point:
     return (*(c.numerator * (w // c.denominator) for c in exact), w)
 def side(h: Plane, p: Point) -> int: return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3] * p[3]
 def back(h: Plane) -> Plane: return (-h[0], -h[1], -h[2], -h[3])
-def toward(h: Plane, p: Point) -> Plane:
-    """The same plane, with p not on its negative side."""
+def toward(h: Plane, p: Point) -> Plane:  # the same plane, with p not on its negative side
     return back(h) if side(h, p) < 0 else h
-def across(p: Point, d: Point) -> Plane:
-    """The plane through p that is positive where d goes."""
+def across(p: Point, d: Point) -> Plane:  # the plane through p that is positive where d goes
     return (d[0] * p[3], d[1] * p[3], d[2] * p[3], -(d[0] * p[0] + d[1] * p[1] + d[2] * p[2]))
-def middle(points: Iterable[Point]) -> Point:
-    """A point in the relative interior of their hull."""
+def middle(points: Iterable[Point]) -> Point:  # a point in the relative interior of their hull
     return reduced(*map(sum, zip(*points)))
-def plane(a: Point, b: Point, c: Point) -> Plane:
-    """Positive where the three are seen counter-clockwise (D4); all zero where they are on one line."""
+def plane(a: Point, b: Point, c: Point) -> Plane:  # positive where they are seen counter-clockwise (D4); 0 on a line
     xy, xz, xw = b[0] * c[1] - b[1] * c[0], b[0] * c[2] - b[2] * c[0], b[0] * c[3] - b[3] * c[0]
     yz, yw, zw = b[1] * c[2] - b[2] * c[1], b[1] * c[3] - b[3] * c[1], b[2] * c[3] - b[3] * c[2]
     return reduced(a[1] * zw - a[2] * yw + a[3] * yz, a[2] * xw - a[0] * zw - a[3] * xz,
                    a[0] * yw - a[1] * xw + a[3] * xy, a[1] * xz - a[0] * yz - a[2] * xy)
-def clip(h: Plane, polygon: Sequence[Point]) -> list[Point]:
-    """What of a convex polygon, a segment or a point is not on the negative side."""
+def clip(h: Plane, polygon: Sequence[Point]) -> list[Point]:  # what is not on the negative side, of any dimension
     values, kept = [side(h, q) for q in polygon], []
     for i, q in enumerate(polygon):
         if values[i - 1] * values[i] < 0:
@@ -100,20 +95,18 @@ class Hull:
     def meets_inside(self, polygon: Sequence[Point]) -> bool:
         common = self.clip(polygon)
         return bool(common) and self.inside(middle(common))
-class Surface:
-    """A triangle that has an area (D1)."""
+class Surface:  # a triangle that has an area (D1)
     def __init__(self, number: int, corners: Sequence[Point]) -> None:
         self.number, self.corners, self.plane = number, list(corners), plane(*corners)
     @functools.cached_property
     def hull(self) -> Hull: return Hull(self.corners)
     def holds(self, q: Point) -> bool: return side(self.plane, q) == 0 and self.hull.contains(q)
     def facing(self, front: bool) -> Plane: return self.plane if front else back(self.plane)
-class Scene:
-    """What is looked at, and the cell from which."""
+class Scene:  # what is looked at, and the cell from which
     def __init__(self, triangles: Sequence[Sequence[Point]], cell: Hull, solid: bool,
-                 see_through: Iterable[int] = ()) -> None:
+                 passed: Iterable[int] = ()) -> None:
         self.triangles = [Surface(i, t) if any(plane(*t)) else None for i, t in enumerate(triangles)]
-        self.input, self.passed = triangles, set(see_through)  # D22: these do not block
+        self.input, self.passed = triangles, set(passed)  # D22: these do not block
         self.surfaces = [x for x in self.triangles if x and x.number not in self.passed]
         self.cell, self.fronts = cell, (True, False)[:2 - solid]
         edges = collections.Counter((t[i - 1], t[i]) for t in triangles for i in range(3) if t[i - 1] != t[i])
@@ -124,8 +117,7 @@ class Scene:
         x = self.triangles[number] if number in range(len(self.triangles)) else None
         need(x, f"there is no triangle {number}, or it has no area")
         return x
-    def alone(self, number: int) -> Scene:
-        """D22: where one is asked about that does not block, there is what blocks, and itself."""
+    def alone(self, number: int) -> Scene:  # D22: what blocks, and the one that is asked about
         return Scene(self.input, self.cell, False, self.passed - {number}) if number in self.passed else self
     def touching(self, p: Point) -> list[Surface]: return [x for x in self.surfaces if x.holds(p)]
     def planes_at(self, p: Point) -> int: return len({max(x.plane, back(x.plane)) for x in self.touching(p)})
@@ -273,8 +265,7 @@ def read_cell(text: str) -> Hull:
     return Hull(point(b[i + 3 * (k >> i & 1)] for i in range(3)) for k in range(8))
 
 # --- what is checked --------------------------------------------------------------------------------------------------
-class Opinion:
-    """What is confirmed, what cannot be checked from the files, and what is wrong."""
+class Opinion:  # what is confirmed, what cannot be checked from the files, and what is wrong
     def __init__(self) -> None:
         self.confirmed, self.unchecked, self.flaws = collections.Counter(), collections.Counter(), []
     def examine(self, where: str, kind: str, check: Callable[..., None], *arguments: Json) -> None:
@@ -285,16 +276,14 @@ class Opinion:
             self.flaws.append(f"{where}: {e}")
     def same(self, where: str, said: Json, true: Json) -> None:
         if said != true: self.flaws.append(f"{where}: {said} is said, {true} is true")
-def check_contact(s: Scene, number: int, contact: bool = True) -> None:
-    """D3: what has a point in the closed cell counts as visible."""
+def check_contact(s: Scene, number: int, contact: bool = True) -> None:  # D3: what has a point in V counts as visible
     need(bool(s.cell.clip(s.surface(number).corners)) == contact, f"{'does not meet' if contact else 'meets'} the cell")
 def check_not_seen(s: Scene, p: Point, ahead: Plane | None) -> None:
     """Where surfaces of two planes touch, a point may be seen and nothing beside it (section 6): no word on these."""
     need(not s.cell.contains(p), "is in the cell")
     if s.planes_at(p) < 2:
         need(not viewpoints(s.cell, p, ahead, s.surfaces), f"is visible: a part of the cell sees {p[:3]} / {p[3]}")
-def check_hidden(s: Scene, number: int) -> None:
-    """No proof: the triangle does not meet the cell, and some points of it are occluded."""
+def check_hidden(s: Scene, number: int) -> None:  # no proof: it does not meet the cell, some points are occluded
     check_contact(s, number, False)
     x = s.surface(number)
     for ahead, weights in itertools.product(map(x.facing, s.fronts), itertools.product((1, 9), repeat=3)):

@@ -214,7 +214,7 @@ test('walks, hierarchies and transitions are dropped; what is not whole is a sen
     { name: 'odd.maps', content: maps.map((l) => (l.startsWith('base ') ? 'base x' : l)).join('\n') });
   for (const attempt of attempts) {
     await drop(page, attempt);
-    await page.waitForFunction((name) => document.getElementById('note').textContent.startsWith(name), attempt.name, { timeout: 5000 });
+    await page.waitForFunction((name) => document.getElementById('note').textContent.startsWith(name), attempt.name);
     await page.click('#note button');
     assert(await page.isVisible('#welcome'), attempt.name);
   }

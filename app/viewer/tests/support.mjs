@@ -51,10 +51,13 @@ export function makeFinding() {
 }
 export const FINDING = 'found/sight-lines-hidden-visible-axis_boxes';
 
+// The limit of time is that of the whole test: this is how long a browser on a busy machine may take for anything.
+const PATIENCE = 600000;
 let running = null;
 export async function browser() {
   running ??= await chromium.launch({
     executablePath: CLUES_CHROMIUM,
+    timeout: PATIENCE,
     args: ['--no-sandbox', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync',
       '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
   });
@@ -65,6 +68,7 @@ export async function close() { await running?.close(); running = null; }
 // Opens a page, runs the test with it (and the processor time until it was there), and fails on anything that the page complains of or fetches.
 export async function withPage(name, test, { width = 1280, height = 800, hash = '', ready = true, picture = true, media = {} } = {}) {
   const context = await (await browser()).newContext({ viewport: { width, height }, acceptDownloads: true, reducedMotion: 'reduce', colorScheme: 'light', ...media });
+  context.setDefaultTimeout(PATIENCE);
   const page = await context.newPage(), complaints = [];
   page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall due to ReadPixels/.test(message.text())) complaints.push(message.text()); });
   page.on('pageerror', (problem) => complaints.push(problem.stack));

@@ -261,7 +261,7 @@ test('bad and truncated files give a sentence, and not a blank page', () => with
   for (const attempt of attempts) {
     if (attempt.name === 'town.obj') attempt.content = Buffer.from('v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n');
     await drop(page, attempt);
-    await page.waitForFunction((name) => document.getElementById('note').textContent.startsWith(name.split('/').pop()), attempt.name, { timeout: 5000 });
+    await page.waitForFunction((name) => document.getElementById('note').textContent.startsWith(name.split('/').pop()), attempt.name);
     assert((await text(page, '#note')).length > attempt.name.length + 15, await text(page, '#note'));
     await page.click('#note button');
     assert(await page.isVisible('#welcome'), attempt.name);

@@ -54,6 +54,8 @@ function seek(part) {
   if (data.cursor > part.at) {
     data.cursor = -1;
     data.triangles.fill(FREE);
+    data.kinds.fill('');
+    data.places.fill(0);
   }
   while (data.cursor < part.at) {
     const frame = data.frames[++data.cursor], last = data.cursor === part.at;
