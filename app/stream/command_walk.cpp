@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -89,14 +90,15 @@ class WalkingClient {
  private:
   void reconnect() {
     constexpr std::chrono::milliseconds patience{10000}, pause{50};
-    const auto deadline = std::chrono::steady_clock::now() + (lost_ == 0 && !met_ ? pause : patience);
-    while (true) {
-      socket_ = scene::connect_to(path_);
-      if (socket_.is_open()) break;
+    // From the first connection that was lost on: who takes every call and says nothing is no server either.
+    if (!lost_since_) lost_since_ = std::chrono::steady_clock::now();
+    const auto deadline = *lost_since_ + (met_ ? patience : pause);
+    do {
       if (std::chrono::steady_clock::now() >= deadline)
-        throw Error(ErrorCode::bad_argument, path_ + ": no server listens there; start `clues serve --socket`");
-      std::this_thread::sleep_for(pause);
-    }
+        throw Error(ErrorCode::bad_argument, path_ + ": no server answers there; start `clues serve --socket`");
+      if (tried_++ > 0) std::this_thread::sleep_for(pause);
+      socket_ = scene::connect_to(path_);
+    } while (!socket_.is_open());
     met_ = true;
     to_send_ = caller_.connect();
   }
@@ -107,6 +109,10 @@ class WalkingClient {
       std::string bytes;
       io = scene::receive_some(socket_, bytes);
       caller_.receive(bytes);
+      if (!bytes.empty()) {
+        lost_since_.reset();
+        tried_ = 0;
+      }
     }
     if (io == scene::SocketIo::later) scene::wait_for(socket_, !to_send_.empty(), std::chrono::seconds(1));
     if (io == scene::SocketIo::lost) {
@@ -119,6 +125,8 @@ class WalkingClient {
   scene::Descriptor socket_;
   scene::StreamCaller caller_;
   std::uint64_t lost_ = 0;
+  std::optional<std::chrono::steady_clock::time_point> lost_since_;  // and nothing was heard
+  int tried_ = 0;                                                    // to connect, since then
   bool met_ = false;
 };
 

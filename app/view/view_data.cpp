@@ -58,6 +58,7 @@ Content content_of(const fs::path& file) {
   std::string begin(enough, '\0');
   std::ifstream input(file, std::ios::binary);
   input.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  if (input.bad()) throw Error(ErrorCode::file_unreadable, file.string() + ": cannot be read; check the file");
   begin.resize(static_cast<std::size_t>(input.gcount()));
   if (begin.starts_with("SQLite format 3")) return Content::bake;
   if (scene::is_hierarchy_text(begin)) return Content::maps;
@@ -185,7 +186,8 @@ void ViewData::Parts::add_conformance(const fs::path& file, json report) {
         shown[c.id]["cell"] = c.cell;
       }
     }
-  } catch (const Error&) {
+  } catch (const Error& problem) {
+    if (problem.code() == ErrorCode::file_unreadable) throw;
     shown = json::object();  // then the page has the table alone, and says so
   }
   report["scenes"] = std::move(shown);

@@ -13,7 +13,10 @@ std::string StreamSession::answer_next() {
     const auto packet = reader_.next();
     if (!packet) return {};
     const auto request = scene::parse_request(*packet, "client", header_->cell_count);
-    if (!request.resumes) return said(server_.enter(request.cell)) + scene::end_packet(server_.messages());
+    if (!request.resumes) {
+      const std::string bytes = said(server_.enter(request.cell));
+      return bytes + scene::end_packet(server_.messages());
+    }
     server_.restart();
     resumed_ = Resumed{request.route, request.have, 0};
     return resume_some();
