@@ -1,10 +1,14 @@
 // Scenes on which a kernel was wrong, gave up, or took minutes (found/): by hand, with the cells of points, segments and polygons and small whole coordinates.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "exact/sight/witness.h"
+#include "fastpath/visibility/engine_part.h"
+#include "fastpath/visibility/first_order.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh_io.h"
 #include "tests/differential/scene_judge.h"
@@ -146,6 +150,50 @@ TEST(Found, AnUmbraThatEndsBeforeAVertex) {
 TEST(Found, AnUmbraThatEndsBeforeAVertexBehindAFin) {
   expect_list("umbra-ends-before-a-vertex-behind-a-fin.obj", "box:-30,-110,-10,30,-100,10",
               {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17});
+}
+
+// A place that stands for a side lies just off it, and the wedges of a CSV that a limit left out may come between: side and place were each outside of its
+// anti-cone, but not on one side of it. By the limits of D17, then with our own limits, and then as a proof of the closure.
+fastpath::FirstOrder fast_list(const fuzz::Case& scene, const exact::Dials& dials) {
+  fastpath::LocalMapOptions options;
+  options.dials = dials;
+  return fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, options);
+}
+
+exact::Dials no_csvs() {
+  exact::Dials dials;
+  dials.csv_limit = dials.csv_limit_per_edge = 0;
+  return dials;
+}
+
+TEST(Found, APlaceAcrossTheWedgesOfACsvThatIsLeftOut) {
+  const fuzz::Case scene = scene_of("place-across-a-csv.obj", "box:0,0,-1,0,0,1");
+  const auto cell = exact::ConvexCell::from_doubles(scene.cell);
+  const exact::Point3 v(0, 0, exact::FT(299) / 303), p(exact::FT(193) / 38, exact::FT(5) / 64, exact::FT(122) / 19);
+  ASSERT_TRUE(exact::check_witness(scene.mesh, cell, 2, true, v, p).valid);
+  exact::Dials no_generations;
+  no_generations.generation_limit = 0;
+  for (const exact::Dials& dials : {no_csvs(), no_generations, exact::Dials{}}) {
+    const auto list = fast_list(scene, dials).visible;
+    EXPECT_TRUE(std::binary_search(list.begin(), list.end(), 2U));
+  }
+  const fuzz::Case more = scene_of("place-across-a-csv-beyond-the-limit.obj", "box:0,0,-1,0,0,1");
+  const fastpath::FirstOrder answer = fast_list(more, {});
+  EXPECT_EQ(answer.visible.size(), more.mesh.triangles.size());
+  EXPECT_GT(answer.conservative_fallbacks, 0);
+}
+
+TEST(Found, AProofBesideATriangleAcrossTheWedgesOfACsvThatIsLeftOut) {
+  const fuzz::Case scene = scene_of("place-across-a-csv-in-the-plane.obj", "box:0,0,-1,0,0,1");
+  fastpath::LocalMapOptions options;
+  options.dials = no_csvs();
+  options.dials.first_guess = exact::Dials::FirstGuess::nothing;
+  options.dials.sight_rays = 0;
+  options.dials.batch = 1;
+  const fastpath::Bvh bvh(scene.mesh);
+  const std::vector<std::uint32_t> guess{0, 1, 2};
+  const auto closed = fastpath::close_by_engine(bvh, scene.cell, options, fastpath::outside_of(bvh), guess);
+  EXPECT_EQ(closed.closure.visible, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 
 }  // namespace

@@ -60,9 +60,10 @@ SetLabel OneLabel::of_uncut(std::span<const IntervalBox> hull, const ExactPoint&
   Pool pool;
   const Walker::Label label = walker_.label(&p, pool, kLabelSeed);
   if (label == Walker::Label::visible) return SetLabel::visible;
-  const IntervalBox at = p.approximate();  // it may be beside the set
-  if (label == Walker::Label::hidden && outside_of_left_out(hull) && outside_of_left_out({&at, 1}))
-    return SetLabel::hidden;
+  // With the point, which may be beside the set: each might be outside of an A(x) that lies between the two.
+  std::vector<IntervalBox> together(hull.begin(), hull.end());
+  together.push_back(p.approximate());
+  if (label == Walker::Label::hidden && outside_of_left_out(together)) return SetLabel::hidden;
   ++unresolved_;
   return SetLabel::visible;
 }

@@ -11,6 +11,9 @@
 // By (1), going back, y is in the closed A(x) for some x in X, and so is all that its wedges could show. That is where the walks by W can be wrong, and only there.
 // So the point of M that was asked is hidden. Were another point of M in Omega, a missing wedge would cross M between the two; it lies in a closed A(x), and M keeps out of it.
 //
+// The point that is asked may be beside M, with nothing between: then M stands for the hull of both. (Each of the two outside of A(x) is not enough: A(x) may lie between
+// them, found/place-across-a-csv.obj.)
+//
 // One point of M outside A(x) says nothing about the rest of M: that took triangle 2 from tests/differential/limit-hides-a-tip.obj. The test is against the facets of A(x): M is outside if all its corners are
 // strictly in front of one, in intervals. (Where A(x) lies in a plane, as for x in the plane of a flat cell, that plane is all that is asked.)
 #pragma once
