@@ -17,6 +17,7 @@
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
 #include "scene/messages/printable.h"
+#include "scene/messages/shell_word.h"
 #include "validate/conform/program_subject.h"
 #include "validate/conform/report.h"
 #include "validate/conform/result_files.h"
@@ -93,19 +94,11 @@ std::unique_ptr<validate::Subject> make_subject(const ConformRequest& request) {
   return std::make_unique<validate::ProgramSubject>(words, limits);
 }
 
-std::string quoted(const std::string& word) {
-  const auto plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 // The command that runs the same subject under the same limits, but for the selection.
 std::string repeat_command(const ConformRequest& request, const fs::path& suite) {
-  std::string command = "clues conform --suite " + quoted(suite.string());
-  if (!request.results.empty()) return command + " --results " + quoted(request.results);
-  command += " --impl " + quoted(request.implementation);
+  std::string command = "clues conform --suite " + scene::shell_word(suite.string());
+  if (!request.results.empty()) return command + " --results " + scene::shell_word(request.results);
+  command += " --impl " + scene::shell_word(request.implementation);
   if (request.time_limit != "10") command += " --time-limit " + request.time_limit;
   if (request.memory_limit != 0) command += fmt::format(" --memory-limit {}", request.memory_limit);
   return command;

@@ -66,14 +66,6 @@ ContourCode code_of(const scene::TriangleMesh& mesh, const exact::ConvexCell& pa
   return code;
 }
 
-scene::TriangleMesh plates_and_a_box() {
-  SceneBuilder scene;
-  scene.plate(-1, -1, 1, 1, 4);
-  scene.plate(-20, -20, 20, 20, 8);
-  scene.box({5, -1, 1}, {7, 1, 3});
-  return scene.mesh();
-}
-
 TEST(Contours, LabelsMakeTheSegmentsOfScenePAgain) {
   CodeSums sums;
   ContourLabel label;

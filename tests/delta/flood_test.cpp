@@ -112,18 +112,9 @@ void expect_table_xiv(const scene::TriangleMesh& mesh, const exact::ConvexCell& 
   expect_floods(seen, known, without(a, b), sums);  // occluded from B, not from A
 }
 
-// A plate below a receiver, under which two cells lie side by side, and an edge of the scene at which what is seen ends.
-scene::TriangleMesh plates() {
-  SceneBuilder scene;
-  scene.plate(-1, -1, 1, 1, 4);
-  scene.plate(-20, -20, 20, 20, 8);
-  scene.box({5, -1, 1}, {7, 1, 3});
-  return scene.mesh();
-}
-
 TEST(Flood, FindsScenePAgainAndLosesWhatItShould) {
   FloodSums sums;
-  const auto mesh = plates();
+  const auto mesh = plates_and_a_box();
   expect_table_xiv(mesh, box_cell(-2, -1, -1, 2, 1, 0), sums);
   EXPECT_EQ(sums.labels, 3U);
   EXPECT_GT(sums.segments, 6U);
@@ -132,7 +123,7 @@ TEST(Flood, FindsScenePAgainAndLosesWhatItShould) {
 
 // What is hidden from B alone has the border of B's map on its occluded side, and that of A's on its exposed one.
 TEST(Flood, BordersOfARowOfTableXIVAreThoseOfTheTwoCells) {
-  const auto mesh = plates();
+  const auto mesh = plates_and_a_box();
   const Seen seen(mesh);
   const auto known = seen.from(box_cell(-2, -1, -1, 2, 1, 0)), a = seen.from(box_cell(-2, -1, -1, 0, 1, 0)),
              b = seen.from(box_cell(0, -1, -1, 2, 1, 0));
@@ -157,7 +148,7 @@ TEST(Flood, BordersOfARowOfTableXIVAreThoseOfTheTwoCells) {
 
 // FIG. 42B: from a small cell, what is far away is left to its parent.
 TEST(Flood, WhatIsFarIsHandledByTheParent) {
-  const auto mesh = plates();
+  const auto mesh = plates_and_a_box();
   const Seen seen(mesh);
   const auto parent = box_cell(-2, -1, -1, 2, 1, 0), child = box_cell(-2, -1, -1, 0, 1, 0);
   const auto known = seen.from(parent), exactly = seen.from(child);

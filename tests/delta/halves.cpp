@@ -1,6 +1,7 @@
 #include "tests/delta/halves.h"
 
 #include "exact/cell/direction_cone.h"
+#include "tests/reference/support.h"
 
 namespace clues::test {
 
@@ -18,6 +19,14 @@ std::vector<exact::ConvexCell> halves_of(const exact::ConvexCell& cell) {
     out.emplace_back(points);
   }
   return out;
+}
+
+scene::TriangleMesh plates_and_a_box() {
+  SceneBuilder scene;
+  scene.plate(-1, -1, 1, 1, 4);
+  scene.plate(-20, -20, 20, 20, 8);
+  scene.box({5, -1, 1}, {7, 1, 3});
+  return scene.mesh();
 }
 
 }  // namespace clues::test

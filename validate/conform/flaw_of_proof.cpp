@@ -6,16 +6,9 @@
 #include "exact/sight/witness.h"
 #include "validate/conform/grade.h"
 #include "validate/see_through/layers.h"
+#include "validate/vectors/rational_point.h"
 
 namespace clues::validate {
-namespace {
-
-exact::Point3 point_of(const RationalPoint& p) {
-  const auto number = [](const std::string& text) { return exact::FT(exact::FT::ET(text)); };
-  return {number(p[0]), number(p[1]), number(p[2])};
-}
-
-}  // namespace
 
 std::string flaw_of_proof(const VectorCase& test, const MustBeVisible& proof) {
   const auto cell = exact::ConvexCell::from_doubles(test.cell);

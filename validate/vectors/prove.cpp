@@ -12,6 +12,7 @@
 #include "exact/sight/witness.h"
 #include "reference/visibility/first_order.h"
 #include "validate/see_through/layers.h"
+#include "validate/vectors/rational_point.h"
 #include "validate/vectors/short_witness.h"
 #include "validate/verdicts/judge.h"
 #include "validate/verdicts/judge_report.h"
@@ -22,14 +23,6 @@ namespace {
 
 using exact::FT;
 using exact::Point3;
-
-FT number_of(const std::string& text) {
-  const auto slash = text.find('/');
-  const FT numerator(FT::Exact_type(text.substr(0, slash)));
-  return slash == std::string::npos ? numerator : numerator / FT(FT::Exact_type(text.substr(slash + 1)));
-}
-
-Point3 point_of(const RationalPoint& p) { return Point3(number_of(p[0]), number_of(p[1]), number_of(p[2])); }
 
 RationalPoint text_of(const Point3& p) {
   return {exact::to_string_exact(p.x()), exact::to_string_exact(p.y()), exact::to_string_exact(p.z())};
