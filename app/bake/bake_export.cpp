@@ -14,6 +14,7 @@
 #include "app/engine/clues_pvs.h"
 #include "exact/cell/convex_cell.h"
 #include "scene/files/atomic_file.h"
+#include "scene/mesh/bounds.h"
 #include "scene/messages/error.h"
 #include "scene/messages/printable.h"
 #include "scene/result.h"
@@ -77,15 +78,9 @@ struct Voxels {
 
 Voxels voxels_over(const std::vector<scene::BakePlace>& cells) {
   Voxels v;
-  Point low = cells[0].points[0], high = low;
-  for (const auto& cell : cells) {
-    for (const auto& p : cell.points) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], p[i]);
-        high[i] = std::max(high[i], p[i]);
-      }
-    }
-  }
+  scene::Bounds all = scene::bounds_of(cells[0].points);
+  for (const auto& cell : cells) all = scene::hull_of(all, scene::bounds_of(cell.points));
+  const auto& [low, high] = all;
   double longest = 0;
   for (std::size_t i = 0; i < 3; ++i) longest = std::max(longest, high[i] - low[i]);
   const double most = std::min(128.0, std::ceil(4 * std::cbrt(static_cast<double>(cells.size()))));

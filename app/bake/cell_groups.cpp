@@ -5,31 +5,19 @@
 #include <span>
 #include <tuple>
 
+#include "scene/mesh/bounds.h"
+
 namespace clues::app {
 namespace {
 
+using scene::Bounds;
 using scene::Point;
-
-struct Bounds {
-  Point low, high;
-};
-
-Bounds bounds_of(const scene::BakePlace& cell) {
-  Bounds b{cell.points[0], cell.points[0]};
-  for (const auto& p : cell.points) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      b.low[i] = std::min(b.low[i], p[i]);
-      b.high[i] = std::max(b.high[i], p[i]);
-    }
-  }
-  return b;
-}
 
 class Builder {
  public:
   Builder(const std::vector<scene::BakePlace>& cells, std::size_t most) : most_(most) {
     groups_.boxes.emplace_back();
-    for (const auto& cell : cells) bounds_.push_back(bounds_of(cell));
+    for (const auto& cell : cells) bounds_.push_back(scene::bounds_of(cell.points));
     groups_.group_of.resize(cells.size());
   }
 
@@ -43,12 +31,7 @@ class Builder {
  private:
   Bounds bounds_of_all(std::span<const std::uint32_t> cells) const {
     Bounds b = bounds_[cells[0]];
-    for (const auto c : cells) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        b.low[i] = std::min(b.low[i], bounds_[c].low[i]);
-        b.high[i] = std::max(b.high[i], bounds_[c].high[i]);
-      }
-    }
+    for (const auto c : cells) b = scene::hull_of(b, bounds_[c]);
     return b;
   }
 

@@ -3,40 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
-#include <limits>
 #include <utility>
 
 #include "scene/bakes/packed_list.h"
+#include "scene/mesh/bounds.h"
 #include "scene/messages/error.h"
 
 namespace clues::scene {
 namespace {
 
 using Ids = std::vector<std::uint32_t>;
-
-struct Bounds {
-  Point low, high;
-};
-
-Bounds bounds_of(const std::vector<Point>& points) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Bounds box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
-  for (const auto& p : points) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.low[i] = std::min(box.low[i], p[i]);
-      box.high[i] = std::max(box.high[i], p[i]);
-    }
-  }
-  return box;
-}
-
-bool touch(const Bounds& a, const Bounds& b) {
-  bool all = true;
-  for (std::size_t i = 0; i < 3; ++i) all = all && a.low[i] <= b.high[i] && b.low[i] <= a.high[i];
-  return all;
-}
 
 Ids list_of(const Database& db, std::size_t cell, std::uint32_t triangles) {
   Statement row(db, "SELECT list FROM cells WHERE id = ?");
