@@ -60,7 +60,7 @@ std::uint32_t SphereMesh::add_vertex(const scene::DepthSample& sample) {
 
 void SphereMesh::forget_vertex(std::uint32_t v) {
   face_of_[v] = kNone;
-  free_vertices_.push_back(v);
+  if (!samples_[v].is_base) free_vertices_.push_back(v);
 }
 
 std::uint32_t SphereMesh::new_face() {

@@ -34,6 +34,7 @@ class SphereMesh {
   bool is_vertex(std::uint32_t v) const { return face_of_[v] != kNone; }
   std::uint32_t face_of(std::uint32_t v) const { return face_of_[v]; }  // some face at v
   std::size_t face_count() const { return faces_.size() - free_faces_.size(); }
+  // Base vertices that are out for a while count, too: they keep their numbers.
   std::size_t vertex_count() const { return samples_.size() - free_vertices_.size(); }
 
   std::uint32_t add_vertex(const scene::DepthSample& sample);  // in no face yet

@@ -130,6 +130,7 @@ std::uint32_t Triangulation::face_towards(const scene::DepthSample& sample) cons
   std::uint32_t nearest = 0;
   double most = -HUGE_VAL;
   for (std::uint32_t v = 0; v < base_vertices_; ++v) {
+    if (!mesh_.is_vertex(v)) continue;
     const Row& base = view_.row(v);
     const double cosine = dot(row.x, base.x) / base.length;
     if (cosine > most) {
@@ -140,7 +141,7 @@ std::uint32_t Triangulation::face_towards(const scene::DepthSample& sample) cons
   return mesh_.face_of(nearest);
 }
 
-std::uint32_t Triangulation::insert(const scene::DepthSample& sample, std::uint32_t from) {
+std::uint32_t Triangulation::insert(const scene::DepthSample& sample, std::uint32_t from, std::uint32_t base) {
   const Row row = row_of(sample, view_.at());
   const Seen seen{&sample, &row};
   // The viewpoint, or so near or far that nothing can be said in doubles; no direction at all.
@@ -152,7 +153,7 @@ std::uint32_t Triangulation::insert(const scene::DepthSample& sample, std::uint3
     view_.row(v);
     if (!constraints_.edge_length(seen, view_.seen(v), view_.at())) return kNone;
   }
-  const std::uint32_t vertex = mesh_.add_vertex(sample);
+  const std::uint32_t vertex = base == kNone ? mesh_.add_vertex(sample) : base;
   view_.forget(vertex);
   const std::size_t mark = mesh_.changed().size();
   if (place.zeros == 1) {

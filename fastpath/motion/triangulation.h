@@ -57,8 +57,8 @@ class Triangulation {
 
   // A sample into the mesh, in which all triangles face view(): its number; or kNone where a constraint forbids it: a vertex too near, the
   // viewpoint itself. Flips around it while an edge is not locally Delaunay. `from`: a face near it, if one is known.
-  // Expected O(1) after location, which is a walk from that face.
-  std::uint32_t insert(const scene::DepthSample& sample, std::uint32_t from = kNone);
+  // Expected O(1) after location, which is a walk from that face. `base`: the number of the base vertex that it is.
+  std::uint32_t insert(const scene::DepthSample& sample, std::uint32_t from = kNone, std::uint32_t base = kNone);
 
   // A face at the base vertex whose direction is nearest to that of the sample, as doubles tell: where to begin a walk to it.
   std::uint32_t face_towards(const scene::DepthSample& sample) const;

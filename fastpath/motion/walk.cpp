@@ -63,6 +63,7 @@ void Walk::rebuild() {
   old_view_ = std::make_unique<View>(triangulation_->mesh());
   old_view_->look_from(at_);
   removed_.clear();
+  out_.clear();
   for (auto* of_the_old_mesh : {&failing_, &failed_, &not_delaunay_}) of_the_old_mesh->clear();
   calendar_.reset();
   for (Part& part : parts_) part = {};
@@ -277,6 +278,7 @@ FrameReport Walk::move_to(const MotionPoint& at) {
   }
   if (!again) {
     again = !settle(report);
+    if (!again) put_back(report);
     if (!again) refill(report);
     again = again || !settle(report);
     report.flipped = triangulation_->flips;

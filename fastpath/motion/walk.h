@@ -5,7 +5,11 @@
 // sample of each is taken out and its star triangulated anew so that it faces the *old* viewpoint, where that can always be done, and the new triangles are
 // tested at the new one; and so on until none fails there. Now every triangle faces both ends of the step. det(a - v, b - v, c - v) is linear in v, so it
 // faces all of the step, and the projection stays one to one (T7), however long the step was and whatever it went through. Only then come flips
-// (between triangles that face the viewpoint they always can be done) and new samples, at the new viewpoint.
+// (between triangles that face the viewpoint they always can be done), what was taken out and is seen still, and new samples, at the new viewpoint.
+//
+// Vertices of the base are directions: near surfaces move past them. In a triangle that turned over it is the base vertex that is taken out, and put back
+// where it belongs now; samples in its way stay. Where one of them is too near, the base vertex waits for a frame in which it is not: that direction
+// is covered.
 #pragma once
 
 #include <cstdint>
@@ -81,6 +85,8 @@ class Walk {
   bool settle(FrameReport& report);
   void refill(FrameReport& report);
   void note_changes();
+  bool lift_base_vertex_of(std::uint32_t f);
+  void put_back(FrameReport& report);
   bool remove_sample_of(std::uint32_t f, const View& view, FrameReport& report);
   std::uint32_t sample_to_remove(std::uint32_t f) const;
   double part_bound(std::uint32_t f, std::size_t part);
@@ -109,6 +115,12 @@ class Walk {
   std::vector<std::uint32_t> failed_, touched_, stack_;
   std::vector<Calendar::Entry> due_;
   std::deque<DepthSample> removed_;
+  // Taken out in this frame, and base vertices that did not fit in frames before: with a vertex that was next to it.
+  struct Out {
+    DepthSample sample;
+    std::uint32_t base, beside;  // base: its number
+  };
+  std::vector<Out> out_;
 };
 
 }  // namespace clues::fastpath::motion

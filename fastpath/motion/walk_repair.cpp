@@ -25,12 +25,54 @@ bool Walk::remove_sample_of(std::uint32_t f, const View& view, FrameReport& repo
   const std::uint32_t v = sample_to_remove(f);
   if (v == kNone) return false;
   const scene::DepthSample sample = mesh().samples()[v];
+  const std::uint32_t beside = mesh().face(f).corner[mesh().face(f).corner[0] == v ? 1 : 0];
   if (!triangulation_->remove(v, view, triangulation_->view())) return false;
   ++report.removed;
-  removed_.push_back(sample);
-  if (removed_.size() > options_.samples) removed_.pop_front();
+  out_.push_back({sample, kNone, beside});
   note_changes();
   return true;
+}
+
+// A base vertex is where it is from everywhere, and goes through all that is near; what is in its way would have to go, one layer of samples after the other.
+bool Walk::lift_base_vertex_of(std::uint32_t f) {
+  const auto corner = mesh().face(f).corner;
+  if (triangulation_->facing(triangulation_->view(), corner[0], corner[1], corner[2]) > 0) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t v = corner[i];
+    const scene::DepthSample sample = mesh().samples()[v];
+    if (!sample.is_base || !triangulation_->remove(v, *old_view_, triangulation_->view())) continue;
+    out_.push_back({sample, v, corner[(i + 1) % 3]});
+    note_changes();
+    return true;
+  }
+  return false;
+}
+
+// Base vertices, and samples that are seen still, the last one that was taken out first. What does not fit waits.
+void Walk::put_back(FrameReport& report) {
+  std::vector<Out> waiting;
+  for (; !out_.empty(); out_.pop_back()) {
+    const Out& out = out_.back();
+    const bool is_base = out.base != kNone;
+    if (is_base || sampler_.sees(at_, out.sample)) {
+      const std::uint32_t from =
+          mesh().is_vertex(out.beside) ? mesh().face_of(out.beside) : triangulation_->face_towards(out.sample);
+      const bool back = triangulation_->insert(out.sample, from, out.base) != kNone;
+      note_changes();
+      if (back && !is_base) {
+        ++report.inserted;
+        ++report.reinserted;
+      }
+      if (back) continue;
+    }
+    if (is_base) {
+      waiting.push_back(out);
+    } else {
+      removed_.push_back(out.sample);
+      if (removed_.size() > options_.samples) removed_.pop_front();
+    }
+  }
+  out_ = std::move(waiting);
 }
 
 // False: so much fails, as after a jump, that a new mesh is less work; or a star did not fit in a half sphere.
@@ -43,7 +85,7 @@ bool Walk::repair_at_old_viewpoint(FrameReport& report) {
     stack_.pop_back();
     if (!mesh().face(f).alive() || triangulation_->face_holds(f)) continue;
     const std::size_t before = touched_.size();
-    if (report.removed > most || !remove_sample_of(f, *old_view_, report)) return false;
+    if (!lift_base_vertex_of(f) && (report.removed > most || !remove_sample_of(f, *old_view_, report))) return false;
     stack_.insert(stack_.end(), touched_.begin() + static_cast<std::ptrdiff_t>(before), touched_.end());
   }
   return true;
