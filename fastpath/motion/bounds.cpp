@@ -54,7 +54,8 @@ double separation_root(const Det& det, const Pair& ab, const Row& p, double sine
 }
 
 // A1.2. value = kappa |a x b| - a.b is R^2 - r^2 of the spindle torus: the nearest point of its surface is at R - r = value / (R + sqrt(R^2 - value)), which
-// grows with value and falls with R; where an end of the edge is the nearest point (branch I1), that is further away than R - r.
+// grows with value and falls with R. Where the viewpoint certainly is in the double cone from the circle's centre over the edge (branch I1: |a x b| <=
+// kappa (L^2 / 2 - X), X = |b^2 - a^2| / 2), the nearest point is an end, further away than R - r.
 // Where one end is a direction, kappa |y x D| - y.D = |D| (kappa y_perp - y_par) is |D| / sin(phi) times the distance from the cone's side.
 double edge_root(const Row& a, const Row& b, double cross_norm, const Pair& ab, const BoundThresholds& t) {
   const double size = a.length * b.length;
@@ -62,6 +63,11 @@ double edge_root(const Row& a, const Row& b, double cross_norm, const Pair& ab, 
       (t.kappa * cross_norm - dot(a.x, b.x)) - (kEdgeErrorOfKappa * std::fabs(t.kappa) + kEdgeError) * size;
   if (!(value > 0)) return 0;
   if (a.moves && b.moves) {
+    // Both products are within 2^-49 of the square of the sum of the lengths.
+    const Vec along = b.x - a.x;
+    const double sum = a.length + b.length;
+    const double half = 0.5 * (dot(along, along) - std::fabs(dot(a.x + b.x, along))) - 0x1p-48 * (sum * sum);
+    if (t.kappa > 0 && half > 0 && ab.cross_up <= t.kappa * half * kDown) return std::min(a.length, b.length) * kDown;
     const double radius = 0.5 * (ab.speed * t.secant) * kUp;
     return value / (radius + std::sqrt(std::max(0.0, radius * radius * kUp - value))) * kDown;
   }

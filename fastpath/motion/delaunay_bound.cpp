@@ -1,39 +1,27 @@
-// T9, in a tighter form: how far the viewpoint may move before four samples can be cocircular.
+// T9, form 3: how far the viewpoint may move before four samples can be cocircular. docs/motion.md has the theorem with its proof; here it is in doubles.
 //
-// THE FORM. G = det4 of rows (x_i, l_i). Take u_k = x_k / l_k of one of the four rows, and from the last column u_k times the first three: the
-// determinant stays, the entry of k becomes 0, and those of the others mu_i = l_i - u_k . x_i = l_i (1 - cos t_i), t_i the angle between i and k:
-//     G = sum over i != k of C_i mu_i,    C_i the cofactors of the last column: linear in the viewpoint, with gradient m_i.
-// C_i is of the order of the square of the angles and so is mu_i, and so are their changes: nothing is left to cancel, where the four
-// l_i of T9 cancel to the second order.
+// With one of the four, k, as the base: 2 l_k G = sum over i != k of C_i Q_i, C_i the cofactors of the lengths, linear in the viewpoint with gradients m_i, and
+//     Q_i = 2 (l_i l_k - x_i.x_k) = l_i l_k |u_i - u_k|^2.
+// For any vector q let m'_i = m_i - C_i q, and |q| s < 1. Divided by 1 + q.w the sum has the same sign, and for |w| <= s it is at least
+//     F + g.w + w^T A w - N(s),     F = 2 l_k G,  g = sum (C_i d_i + Q_i m'_i),  A = sum (C_i B_i + sym(m'_i d_i^T - Q_i m'_i q^T)),
+//     N(s) = sum |C_i| r_i + |m'_i| s ((b_i + |q| |d_i| + |q|^2 Q_i) s^2 + r_i) / (1 - |q| s),
+// where Q_i changes by d_i.w + w^T B_i w and a rest of at most r_i(s), and |w^T B_i w| <= b_i s^2. With D = u_i - u_k, L = l_i - l_k, e = x_i - x_k:
+//   two points:               d = 2 L D, B = -D D^T - L E with E the second derivative of L, |E| <= c = min(2 |e| / (l_i l_k), 1 / min(l_i, l_k)), b = |D|^2 + |L| c,
+//                             r = |D| c s^3 + c^2 s^4 / 4 + 2 p (|L| + |D| s + c s^2 / 2) + p^2, p = s^3 min(|e| / (2 (h - s)^3), K / (l_i - s)^2 + K / (l_k - s)^2),
+//                             h the distance of the line from x_i to x_k, K = 1 / (3 sqrt 3) = 0.19245...
+//   a point, a direction z:   d = 2 |z| (u_z - u), B = |z| (I - u u^T) / l, b = |z| / l, r = 2 K |z| s^3 / (l - s)^2, l and u of the point.
+//   two directions:           nothing changes.
+// For every t >= 0 such that M = 2 A + t I is positive definite, g.w + w^T A w >= -g^T M^-1 g / 2 - t s^2 / 2 (complete the square). The best t is that for which the
+// minimum, -M^-1 g, is as long as s; any is sound. N(s) / s^3 grows with s: with N(s0) / s0^3 in its place, what comes out is sound up to s0.
 //
-// THE COMMON FACTOR. For any vector q let m'_i = m_i - C_i q, the part of each gradient that is not a change of all C_i by one factor, and |w| <= s, |q| s < 1.
-// C_i(v+w) = C_i (1 + q.w) + m'_i.w, so that G(v+w) / (1 + q.w) has the sign of G and is
-//     F(w) = sum_i C_i mu_i(v+w) + sum_i (m'_i.w) mu_i(v+w) / (1 + q.w),
-// with F(0) = G(v) and the gradient g - G q there. By Taylor's theorem for the first sum, and |mu_i(v+w) - mu_i(v)| <= M_i s for the second,
-//     F(w) >= G - |g - G q| s - Q(s) s^2,   Q(s) = sum_i ( |C_i| H_i(s) / 2 + |m'_i| (M_i(s) + |q| mu_i(v)) / (1 - |q| s) ),
-// with g the gradient of G at v, and M_i, H_i bounds of the gradient and of the second derivatives of mu_i within s. Four samples of one plane have
-// m'_i = 0 for one q: C_i is then the distance of the plane times an area. q is the one that makes sum |m'_i|^2 least.
-//
-// M AND H. Let e = |p_i - p_k| be how fast x_i x x_k can change, N = |x_i x x_k| at v, S = (N + e s) / ((l_i - s)(l_k - s)): the sine of t_i stays at
-// most S, and t_i acute if it is at v and S < 1. Here S <= 1/2, so 1 - cos t_i <= V = 0.536 S^2 and |u_i - u_k| = 2 sin(t_i/2) <= 1.0353 S.
-// Let T = (|l_i - l_k| + 1.0353 S s) / (l_k - s) >= |l_i / l_k - 1|, as the gradient of l_i - l_k is u_k - u_i. Then
-//   two points:      grad mu = (u_k - u_i) + y / l_k for y the part of x_i across u_k: sin t (l_i/l_k - 1) across, 1 - cos t along: M = S T + V.
-//                    For a unit vector w, c = u_k.w, b = w - c u_k, h = b.u_i, a = l_i / l_k:
-//                    l_k mu'' = (1 - (c cos t + h)^2) / a - (1 - c^2)(2 - a cos t) + 2 c a h
-//                             = (1-c^2) ((1-a)^2/a - a (1 - cos t)) + c^2 sin^2 t / a + 2 c h ((a-1)(a+1) + 1 - cos t) / a - h^2 / a
-//                    with |h| <= |b| sin t, 2 |c| |b| <= 1, c^2 + |b|^2 = 1; what has 1 - c^2 or c^2 is a mean of its three values, two of one sign:
-//                    H = (max(T^2 A, S^2 A + (1 + T) V) + S (T (2 + T) + V) A) / (l_k - s),  A = (l_k + s) / (l_i - s) >= 1/a.
-//   k a direction:   mu = l_i - u_k.x_i, its gradient u_k - u_i, M = 1.0353 S; mu'' = (1 - (u_i.w)^2) / l_i: H = 1 / (l_i - s).
-//   i a direction:   mu = l_i (1 - cos t) with l_i fixed: M = l_i S / (l_k - s), and u_k'' = -((1-c^2) u_k + 2 c b) / l_k^2: H = l_i (1 + S) / (l_k - s)^2.
-//   two directions:  0. mu_i(v) = l_i (1 - cos t_i) <= l_i V in all cases.
-// In S a row that is a direction has its length, N is |x_i x x_k|, and e is the length of the direction: how fast the product changes.
-//
-// THE BOUND. Q grows with s. So for any trial s0 the root r of G - |g - G q| s - Q(s0) s^2 is sound if r <= s0, and s0 is if r > s0. Trials come down from
-// the root for less.
+// Rounding. All points are scaled by one power of two and directions by one each, so that lengths are below 2; the bound is 0 where one is below 2^-40.
+// Errors are absolute ones of C, m, Q, d and B, next to each; they are carried through the sums, and what is added up in doubles on the way is made up for by
+// 2^-48 of the sum of the absolute values. N and its like are sums of numbers of one sign (bounds.h: kDown).
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 
 #include "fastpath/motion/bounds.h"
 #include "fastpath/motion/predicates.h"
@@ -41,72 +29,228 @@
 namespace clues::fastpath::motion {
 namespace {
 
-// One i of the sum, as seen from the base k.
-struct Term {
-  bool i_moves, k_moves;
-  double li, lk;              // lengths; used below with their errors of 4u (kUp, kDown)
-  double cross, e;            // N and how fast it changes, rounded up
-  double difference;          // |l_i - l_k|, rounded up
-  double cofactor, gradient;  // |C_i|, |m'_i|, rounded up
+constexpr double kThird = 0.192451;  // > 1 / (3 sqrt 3): a sixth of the largest 3 c (1 - c^2)
+constexpr double kLeastScaled = 0x1p-40;
+
+// A symmetric matrix.
+struct Symmetric {
+  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
+
+  void add(double f, const Vec& p) {
+    const Vec fp = f * p;
+    xx += fp.x * p.x, yy += fp.y * p.y, zz += fp.z * p.z;
+    xy += fp.x * p.y, xz += fp.x * p.z, yz += fp.y * p.z;
+  }
+  // The symmetric part of p r^T.
+  void add(const Vec& p, const Vec& r) {
+    xx += p.x * r.x, yy += p.y * r.y, zz += p.z * r.z;
+    xy += 0.5 * (p.x * r.y + p.y * r.x), xz += 0.5 * (p.x * r.z + p.z * r.x), yz += 0.5 * (p.y * r.z + p.z * r.y);
+  }
+  void add_identity(double f) { xx += f, yy += f, zz += f; }
+  double frobenius() const { return std::sqrt((xx * xx + yy * yy + zz * zz) + 2 * (xy * xy + xz * xz + yz * yz)); }
+  double form(const Vec& v) const {
+    return (xx * v.x * v.x + yy * v.y * v.y + zz * v.z * v.z) + 2 * (xy * v.x * v.y + xz * v.x * v.z + yz * v.y * v.z);
+  }
 };
 
-// |C_i| H_i / 2 + |m'_i| (M_i + |q| l_i V) / (1 - |q| s); infinite where the angle may be above 30 degrees, or the viewpoint may reach a sample.
-double remainder_of(const Term& t, double q, double s) {
-  const double li = t.li * kDown - (t.i_moves ? s : 0), lk = t.lk * kDown - (t.k_moves ? s : 0);
-  if (!(li > 0) || !(lk > 0)) return kInfinity;
-  const double sine = (t.cross + t.e * s) / (li * lk);
-  if (!(sine * kUp <= 0.5)) return kInfinity;
-  const double versine = 0.536 * sine * sine;
-  double m = 0, h = 0;
-  if (t.i_moves && t.k_moves) {
-    const double ratio = (t.difference + 1.0353 * sine * s) / lk;
-    m = sine * ratio + versine;
-    const double a = (t.lk * kUp + s) / li;
-    h = (std::max(ratio * ratio * a, sine * sine * a + (1 + ratio) * versine) +
-         sine * (ratio * (2 + ratio) + versine) * a) /
-        lk;
-  } else if (t.i_moves) {
-    m = 1.0353 * sine;
-    h = 1 / li;
-  } else if (t.k_moves) {
-    m = t.li * sine / lk;
-    h = t.li * (1 + sine) / (lk * lk);
-  }
-  const double rest = 1 - q * s;
-  if (!(rest > 0x1p-10)) return kInfinity;
-  return 0.5 * t.cofactor * h + t.gradient * (m + q * (t.li * kUp) * versine) / rest;
-}
+// Q of one i and the base as the viewpoint moves. Numbers without a sign are rounded up by their errors.
+struct Change {
+  double value = 0, value_error = 0;       // Q
+  Vec slope;                               // d
+  double slope_up = 0, slope_error = 0;    // |d|
+  double second_up = 0, second_error = 0;  // b; error of B as a matrix
+  bool points = false, moves = false;
+  double turn = 0, difference = 0, curvature = 0, chord = 0, clear = 0;  // |D|, |L|, c, |e|, h (rounded down)
+  double
+      li = 0,
+      lk =
+          0;  // lengths of points, rounded down; with one point only li, and lk is the length of the direction, rounded up
 
-// What both directions of a pair have in common.
-struct PairOf {
-  double cross, e, difference;
+  // r(s); infinite where the viewpoint may reach a sample.
+  double rest(double s) const {
+    if (!moves) return 0;
+    const double ri = li - s;
+    if (!(ri > 0x1p-4 * li)) return kInfinity;
+    const double cube = s * s * s;
+    if (!points) return 2 * kThird * lk * cube / (ri * ri);
+    const double rk = lk - s, rh = clear - s;
+    if (!(rk > 0x1p-4 * lk)) return kInfinity;
+    double p = rh > 0 ? chord / (2 * rh * rh * rh) : kInfinity;
+    if (p * std::min(ri * ri, rk * rk) > kThird) p = std::min(p, kThird * (1 / (ri * ri) + 1 / (rk * rk)));
+    p *= cube;
+    const double first = turn * s, second = 0.5 * curvature * s * s;
+    return 2 * first * second + second * second + 2 * p * (difference + first + second) + p * p;
+  }
 };
 
-PairOf pair_of(const Row& i, const Row& k, const Vec& product) {
-  const double error = 0x1p-50 * (i.length + k.length);
-  PairOf p{norm(product) + kCrossError * (i.length * k.length), 0, std::fabs(i.length - k.length) + error};
-  if (i.moves && k.moves) {
-    p.e = norm(i.x - k.x) + error;
-  } else if (i.moves || k.moves) {
-    p.e = (i.moves ? k.length : i.length) * kUp;
+struct Unit {
+  const Row* row;
+  double inverse;  // 1 / l
+  Vec u;           // each coordinate within 8u, u = 2^-53
+};
+
+// D within 18u; Q = li lk |D|^2 within li lk (2^-47 |D| + 2^-94); L within 5u (li + lk); u u^T within 17u.
+Change change_of(const Unit& i, const Unit& k, const Vec& product) {
+  const Row &p = *i.row, &q = *k.row;
+  Change c;
+  const Vec d = i.u - k.u;
+  const double d_norm = norm(d), lengths = p.length * q.length;
+  c.turn = d_norm + 0x1p-48;
+  c.value = lengths * dot(d, d);
+  c.value_error = lengths * (0x1p-46 * d_norm + 0x1p-93);
+  c.moves = p.moves || q.moves;
+  c.points = p.moves && q.moves;
+  if (c.points) {
+    const double l = p.length - q.length, error = 0x1p-50 * (p.length + q.length);
+    const Vec e = p.x - q.x;
+    c.difference = std::fabs(l) + error;
+    c.chord = norm(e) + error;
+    c.curvature = std::min(2 * c.chord * (i.inverse * k.inverse), std::max(i.inverse, k.inverse)) * kUp;
+    // The nearest point of the chord is an end of it, or that of the line.
+    const double margin = 0x1p-46 * (p.length + q.length) * (p.length + q.length);
+    const bool at_an_end = dot(p.x, e) < -margin || dot(q.x, e) > margin;
+    c.clear = (at_an_end ? std::min(p.length, q.length) : (norm(product) - kCrossError * lengths) / c.chord) * kDown;
+    c.slope = (2 * l) * d;
+    c.slope_error = 2 * error * c.turn + 0x1p-47 * c.difference;
+    c.slope_up = 2 * c.difference * c.turn;
+    c.second_up = c.turn * c.turn + c.difference * c.curvature;
+    c.second_error = 0x1p-46 * c.turn + error * c.curvature + 0x1p-46 * c.difference * (i.inverse + k.inverse);
+    c.li = p.length * kDown;
+    c.lk = q.length * kDown;
+  } else if (c.moves) {
+    const Row &point = p.moves ? p : q, &direction = p.moves ? q : p;
+    c.slope = (p.moves ? -2 * direction.length : 2 * direction.length) * d;
+    c.slope_error = 0x1p-46 * direction.length;
+    c.slope_up = 2 * direction.length * c.turn * kUp;
+    c.second_up = direction.length * (p.moves ? i : k).inverse * kUp;
+    c.second_error = 0x1p-47 * c.second_up;
+    c.li = point.length * kDown;
+    c.lk = direction.length * kUp;
   }
-  return p;
+  return c;
 }
 
-double remainder_of(const std::array<Term, 3>& terms, double q, double s) {
-  return ((remainder_of(terms[0], q, s) + remainder_of(terms[1], q, s)) + remainder_of(terms[2], q, s)) * kUp;
+// B into the sum, times a cofactor.
+void add_second(Symmetric& sum, double factor, const Unit& i, const Unit& k) {
+  const Row &p = *i.row, &q = *k.row;
+  if (p.moves && q.moves) {
+    const double l = factor * (p.length - q.length);
+    sum.add(-factor, i.u - k.u);
+    sum.add_identity(l * (k.inverse - i.inverse));
+    sum.add(l * i.inverse, i.u);
+    sum.add(-l * k.inverse, k.u);
+  } else if (p.moves || q.moves) {
+    const Unit &point = p.moves ? i : k, &direction = p.moves ? k : i;
+    const double f = factor * direction.row->length * point.inverse;
+    sum.add_identity(f);
+    sum.add(-f, point.u);
+  }
+}
+
+// By a power of two: exact, below 2 for what is at most the largest.
+Row scaled(const Row& r, double factor) {
+  Row out = r;
+  out.x = factor * r.x;
+  out.length = factor * r.length;
+  return out;
+}
+
+double power_of_two_below(double x) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000ULL);
+}
+
+// The largest s for which F + g.w + w^T A w - N(s) stays positive, nearly, from below.
+struct Quadratic {
+  double value;  // F, rounded down
+  Vec g;
+  double g_error;
+  Symmetric a;
+  double a_error;
+};
+
+template <class Rest>  // N(s)
+double largest_ball(const Quadratic& f, double farthest, const Rest& rest) {
+  const double slope = norm(f.g), size = 2 * f.a.frobenius();
+  const double along = slope > 0 ? f.a.form((1 / slope) * f.g) : 0;
+  // A first trial, from what happens along g alone.
+  const double four = slope * slope - 4 * along * f.value;
+  double s = farthest;
+  if (slope > 0) s = std::min(s, 2 * f.value / (slope + std::sqrt(std::max(0.0, four))));
+  double t = s > 0 ? std::max(slope / s - 2 * along, 0.0) : 0, best = 0;
+  double third = kInfinity, third_up_to = 0;  // N(s) <= third * s^3 for s so far
+  for (int round = 0; round < 4; ++round) {
+    if (s > third_up_to || s < 0.7 * third_up_to) {
+      third = rest(s) / (s * s * s) * kUp;
+      third_up_to = s;
+      if (!(third < kInfinity)) {
+        s *= 0.5;
+        continue;
+      }
+    }
+    // Positive definite by its leading minors, with room for rounding; else more t.
+    Symmetric m, adjugate;
+    double det = 0, norm_up = 0;
+    for (int more = 0;; ++more) {
+      t = std::max(t, 0x1p-240);
+      m = {2 * f.a.xx + t, 2 * f.a.yy + t, 2 * f.a.zz + t, 2 * f.a.xy, 2 * f.a.xz, 2 * f.a.yz};
+      norm_up = size + 2 * t;
+      adjugate = {m.yy * m.zz - m.yz * m.yz, m.xx * m.zz - m.xz * m.xz, m.xx * m.yy - m.xy * m.xy,
+                  m.xz * m.yz - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy, m.xy * m.xz - m.xx * m.yz};
+      det = m.xx * adjugate.xx + m.xy * adjugate.xy + m.xz * adjugate.xz;
+      if (m.xx > 0x1p-30 * norm_up && adjugate.zz > 0x1p-30 * norm_up * norm_up &&
+          det > 0x1p-30 * norm_up * norm_up * norm_up) {
+        break;
+      }
+      if (more == 6) return best;
+      t = std::max(2 * t, 0.25 * (more + 1) * size);
+    }
+    const double inverse = 1 / det;
+    const Vec w{(adjugate.xx * f.g.x + adjugate.xy * f.g.y + adjugate.xz * f.g.z) * inverse,
+                (adjugate.xy * f.g.x + adjugate.yy * f.g.y + adjugate.yz * f.g.z) * inverse,
+                (adjugate.xz * f.g.x + adjugate.yz * f.g.y + adjugate.zz * f.g.z) * inverse};
+    // g^T M^-1 g, rounded up: the adjugate is within 2^-48 of norm^2, the determinant of norm^3.
+    const double fall = (adjugate.form(f.g) + 0x1p-45 * (slope * slope) * (norm_up * norm_up)) /
+                        (det - 0x1p-46 * norm_up * norm_up * norm_up);
+    const double left = f.value - 0.5 * fall * kUp;
+    const double second = 0.5 * t + (third * s + f.a_error + 0x1p-50 * norm_up);
+    if (left > 0) {
+      const double root = 2 * left / (f.g_error + std::sqrt(f.g_error * f.g_error + 4 * second * left));
+      best = std::max(best, std::min(root, s));
+    }
+    // The next trial by Newton's method for the whole, and its t by Newton's method for the length of w.
+    const double next = s + (left - (second * s + f.g_error) * s) / ((t + 3 * third * s) * s + f.g_error);
+    s = std::min(std::clamp(next, 0.25 * s, 1.5 * s), farthest);
+    if (!(s > 1.01 * best)) break;
+    const double length = norm(w);
+    t = std::max(0.0, t + (length / s - 1) * length * length / (adjugate.form(w) * inverse));
+  }
+  return best;
 }
 
 }  // namespace
 
-double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
-  if (!fits(a) || !fits(b) || !fits(c) || !fits(d)) return 0;
-  const std::array<const Row*, 4> rows{&a, &b, &c, &d};
-  const double value = delaunay_value(a, b, c, d) - kDelaunayError * ((a.length * b.length) * (c.length * d.length));
+double delaunay_bound(const Row& a_seen, const Row& b_seen, const Row& c_seen, const Row& d_seen) {
+  const std::array<const Row*, 4> seen{&a_seen, &b_seen, &c_seen, &d_seen};
+  double largest = 0;
+  for (const Row* r : seen) {
+    if (!fits(*r)) return 0;
+    if (r->moves) largest = std::max(largest, r->length);
+  }
+  const double unit = power_of_two_below(largest);
+  std::array<Row, 4> rows;
+  double nearest = kInfinity;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Row& r = *seen[i];
+    rows[i] = scaled(r, 1 / (r.moves ? unit : power_of_two_below(r.length)));
+    if (rows[i].length < kLeastScaled) return 0;
+    if (r.moves) nearest = std::min(nearest, rows[i].length);
+  }
+  const auto& [a, b, c, d] = rows;
+  const double la = a.length, lb = b.length, lc = c.length, ld = d.length;
+  const double value = delaunay_value(a, b, c, d) - kDelaunayError * ((la * lb) * (lc * ld));
   if (!(value > 0)) return 0;
-  if (!a.moves && !b.moves && !c.moves && !d.moves) return kInfinity;
+  if (largest == 0) return kInfinity;  // four directions
 
-  // Products of two rows: pair(i, j) is x_i x x_j for i < j.
   const Vec ab = cross(a.x, b.x), ac = cross(a.x, c.x), ad = cross(a.x, d.x), bc = cross(b.x, c.x),
             bd = cross(b.x, d.x), cd = cross(c.x, d.x);
   // C = (-det(b,c,d), det(a,c,d), -det(a,b,d), det(a,b,c)); its gradient is minus the sum of the products, each where the third row moves.
@@ -122,22 +266,12 @@ double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
                        fall(a, b, c, ab, bc, ac)};
   m[0] = -1.0 * m[0];
   m[2] = -1.0 * m[2];
-  // Errors: a product of two lengths times 16u for a gradient, of three times 9.3u for a cofactor (predicates.h). In g, each l_i m_i has products of three
-  // lengths times 16u + 6u, each C_i u_i such with 10u + 8u, and there are six sums: below 48u for each of the products that
-  // occur, each in three of the l_i m_i and one C_i u_i, 2^-46 altogether.
-  const double la = a.length, lb = b.length, lc = c.length, ld = d.length;
+  // A product of two rows is within 7.2u of the product of their lengths, and there are three: 2^-48. A cofactor: predicates.h.
   const std::array<double, 4> triple{lb * lc * ld, la * lc * ld, la * lb * ld, la * lb * lc};
   const std::array<double, 4> twice{lb * lc + lc * ld + lb * ld, la * lc + lc * ld + la * ld,
                                     la * lb + lb * ld + la * ld, la * lb + lb * lc + la * lc};
-  Vec g;
-  for (std::size_t i = 0; i < 4; ++i) {
-    g = g + rows[i]->length * m[i];
-    if (rows[i]->moves) g = g - (cofactor[i] / rows[i]->length) * rows[i]->x;
-  }
-  double nearest = kInfinity;
-  for (const Row* r : rows) {
-    if (r->moves) nearest = std::min(nearest, r->length);
-  }
+  // q takes what all cofactors have in common, the distance of the plane if the four lie in one. Any is sound. Where gradients have little in common, or
+  // what they have is gone after a short way, none is better.
   Vec q;
   double squares = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -145,68 +279,68 @@ double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
     squares += cofactor[i] * cofactor[i];
   }
   q = (squares > 0 ? 1 / squares : 0) * q;
-  // Any q is sound. Where gradients have little in common, or what they have is gone after a short way, none is better.
   double before = 0, after = 0;
+  std::array<Vec, 4> own;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vec left = m[i] - cofactor[i] * q;
+    own[i] = m[i] - cofactor[i] * q;
     before += dot(m[i], m[i]);
-    after += dot(left, left);
+    after += dot(own[i], own[i]);
   }
-  if (!(after < 0.1 * before) || !(norm(q) * nearest < 4)) q = {};
+  if (!(after < 0.1 * before) || !(norm(q) * nearest < 4)) {
+    q = {};
+    own = m;
+  }
   const double q_up = norm(q) * kUp;
-  // In g - G q: G as computed is wrong by kDelaunayError at most, the product and the difference by 4u of their terms; in m' = m - C q likewise.
-  const double all = (la * lb) * (lc * ld);
-  const double computed = delaunay_value(a, b, c, d);
-  const double slope = (norm(g - computed * q) + 0x1p-46 * ((triple[0] + triple[1]) + (triple[2] + triple[3])) +
-                        q_up * (kDelaunayError * all + 0x1p-50 * std::fabs(computed))) *
-                           kUp +
-                       0x1p-50 * norm(g);
 
-  std::array<double, 4> cofactor_up{}, gradient_up{};
+  // The base: the one with the largest cofactor, which drops out.
+  std::size_t k = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    if (std::fabs(cofactor[i]) * rows[i].length > std::fabs(cofactor[k]) * rows[k].length) k = i;
+  }
+  std::array<Unit, 4> units;
   for (std::size_t i = 0; i < 4; ++i) {
-    cofactor_up[i] = std::fabs(cofactor[i]) + kDeterminantError * triple[i];
-    gradient_up[i] = norm(m[i] - cofactor[i] * q) + 0x1p-48 * twice[i] +
-                     q_up * (kDeterminantError * triple[i] + 0x1p-50 * std::fabs(cofactor[i]));
+    const double inverse = 1 / rows[i].length;
+    units[i] = {&rows[i], inverse, inverse * rows[i].x};
   }
-
-  // The base with the least remainder for short ways is taken. pairs: ab ac ad bc bd cd
-  const std::array<PairOf, 6> pairs{pair_of(a, b, ab), pair_of(a, c, ac), pair_of(a, d, ad),
-                                    pair_of(b, c, bc), pair_of(b, d, bd), pair_of(c, d, cd)};
+  const std::array<const Vec*, 6> products{&ab, &ac, &ad, &bc, &bd, &cd};
   constexpr std::array<std::array<std::size_t, 4>, 4> at{{{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
-  const double most = std::min(value / slope, 0.5 * nearest), near = std::min(most, 0x1p-5 * nearest);
-  std::array<Term, 3> terms{};
-  double least = kInfinity;
-  for (std::size_t k = 0; k < 4; ++k) {
-    std::array<Term, 3> at_k{};
-    bool acute = true;
-    for (std::size_t i = 0, n = 0; i < 4; ++i) {
-      if (i == k) continue;
-      const Row &p = *rows[i], &base = *rows[k];
-      const PairOf& pair = pairs[at[i][k]];
-      acute = acute && dot(p.x, base.x) > kCrossError * (p.length * base.length);
-      at_k[n++] = {p.moves, base.moves,      p.length,       base.length,   pair.cross,
-                   pair.e,  pair.difference, cofactor_up[i], gradient_up[i]};
-    }
-    const double remainder = acute ? remainder_of(at_k, q_up, near) : kInfinity;
-    if (remainder < least) {
-      least = remainder;
-      terms = at_k;
-    }
-  }
-  if (!(least < kInfinity)) return 0;
 
-  const auto root_for = [&](double remainder) {
-    return 2 * value / (slope + std::sqrt(slope * slope + 4 * remainder * value));
+  Quadratic f{2 * rows[k].length * value * kDown, {}, 0, {}, 0};
+  struct Term {
+    Change change;
+    double cofactor, own;  // |C|, |m'|, rounded up
   };
-  const double first = root_for(least);
-  double best = std::min(first, near), trial = std::min(first, most);
-  for (int round = 0; round < 5 && trial > 1.05 * best; ++round) {
-    const double root = root_for(remainder_of(terms, q_up, trial));
-    best = std::max(best, std::min(root, trial));
-    if (root >= trial) break;
-    trial = std::sqrt(trial * std::max(best, 0.25 * trial));
+  std::array<Term, 3> terms;
+  for (std::size_t i = 0, n = 0; i < 4; ++i) {
+    if (i == k) continue;
+    const double c_error = kDeterminantError * triple[i];
+    const double m_error = 0x1p-48 * twice[i] + q_up * (c_error + 0x1p-50 * std::fabs(cofactor[i]));
+    const Change change = change_of(units[i], units[k], *products[at[i][k]]);
+    const double c_up = std::fabs(cofactor[i]) + c_error, m_up = norm(own[i]) + m_error;
+    f.g = f.g + cofactor[i] * change.slope + change.value * own[i];
+    f.g_error += c_up * change.slope_error + c_error * change.slope_up + m_up * change.value_error +
+                 m_error * change.value + 0x1p-48 * (c_up * change.slope_up + m_up * change.value);
+    add_second(f.a, cofactor[i], units[i], units[k]);
+    f.a.add(own[i], change.slope - change.value * q);
+    const double with_m = change.slope_up + q_up * (change.value + change.value_error);
+    f.a_error += c_up * change.second_error + c_error * change.second_up +
+                 m_up * (change.slope_error + q_up * change.value_error) + m_error * with_m +
+                 0x1p-48 * (c_up * change.second_up + m_up * with_m);
+    terms[n++] = {change, c_up, m_up};
   }
-  return best * kDown;
+  const auto rest = [&](double s) {
+    const double remains = 1 - q_up * s;
+    if (!(remains > 0x1p-10)) return kInfinity;
+    double sum = 0;
+    for (const Term& t : terms) {
+      const double r = t.change.rest(s);
+      const double q_value = q_up * (t.change.value + t.change.value_error);
+      sum += t.cofactor * r +
+             t.own * s * ((t.change.second_up + q_up * (t.change.slope_up + q_value)) * s * s + r) / remains;
+    }
+    return sum;
+  };
+  return largest_ball(f, 0.9 * nearest, rest) * unit * kDown;
 }
 
 }  // namespace clues::fastpath::motion

@@ -125,6 +125,11 @@ Triangulation::Place Triangulation::locate(const Seen& sample, std::uint32_t fro
   return {};
 }
 
+std::uint32_t Triangulation::face_holding(std::uint32_t vertex, std::uint32_t from) {
+  view_.row(vertex);
+  return locate(view_.seen(vertex), from).face;
+}
+
 std::uint32_t Triangulation::face_towards(const scene::DepthSample& sample) const {
   const Row row = row_of(sample, view_.at());
   std::uint32_t nearest = 0;

@@ -60,6 +60,9 @@ class Triangulation {
   // Expected O(1) after location, which is a walk from that face. `base`: the number of the base vertex that it is.
   std::uint32_t insert(const scene::DepthSample& sample, std::uint32_t from = kNone, std::uint32_t base = kNone);
 
+  // The face that holds the direction of a vertex of which the row is known, present or not; a walk from that face. kNone where there is no face with it.
+  std::uint32_t face_holding(std::uint32_t vertex, std::uint32_t from);
+
   // A face at the base vertex whose direction is nearest to that of the sample, as doubles tell: where to begin a walk to it.
   std::uint32_t face_towards(const scene::DepthSample& sample) const;
 

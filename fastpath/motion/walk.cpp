@@ -5,13 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "fastpath/motion/base_mesh.h"
 #include "fastpath/motion/sketch_bound.h"
 #include "scene/messages/error.h"
 
 namespace clues::fastpath::motion {
 namespace {
-
-constexpr std::uint32_t kBaseVertices = 162;
 
 double sum_up(double a, double b) { return std::nextafter(a + b, kInfinity); }
 double sum_down(double a, double b) { return std::isfinite(b) ? std::nextafter(a + b, -kInfinity) : b; }
@@ -81,7 +80,12 @@ void Walk::rebuild() {
   }
   note_changes();
   FrameReport ignored;
-  if (!settle(ignored)) throw scene::Error(scene::ErrorCode::internal, "motion: a new mesh does not hold");
+  bool holds = settle(ignored);
+  if (holds) {
+    lift_covered_base_vertices();
+    holds = settle(ignored);
+  }
+  if (!holds) throw scene::Error(scene::ErrorCode::internal, "motion: a new mesh does not hold");
 }
 
 void Walk::note_changes() {
@@ -211,7 +215,8 @@ void Walk::examine_due(FrameReport& report) {
       Part& part = parts_[p];
       if (part.key[f] > odometer_) continue;
       const double way = distance_up(at_, part.origin(f));
-      if (way < part.bound[f]) {
+      // Where little of the bound is left it would be due again at once.
+      if (way < 0.75 * part.bound[f]) {
         part.key[f] = sum_down(odometer_, std::nextafter(part.bound[f] - way, 0.0));
         if (part.key[f] > odometer_) continue;
       }

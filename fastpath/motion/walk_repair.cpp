@@ -2,12 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fastpath/motion/base_mesh.h"
 #include "fastpath/motion/walk.h"
 
 namespace clues::fastpath::motion {
 
-// What is hidden by something nearer has to go: the sample that is furthest away; a direction before all points. The greater number of two as far.
-std::uint32_t Walk::sample_to_remove(std::uint32_t f) const {
+// What is hidden by something nearer has to go: the sample that is furthest away, a direction before all points; the greater number of two as far.
+std::uint32_t Walk::furthest_sample(std::uint32_t f) const {
   std::uint32_t best = kNone;
   double furthest = 0;
   for (const std::uint32_t v : mesh().face(f).corner) {
@@ -21,8 +22,21 @@ std::uint32_t Walk::sample_to_remove(std::uint32_t f) const {
   return best;
 }
 
-bool Walk::remove_sample_of(std::uint32_t f, const View& view, FrameReport& report) {
-  const std::uint32_t v = sample_to_remove(f);
+// Where it is seen still, the nearest one has gone past it, and further with each step: that one is put back where it is now.
+std::uint32_t Walk::sample_that_moves(std::uint32_t f) {
+  const std::uint32_t furthest = furthest_sample(f);
+  if (furthest == kNone || !sampler_.sees(at_, mesh().samples()[furthest])) return furthest;
+  std::uint32_t nearest = furthest;
+  for (const std::uint32_t v : mesh().face(f).corner) {
+    const scene::DepthSample& sample = mesh().samples()[v];
+    if (sample.is_base || sample.is_direction) continue;
+    const View& view = triangulation_->view();
+    if (mesh().samples()[nearest].is_direction || view.row(v).length < view.row(nearest).length) nearest = v;
+  }
+  return nearest;
+}
+
+bool Walk::remove_sample(std::uint32_t v, std::uint32_t f, const View& view, FrameReport& report) {
   if (v == kNone) return false;
   const scene::DepthSample sample = mesh().samples()[v];
   const std::uint32_t beside = mesh().face(f).corner[mesh().face(f).corner[0] == v ? 1 : 0];
@@ -48,15 +62,49 @@ bool Walk::lift_base_vertex_of(std::uint32_t f) {
   return false;
 }
 
+bool Walk::covers(const std::uint32_t* corners, std::size_t count, std::uint32_t base) const {
+  constexpr double kCosine = 0.995;  // of 0.1
+  const View& view = triangulation_->view();
+  return std::all_of(corners, corners + count, [&](std::uint32_t v) {
+    view.row(base), view.row(v);
+    const Row &b = view.row(base), &r = view.row(v);
+    return dot(b.x, r.x) > kCosine * (b.length * r.length);
+  });
+}
+
+void Walk::lift_covered_base_vertices() {
+  SphereMesh::Star star;
+  for (std::uint32_t v = 0; v < kBaseVertices; ++v) {
+    if (!mesh().is_vertex(v)) continue;
+    mesh().star_of(v, star);
+    if (!covers(star.ring.data(), star.ring.size(), v)) continue;
+    const scene::DepthSample sample = mesh().samples()[v];
+    if (triangulation_->remove(v, triangulation_->view(), triangulation_->view()))
+      out_.push_back({sample, v, star.ring[0]});
+    note_changes();
+  }
+}
+
 // Base vertices, and samples that are seen still, the last one that was taken out first. What does not fit waits.
 void Walk::put_back(FrameReport& report) {
   std::vector<Out> waiting;
   for (; !out_.empty(); out_.pop_back()) {
-    const Out& out = out_.back();
+    Out& out = out_.back();
     const bool is_base = out.base != kNone;
     if (is_base || sampler_.sees(at_, out.sample)) {
-      const std::uint32_t from =
+      std::uint32_t from =
           mesh().is_vertex(out.beside) ? mesh().face_of(out.beside) : triangulation_->face_towards(out.sample);
+      if (is_base) {
+        from = triangulation_->face_holding(out.base, from);
+        if (from != kNone) {
+          const auto& corner = mesh().face(from).corner;
+          out.beside = corner[0];
+          if (covers(corner.data(), 3, out.base)) {
+            waiting.push_back(out);
+            continue;
+          }
+        }
+      }
       const bool back = triangulation_->insert(out.sample, from, out.base) != kNone;
       note_changes();
       if (back && !is_base) {
@@ -85,7 +133,9 @@ bool Walk::repair_at_old_viewpoint(FrameReport& report) {
     stack_.pop_back();
     if (!mesh().face(f).alive() || triangulation_->face_holds(f)) continue;
     const std::size_t before = touched_.size();
-    if (!lift_base_vertex_of(f) && (report.removed > most || !remove_sample_of(f, *old_view_, report))) return false;
+    if (!lift_base_vertex_of(f) &&
+        (report.removed > most || !remove_sample(sample_that_moves(f), f, *old_view_, report)))
+      return false;
     stack_.insert(stack_.end(), touched_.begin() + static_cast<std::ptrdiff_t>(before), touched_.end());
   }
   return true;
@@ -110,7 +160,7 @@ bool Walk::settle(FrameReport& report) {
     to_test.erase(std::unique(to_test.begin(), to_test.end()), to_test.end());
     for (const std::uint32_t f : to_test) {
       if (!mesh().face(f).alive() || triangulation_->face_holds(f)) continue;
-      if (!remove_sample_of(f, triangulation_->view(), report)) return false;
+      if (!remove_sample(furthest_sample(f), f, triangulation_->view(), report)) return false;
       again = true;
     }
   }
@@ -131,7 +181,7 @@ bool Walk::is_thin(std::uint32_t f) {
 // As long as samples are missing: one into each long triangle of those that are new, and then those that were removed, the oldest first, where
 // they are seen again.
 void Walk::refill(FrameReport& report) {
-  const auto missing = [&] { return mesh().vertex_count() < options_.samples + 162ULL; };
+  const auto missing = [&] { return mesh().vertex_count() < options_.samples + std::uint64_t{kBaseVertices}; };
   std::vector<std::uint32_t> thin = changed_;
   for (std::size_t k = 0; k < thin.size() && missing(); ++k) {
     const std::uint32_t f = thin[k];

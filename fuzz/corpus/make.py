@@ -275,5 +275,33 @@ def stream():
     put("stream", "empty_packet", struct.pack("<I", 0))
 
 
-for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, stream, report, scene_to_verdict):
+def motion():
+    tetrahedron = [[1, 1, 1], [-1, -1, 1], [-1, 1, -1], [1, -1, -1, "direction"]]
+    triangles = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]
+    mesh = {"format": "clues-depth-mesh/1", "samples": tetrahedron, "triangles": triangles}
+    put("motion", "mesh", json.dumps(mesh) + "\n")
+    put("motion", "mesh_with_all_kinds", json.dumps(dict(mesh, samples=[[1, 1, 1, "base-point"], [-1, -1, 1e-320, "base-direction"],
+                                                                        [-1, 1, -1, "point"], [1.5e308, -1, -1]])) + "\n")
+    put("motion", "mesh_corner_beyond", json.dumps(dict(mesh, triangles=[[0, 1, 4]])) + "\n")
+    put("motion", "mesh_direction_zero", json.dumps(dict(mesh, samples=[[0, 0, 0, "direction"]], triangles=[])) + "\n")
+    limits = {"kappa": 2000, "sigma": 4e-14, "delaunay": True}
+    bounds = {"format": "clues-motion-bounds/1", "viewpoint": [0, 0.5, 0], "thresholds": limits, "bounds": [0, 0.1, None, 5e-324]}
+    put("motion", "bounds", json.dumps(bounds) + "\n")
+    put("motion", "bounds_negative", json.dumps(dict(bounds, bounds=[-1])) + "\n")
+    head = json.dumps({"format": "clues-motion-walk/1"}) + "\n"
+    first = {"sizes": [4, 5], "samples": [[i, *s] for i, s in enumerate(tetrahedron)],
+             "triangles": [[i, *t] for i, t in enumerate(triangles)], "thresholds": limits, "viewpoint": [0, 0, 0]}
+    frames = [first, {"viewpoint": [0.25, 0, 0]}, {"triangles": [[0], [4, 0, 2, 1]], "samples": [[3, 2, -1, -1]], "viewpoint": [0, 0, 0]},
+              {"sizes": [3, 0], "viewpoint": [1e300, 0, 0]}]
+    put("motion", "walk", head + "".join(json.dumps(f) + "\n" for f in frames))
+    put("motion", "walk_without_frames", head)
+    put("motion", "walk_sizes_of_a_damaged_file", head + json.dumps(dict(first, sizes=[60000000, 60000000])) + "\n")
+    put("motion", "walk_free_places_of_a_damaged_file", head + json.dumps(dict(first, sizes=[4, 60000000])) + "\n")
+    put("motion", "walk_names_a_sample_that_is_gone", head + json.dumps(first) + '\n{"sizes": [3, 5], "viewpoint": [0, 0, 0]}\n')
+    put("motion", "way", "# there and back\n0 0 0\n1e-3 0 0\r\n0 0 0\n0 0 0\n1e9 -5 .5")
+    put("motion", "way_with_nan", "0 0 0\nnan 0 0\n")
+    put("motion", "way_of_nothing", "# nothing\n")
+
+
+for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, motion, stream, report, scene_to_verdict):
     make()

@@ -11,6 +11,7 @@
 #include "fuzz/findings/store.h"
 #include "fuzz/report/html_report.h"
 #include "fuzz/shrinking/finding_folder.h"
+#include "fuzz/targets/promises.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
@@ -32,10 +33,6 @@
 namespace clues::fuzz {
 namespace {
 
-void require(bool kept, const std::string& promise) {
-  if (!kept) throw BrokenPromise(promise);
-}
-
 bool same_bits(const std::vector<scene::Point>& a, const std::vector<scene::Point>& b) {
   const auto equal = [](double x, double y) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
@@ -54,19 +51,6 @@ void check_mesh(const scene::TriangleMesh& mesh) {
   for (const auto& p : mesh.points) {
     for (const double x : p) require(std::isfinite(x), "coordinates are finite");
   }
-}
-
-// Runs `read`; refusing is fine.
-template <class Read>
-bool accepted(const Read& read) {
-  try {
-    read();
-  } catch (const scene::Error& error) {
-    require(error.code() != scene::ErrorCode::internal, std::string("a refusal is no internal error: ") + error.what());
-    require(scene::printable(error.what()) == error.what(), "an error is one printable line");
-    return false;
-  }
-  return true;
 }
 
 using Reader = scene::TriangleMesh (*)(std::string_view, const std::string&);
@@ -381,6 +365,7 @@ const std::vector<Target>& all_targets() {
       {"finding", "the files of a finding, and findings as the store keeps them", finding},
       {"store", "the database of a campaign", store},
       {"bake", "a store of clues bake", bake},
+      {"motion", "depth meshes, motion bounds, walks and ways of viewpoints", motion_files},
       {"stream", "streams in binary, and what clients ask", stream},
       {"report", "what clues report finds in a folder", report},
       {"scene_to_verdict", "a small scene, mapped by the reference and judged by oracles of the fuzzer",

@@ -26,5 +26,6 @@ const std::vector<Target>& all_targets();
 const Target& target_named(const std::string& name);  // throws scene::Error bad_argument
 
 bool scene_to_verdict(std::string_view bytes);  // scene_to_verdict.cpp
+bool motion_files(std::string_view bytes);      // motion_files.cpp
 
 }  // namespace clues::fuzz

@@ -19,6 +19,7 @@ using Json = nlohmann::json;
 constexpr const char* format_name = "clues-motion-walk/1";
 constexpr std::array<std::uint32_t, 3> free_place{no_sample, no_sample, no_sample};
 constexpr std::uint64_t most_places = std::uint64_t{1} << 26;  // of samples, and of triangles: beyond is a damaged file
+constexpr std::uint64_t most_triangles_of_a_sample = 64;       // a sphere has two
 
 bool same(const DepthSample& a, const DepthSample& b) {
   return a.at == b.at && a.is_direction == b.is_direction && a.is_base == b.is_base;
@@ -141,6 +142,16 @@ bool WalkReader::next(WalkFrame& frame) {
     if (!sizes.is_array() || sizes.size() != 2) throw_malformed(where, "\"sizes\" must be [SAMPLES, TRIANGLES]");
     const auto samples = number_in(sizes[0], where, "the number of samples", most_places);
     const auto triangles = number_in(sizes[1], where, "the number of triangles", most_places);
+    // What a line of text asks for stays in proportion to the text: new samples are given with it, and free places are a few for each sample.
+    const std::uint64_t given = root.contains("samples") && root["samples"].is_array() ? root["samples"].size() : 0;
+    if (samples > mesh_.samples.size() + given) {
+      throw_malformed(where, fmt::format("\"sizes\" says {} samples; {} before, and {} in this frame", samples,
+                                         mesh_.samples.size(), given));
+    }
+    if (triangles > most_triangles_of_a_sample * (samples + 1)) {
+      throw_malformed(where, fmt::format("\"sizes\" says {} triangles of {} samples; at most {} of each", triangles,
+                                         samples, most_triangles_of_a_sample));
+    }
     mesh_.samples.resize(samples);
     mesh_.triangles.resize(triangles, free_place);
   }

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <map>
 #include <vector>
 
 #include "exact/motion/compare_bounds.h"
 #include "fastpath/motion/bounds.h"
+#include "fastpath/motion/predicates.h"
 #include "tests/motion_fast/exact_checks.h"
 
 namespace clues::tests {
@@ -61,6 +64,7 @@ mpq_class squared(double x) { return mpq_class(x) * mpq_class(x); }
 TEST(FastBounds, FacingAndEdgesAreNeverAboveTheExactOnesAndHardlyBelow) {
   fuzz::Random random(1);
   int facing = 0, edges = 0, tight_facing = 0, tight_edges = 0;
+  std::map<exact::EdgeBranch, std::array<int, 2>> branches;  // how many, and how many tight
   for (int k = 0; k < 4000; ++k) {
     Scene scene = scene_of(random);
     turn_to_face(scene);
@@ -80,7 +84,12 @@ TEST(FastBounds, FacingAndEdgesAreNeverAboveTheExactOnesAndHardlyBelow) {
     if (e > 0 && std::isfinite(e)) {
       ++edges;
       ASSERT_GE(exact::compare_edge_bound(scene.s[0], scene.s[1], v, exact_limits, squared(e)), 0) << k;
-      tight_edges += exact::compare_edge_bound(scene.s[0], scene.s[1], v, exact_limits, squared(e * (1 + 1e-3))) <= 0;
+      const bool tight =
+          exact::compare_edge_bound(scene.s[0], scene.s[1], v, exact_limits, squared(e * (1 + 1e-3))) <= 0;
+      tight_edges += tight;
+      auto& [all, of_them] = branches[exact::edge_branch(scene.s[0], scene.s[1], v, exact_limits)];
+      ++all;
+      of_them += tight;
     } else if (e > 0) {
       EXPECT_TRUE(scene.s[0].is_direction && scene.s[1].is_direction);
     }
@@ -88,7 +97,12 @@ TEST(FastBounds, FacingAndEdgesAreNeverAboveTheExactOnesAndHardlyBelow) {
   EXPECT_GT(facing, 3000);
   EXPECT_GT(edges, 700);
   EXPECT_GT(tight_facing, facing * 8 / 10);
-  EXPECT_GT(tight_edges, edges * 3 / 10);  // the others: branch I1, where an end of the edge is nearer than the tube
+  EXPECT_GT(tight_edges, edges * 8 / 10);
+  // Each branch is taken; the others are where nothing is left of thin values.
+  for (const auto branch : {exact::EdgeBranch::end_point, exact::EdgeBranch::tube, exact::EdgeBranch::cone_side}) {
+    EXPECT_GT(branches[branch][0], 40) << static_cast<int>(branch);
+    EXPECT_GT(branches[branch][1], branches[branch][0] * 3 / 4) << static_cast<int>(branch);
+  }
 }
 
 // Viewpoints on the sphere just below the bound: none violates. The most adverse direction first: against the gradient.
@@ -136,6 +150,151 @@ TEST(FastBounds, NoViewpointNearerViolatesAnything) {
   EXPECT_GT(quadrangles, 300);
 }
 
+// The nearest point, on the sphere of a radius around v, at which a linear search finds least of a constraint: against its gradient, time and again. `value` of a viewpoint.
+template <class Value>
+MotionPoint worst_on_sphere(const Scene& scene, double radius, MotionPoint way, const Value& value) {
+  const auto at = [&](const MotionPoint& w, std::size_t i, double more) {
+    MotionPoint p = scene.v;
+    for (std::size_t k = 0; k < 3; ++k) p[k] += radius * w[k] + (k == i ? more : 0);
+    return value(p);
+  };
+  for (int round = 0; round < 6; ++round) {
+    MotionPoint slope{};
+    double square = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      slope[i] = at(way, i, 1e-4 * radius) - at(way, i, -1e-4 * radius);
+      square += slope[i] * slope[i];
+    }
+    if (!(square > 0)) return way;
+    for (std::size_t i = 0; i < 3; ++i) way[i] = -slope[i] / std::sqrt(square);
+  }
+  return way;
+}
+
+double delaunay_of_units(const Scene& scene, const MotionPoint& p) {
+  std::array<Row, 4> r;
+  for (std::size_t i = 0; i < 4; ++i) r[i] = row_of(scene.s[i], p);
+  return delaunay_value(r[0], r[1], r[2], r[3]) / ((r[0].length * r[1].length) * (r[2].length * r[3].length));
+}
+
+struct Attack {
+  std::uint64_t viewpoints = 0, violations = 0, exact = 0;
+};
+
+// Viewpoints just within the bound times a factor: `tries` for each, most of them crowded around the worst direction. By the filter, and exactly where it is unsure.
+Attack adversarial_viewpoints(std::uint64_t wanted, int tries, std::uint64_t seed, bool delaunay, double factor = 1) {
+  fuzz::Random random(seed);
+  Attack attack;
+  Constraints decide({2000, 1e-6, true});
+  while (attack.viewpoints < wanted) {
+    Scene scene = scene_of(random);
+    turn_to_face(scene);
+    if (scene.v != MotionPoint{}) continue;  // from the origin viewpoints are as far as they say
+    const auto rows = scene.rows();
+    const double bound = delaunay ? delaunay_bound(rows[0], rows[1], rows[2], rows[3])
+                                  : separation_bound(rows[0], rows[1], rows[2], BoundThresholds(decide.thresholds()));
+    if (!(bound > 0) || !std::isfinite(bound)) continue;
+    const double radius = factor * bound * (1 - 0x1p-46);
+    const auto value = [&](const MotionPoint& p) {
+      if (delaunay) return delaunay_of_units(scene, p);
+      std::array<Row, 3> r;
+      for (std::size_t i = 0; i < 3; ++i) r[i] = row_of(scene.s[i], p);
+      return determinant(r[0], r[1], r[2]) / (norm(cross(r[1].x, r[2].x)) * r[0].length);
+    };
+    MotionPoint worst{};
+    for (int k = 0; k < tries; ++k) {
+      if (k % 64 == 0) worst = worst_on_sphere(scene, radius, direction(random), value);
+      MotionPoint way = direction(random), p{};
+      if (k % 4 != 0) {
+        double square = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          way[i] = worst[i] + std::ldexp(way[i], -(k % 23));
+          square += way[i] * way[i];
+        }
+        for (double& x : way) x /= std::sqrt(square);
+      }
+      std::array<Row, 4> r;
+      for (std::size_t i = 0; i < 3; ++i) p[i] = radius * way[i] * (1 - 0x1p-50);
+      for (std::size_t i = 0; i < 4; ++i) r[i] = row_of(scene.s[i], p);
+      const auto seen = [&](std::size_t i) { return Seen{&scene.s[i], &r[i]}; };
+      const bool holds = delaunay ? decide.delaunay(seen(0), seen(1), seen(2), seen(3), p) >= 0
+                                  : decide.separation(seen(0), seen(1), seen(2), p);
+      ++attack.viewpoints;
+      attack.violations += holds ? 0 : 1;
+    }
+  }
+  attack.exact = decide.counts.exact;
+  return attack;
+}
+
+void expect_no_violation(std::uint64_t viewpoints, int tries, std::uint64_t seed) {
+  for (const bool delaunay : {true, false}) {
+    const Attack attack = adversarial_viewpoints(viewpoints, tries, seed, delaunay);
+    EXPECT_EQ(attack.violations, 0U);
+    std::printf("%s: %llu viewpoints, %llu of them decided by whole numbers\n", delaunay ? "Delaunay" : "separation",
+                static_cast<unsigned long long>(attack.viewpoints), static_cast<unsigned long long>(attack.exact));
+  }
+}
+
+TEST(FastBounds, AMillionAdversarialViewpoints) { expect_no_violation(1'000'000, 256, 5); }
+TEST(FastBoundsLong, TenMillionAdversarialViewpoints) { expect_no_violation(10'000'000, 2048, 7); }
+
+// Were the bounds of tests above far too small, they would say nothing: a twentieth more is found out.
+TEST(FastBounds, ATwentiethMoreIsFoundOut) {
+  EXPECT_GT(adversarial_viewpoints(20'000, 256, 9, true, 1.05).violations, 0U);
+}
+
+// How tight: the bound as a part of the nearest violation, or loss of facing, that is found by going out along the worst directions; medians by angular size.
+TEST(FastBoundsLong, TightnessOfTheDelaunayBoundByAngularSize) {
+  fuzz::Random random(11);
+  Constraints decide({0, 0, true});
+  for (const char* kind : {"plane wall", "depth +-10 %", "depth x0.5 to 2", "one or two directions"}) {
+    std::printf("| %s |", kind);
+    for (const double size : {0.3, 0.1, 0.03, 0.01}) {
+      std::vector<double> tightness;
+      while (tightness.size() < 200) {
+        Scene scene;
+        int far = random.between(1, 2);
+        for (DepthSample& s : scene.s) {
+          const MotionPoint d = direction(random);
+          const double x = d[0] * size, y = d[1] * size;
+          const double depth = kind[0] == 'p'   ? 1 / (1 - 0.5 * x - 0.3 * y)
+                               : kind[6] == '+' ? 1 + 0.1 * d[2]
+                                                : std::exp2(uniform(random, -1, 1));
+          s.is_direction = kind[0] == 'o' && far-- > 0;
+          s.at = {x * depth, y * depth, depth};
+        }
+        turn_to_face(scene);
+        const auto holds = [&](const MotionPoint& p) {
+          std::array<Row, 4> r;
+          for (std::size_t i = 0; i < 4; ++i) r[i] = row_of(scene.s[i], p);
+          const auto seen = [&](std::size_t i) { return Seen{&scene.s[i], &r[i]}; };
+          return decide.facing(seen(0), seen(1), seen(2), p) > 0 && decide.facing(seen(3), seen(2), seen(1), p) > 0 &&
+                 decide.delaunay(seen(0), seen(1), seen(2), seen(3), p) >= 0;
+        };
+        if (!holds({})) continue;
+        const auto r = scene.rows();
+        const double bound = std::min(
+            {delaunay_bound(r[0], r[1], r[2], r[3]), facing_bound(r[0], r[1], r[2]), facing_bound(r[3], r[2], r[1])});
+        double reached = bound;
+        for (bool found = false; !found && reached < 2; reached *= 1.02) {
+          for (int start = 0; start < 40 && !found; ++start) {
+            MotionPoint way = direction(random);
+            if (start < 4)
+              way = worst_on_sphere(scene, reached, way, [&](const auto& p) { return delaunay_of_units(scene, p); });
+            found = !holds({reached * way[0], reached * way[1], reached * way[2]});
+          }
+        }
+        tightness.push_back(bound / reached);
+      }
+      std::nth_element(tightness.begin(), tightness.begin() + 100, tightness.end());
+      EXPECT_GT(tightness[100], 0.4);
+      std::printf(" %.2f |", tightness[100]);
+    }
+    std::printf("\n");
+  }
+}
+
 // What the bound is scaled by: lengths times a power of two.
 TEST(FastBounds, ScaleWithTheScene) {
   fuzz::Random random(3);
@@ -157,13 +316,17 @@ TEST(FastBounds, ScaleWithTheScene) {
   }
 }
 
-// The constants of delaunay_bound.cpp for angles of at most 30 degrees: 1 - cos t <= 0.536 sin^2 t, 2 sin(t/2) <= 1.0353 sin t. Both quotients grow with t.
-TEST(FastBounds, ConstantsOfAnglesUpToThirtyDegrees) {
-  const long double t = std::acos(-1.0L) / 6;
-  EXPECT_GT(0.536L * std::sin(t) * std::sin(t), 1 - std::cos(t));
-  EXPECT_LT(0.5358L * std::sin(t) * std::sin(t), 1 - std::cos(t));
-  EXPECT_GT(1.0353L * std::sin(t), 2 * std::sin(t / 2));
-  EXPECT_LT(1.0352L * std::sin(t), 2 * std::sin(t / 2));
+// The constants of T9, form 3: 3 c (1 - c^2) / 6 <= kThird for all cosines c; and 3 is the most that 9 (1 - z)(1 - 2 z + 5 z^2) for z = c^2 has as a root.
+TEST(FastBounds, ConstantsOfTheThirdDerivativeOfALength) {
+  long double most = 0, gradient = 0;
+  for (int k = 0; k <= 1'000'000; ++k) {
+    const long double c = k * 1e-6L, z = c * c;
+    most = std::max(most, c * (1 - z) / 2);
+    gradient = std::max(gradient, 9 * (1 - z) * (1 - 2 * z + 5 * z * z));
+  }
+  EXPECT_LT(most, 0.192451L);
+  EXPECT_GT(most, 0.192449L);
+  EXPECT_EQ(gradient, 9);
 }
 
 }  // namespace
