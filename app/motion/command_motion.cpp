@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -137,6 +138,13 @@ int run_motion(const MotionRequest& request) {
   if (request.every == 0) throw scene::Error(scene::ErrorCode::bad_argument, "--every has to be at least 1");
   WalkOptions options = request.options;
   options.bounds = bounds_of(request.bounds);
+  const auto refuse = [](const std::string& what) { throw scene::Error(scene::ErrorCode::bad_argument, what); };
+  const scene::MotionThresholds& limits = options.thresholds;
+  if (!std::isfinite(limits.kappa)) refuse(fmt::format("--kappa {}: give a finite number", limits.kappa));
+  if (!(limits.sigma >= 0 && limits.sigma <= 1))
+    refuse(fmt::format("--sigma {}: sin^2 of an angle is between 0 and 1", limits.sigma));
+  if (options.samples > fastpath::motion::kMostSamples)
+    refuse(fmt::format("--samples {}: at most {}", options.samples, fastpath::motion::kMostSamples));
   std::vector<const std::string*> outputs{&request.csv,      &request.svg,        &request.walk_out,
                                           &request.mesh_out, &request.bounds_out, &request.json.file()};
   const auto path = scene::read_view_path(request.path, request.frames);

@@ -184,45 +184,48 @@ std::uint32_t Triangulation::insert(const scene::DepthSample& sample, std::uint3
 bool Triangulation::remove(std::uint32_t vertex, const View& view, const View& preferred) {
   mesh_.star_of(vertex, inner_star_);
   const auto& ring = inner_star_.ring;
-  std::vector<std::uint32_t> left(ring.size());
-  for (std::uint32_t k = 0; k < left.size(); ++k) left[k] = k;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  // Rows may move in memory when a later one is made: all are made first.
   for (const std::uint32_t v : ring) view.row(v), preferred.row(v);
-  const auto is_ear = [&](std::size_t at) {
-    const std::size_t n = left.size();
-    const std::size_t before = (at + n - 1) % n, after = (at + 1) % n;
-    const std::uint32_t p = ring[left[before]], q = ring[left[at]], r = ring[left[after]];
-    if (facing(view, p, q, r) <= 0) return false;
-    for (std::size_t k = 0; k < n; ++k) {
+  corners_.clear();
+  for (std::uint32_t k = 0; k < ring.size(); ++k) corners_.push_back({k, view.seen(ring[k]), &preferred.row(ring[k])});
+  ears_.clear();
+  const auto side = [&](const Corner& a, const Corner& b, const Corner& c) {
+    return constraints_.facing(a.seen, b.seen, c.seen, view.at());
+  };
+  const auto is_ear = [&](std::size_t before, std::size_t at, std::size_t after) {
+    const Corner &p = corners_[before], &q = corners_[at], &r = corners_[after];
+    if (side(p, q, r) <= 0) return false;
+    for (std::size_t k = 0; k < corners_.size(); ++k) {
       if (k == before || k == at || k == after) continue;
-      const std::uint32_t x = ring[left[k]];
-      if (facing(view, p, q, x) >= 0 && facing(view, q, r, x) >= 0 && facing(view, r, p, x) >= 0) return false;
+      const Corner& x = corners_[k];
+      if (side(p, q, x) >= 0 && side(q, r, x) >= 0 && side(r, p, x) >= 0) return false;
     }
     return true;
   };
-  while (left.size() > 3) {
-    const std::size_t n = left.size();
+  while (corners_.size() > 3) {
+    const std::size_t n = corners_.size();
     std::size_t best = n;
     double best_cosine = 0;
     bool best_faces = false;
     for (std::size_t at = 0; at < n; ++at) {
-      const std::uint32_t p = ring[left[(at + n - 1) % n]], q = ring[left[at]], r = ring[left[(at + 1) % n]];
-      const Row &a = preferred.row(p), &b = preferred.row(q), &c = preferred.row(r);
+      const std::size_t before = at == 0 ? n - 1 : at - 1, after = at + 1 == n ? 0 : at + 1;
+      const Row &a = *corners_[before].row, &b = *corners_[at].row, &c = *corners_[after].row;
       const bool faces = faces_filtered(a, b, c) == Answer::yes;
       const double cosine = dot(a.x, c.x) / (a.length * c.length);
       if (best < n && (best_faces != faces ? best_faces : best_cosine >= cosine)) continue;
-      if (!is_ear(at)) continue;
+      if (!is_ear(before, at, after)) continue;
       best = at;
       best_cosine = cosine;
       best_faces = faces;
     }
     if (best == n) return false;
-    triangles.push_back({left[(best + n - 1) % n], left[best], left[(best + 1) % n]});
-    left.erase(left.begin() + static_cast<std::ptrdiff_t>(best));
+    ears_.push_back({corners_[best == 0 ? n - 1 : best - 1].place, corners_[best].place,
+                     corners_[best + 1 == n ? 0 : best + 1].place});
+    corners_.erase(corners_.begin() + static_cast<std::ptrdiff_t>(best));
   }
-  if (facing(view, ring[left[0]], ring[left[1]], ring[left[2]]) <= 0) return false;
-  triangles.push_back({left[0], left[1], left[2]});
-  mesh_.replace_star(vertex, inner_star_, triangles);
+  if (side(corners_[0], corners_[1], corners_[2]) <= 0) return false;
+  ears_.push_back({corners_[0].place, corners_[1].place, corners_[2].place});
+  mesh_.replace_star(vertex, inner_star_, ears_);
   return true;
 }
 

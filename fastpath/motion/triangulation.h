@@ -3,6 +3,7 @@
 // taken, so that the mesh depends on the samples and their numbers only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -91,6 +92,14 @@ class Triangulation {
   View view_;
   std::uint32_t base_vertices_;  // the first so many
   SphereMesh::Star star_, inner_star_;
+  // Of the polygon that remove() cuts ears from, and the ears.
+  struct Corner {
+    std::uint32_t place;  // in the ring
+    Seen seen;
+    const Row* row;  // as the preferred view sees it
+  };
+  std::vector<Corner> corners_;
+  std::vector<std::array<std::uint32_t, 3>> ears_;
   std::vector<std::uint32_t> stack_;
   std::uint32_t last_ = 0;
 };

@@ -23,7 +23,7 @@ void require_viewpoint(const MotionPoint& at) {
 }
 
 const WalkOptions& checked(const WalkOptions& options) {
-  if (options.samples > (1U << 24U))
+  if (options.samples > kMostSamples)
     throw scene::Error(scene::ErrorCode::bad_argument, "motion: at most 16777216 samples");
   if (options.thresholds.delaunay && options.bounds == WalkOptions::Bounds::sketch_unsound) {
     throw scene::Error(scene::ErrorCode::bad_argument, "motion: the sketch has no bound for the Delaunay condition");

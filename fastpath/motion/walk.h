@@ -27,6 +27,8 @@
 
 namespace clues::fastpath::motion {
 
+inline constexpr std::uint32_t kMostSamples = 1U << 24U;
+
 struct WalkOptions {
   enum class Bounds : std::uint8_t {
     sound,           // a triangle is examined when its key is due
@@ -36,7 +38,7 @@ struct WalkOptions {
   };
   scene::MotionThresholds thresholds;
   Bounds bounds = Bounds::sound;
-  std::uint32_t samples = 11000;  // wanted; at most 2^24
+  std::uint32_t samples = 11000;  // wanted; at most kMostSamples
   std::uint64_t seed = 1;
   double step = 0;  // the usual step, for the width of bins; 0: that of the first step
 };
@@ -114,7 +116,8 @@ class Walk {
 
   std::optional<Calendar> calendar_;
   std::array<Part, 4> parts_;
-  std::vector<std::uint32_t> stamps_, changed_in_;
+  std::vector<std::uint32_t> stamps_, changed_in_, tested_in_;
+  std::uint32_t tested_now_ = 0;
   std::vector<std::uint32_t> changed_;                 // of this frame, each once
   std::vector<std::uint32_t> failing_, not_delaunay_;  // due triangles by what failed, and all of them
   std::vector<std::uint32_t> failed_, touched_, stack_;

@@ -1,6 +1,7 @@
 // What a frame does to triangles that fail, and to the holes that this leaves.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fastpath/motion/base_mesh.h"
 #include "fastpath/motion/walk.h"
@@ -156,8 +157,10 @@ bool Walk::settle(FrameReport& report) {
     note_changes();
     std::vector<std::uint32_t> to_test;
     to_test.swap(touched_);
+    ++tested_now_;
+    tested_in_.resize(mesh().faces().size(), 0);
+    std::erase_if(to_test, [&](std::uint32_t f) { return std::exchange(tested_in_[f], tested_now_) == tested_now_; });
     std::sort(to_test.begin(), to_test.end());
-    to_test.erase(std::unique(to_test.begin(), to_test.end()), to_test.end());
     for (const std::uint32_t f : to_test) {
       if (!mesh().face(f).alive() || triangulation_->face_holds(f)) continue;
       if (!remove_sample(furthest_sample(f), f, triangulation_->view(), report)) return false;

@@ -22,10 +22,11 @@ double separation_bound(const DepthSample& a, const DepthSample& b, const DepthS
 double delaunay_bound(const DepthSample& a, const DepthSample& b, const DepthSample& c, const DepthSample& d,
                       const ExactViewpoint& v);
 
-// What T9 has: the best of two forms. For tests and figures.
+// What T9 has: the best of three forms. For tests and figures.
 struct DelaunayForms {
   double general = 0;     // form 1: any samples
   double quadrangle = 0;  // form 2: four points, the best of four orders
+  double ball = 0;        // form 3: any samples
 };
 DelaunayForms delaunay_forms(const DepthSample& a, const DepthSample& b, const DepthSample& c, const DepthSample& d,
                              const ExactViewpoint& v);

@@ -1,5 +1,5 @@
-// T9: how far the viewpoint may move before an edge can lose the local Delaunay property, from below. Two forms; both begin with the value
-// at v and subtract what its derivatives can take away within distance s.
+// T9: how far the viewpoint may move before an edge can lose the local Delaunay property, from below. Three forms; all begin with the value
+// at v and subtract what its derivatives can take away within distance s. The third one is in delaunay_ball_form.cpp.
 //
 // Form 1, for samples of any kind. G = sum C_i l_i over the four rows, C_i the signed determinant of the other three. C_i(v + w) = C_i + m_i.w
 // exactly. For a point, u_i = x_i / l_i and  l_i - u_i.w <= l_i(v + w) <= l_i - u_i.w + |w|^2 / (2 l_i)  (square both sides); for a direction
@@ -23,13 +23,12 @@
 #include <limits>
 
 #include "reference/motion/bounds.h"
+#include "reference/motion/delaunay_ball_form.h"
 #include "reference/motion/enclosure.h"
 #include "reference/motion/largest_double.h"
 
 namespace clues::reference {
 namespace {
-
-using Quadrangle = std::array<const DepthSample*, 4>;
 
 // The sum of matrices factor * left right^T.
 class MatrixSum {
@@ -141,8 +140,7 @@ bool all_points(const Quadrangle& q) {
 }
 
 // All even orders: each of the four is last once.
-double best_quadrangle_form(const Quadrangle& q, const ExactViewpoint& v) {
-  double best = 0;
+double best_quadrangle_form(const Quadrangle& q, const ExactViewpoint& v, double best) {
   for (const Quadrangle& order : {q, Quadrangle{q[1], q[0], q[3], q[2]}, Quadrangle{q[2], q[3], q[0], q[1]},
                                   Quadrangle{q[3], q[2], q[1], q[0]}}) {
     best = quadrangle_form(order, v, best);
@@ -158,7 +156,8 @@ DelaunayForms delaunay_forms(const DepthSample& a, const DepthSample& b, const D
   DelaunayForms forms;
   if (stands_on(q, v)) return forms;
   forms.general = general_form(q, v, 0);
-  if (all_points(q)) forms.quadrangle = best_quadrangle_form(q, v);
+  if (all_points(q)) forms.quadrangle = best_quadrangle_form(q, v, 0);
+  forms.ball = ball_form(q, v, 0);
   return forms;
 }
 
@@ -172,7 +171,8 @@ double delaunay_bound(const DepthSample& a, const DepthSample& b, const DepthSam
   if (a.is_direction && b.is_direction && c.is_direction && d.is_direction) {
     return std::numeric_limits<double>::infinity();
   }
-  return general_form(q, v, all_points(q) ? best_quadrangle_form(q, v) : 0);
+  const double ball = ball_form(q, v, 0);
+  return general_form(q, v, all_points(q) ? best_quadrangle_form(q, v, ball) : ball);
 }
 
 }  // namespace clues::reference

@@ -5,6 +5,7 @@
 
 #include <gmpxx.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -28,6 +29,20 @@ double largest_double(const Holds& holds_for, double known = 0) {
     (holds(std::bit_cast<double>(middle)) ? below : above) = middle;
   }
   return std::bit_cast<double>(below);
+}
+
+// The largest double of at most 21 binary digits for which it holds, or `known` if that is larger: half the questions, where a lower bound within a millionth is
+// as good. Finite; what is scaled by a power of two gives what is scaled so.
+template <class Holds>
+double largest_short_double(const Holds& holds_for, double known) {
+  const auto number = [](std::uint64_t upper) { return std::bit_cast<double>(upper << 32U); };
+  const auto upper_half = [](double x) { return std::bit_cast<std::uint64_t>(x) >> 32U; };
+  std::uint64_t below = upper_half(known), above = upper_half(std::numeric_limits<double>::max());
+  while (above - below > 1) {
+    const auto middle = below + (above - below) / 2;
+    (holds_for(mpq_class(number(middle))) ? below : above) = middle;
+  }
+  return std::max(known, number(below));
 }
 
 }  // namespace clues::reference

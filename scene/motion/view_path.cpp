@@ -122,7 +122,12 @@ std::vector<MotionPoint> from_file(const std::string& file, std::optional<std::u
               fmt::format("a viewpoint is three numbers, x y z; this line has {}", tokens.size()));
     }
     MotionPoint p{};
-    for (std::size_t i = 0; i < 3; ++i) p[i] = number_at(tokens[i], "coordinate", lines.place());
+    for (std::size_t i = 0; i < 3; ++i) {
+      p[i] = number_at(tokens[i], "coordinate", lines.place());
+      if (std::fabs(p[i]) > 0x1p90) {
+        fail_at(lines.place(), ErrorCode::bad_argument, "the viewpoint is further than 2^90 from the origin; move it");
+      }
+    }
     path.push_back(p);
   }
   if (path.empty()) fail_in(file, ErrorCode::malformed, "no viewpoint; expected lines of three numbers, x y z");

@@ -290,6 +290,7 @@ TEST(DelaunayBound, KeepsItsProportionsWhenQuadranglesGetSmall) {
         reference::delaunay_forms(on_wall(-1, -0.75), on_wall(0.25, -0.5), on_wall(-0.5, 0.5), on_wall(1, 1), origin);
     EXPECT_GT(forms.quadrangle, 0.05) << size;
     EXPECT_GT(forms.quadrangle, 2 * forms.general) << size;
+    EXPECT_GT(forms.ball, 1.2 * forms.quadrangle) << size;
     if (last > 0) {
       EXPECT_GT(forms.quadrangle, 0.8 * last) << size;
     }
@@ -442,9 +443,9 @@ TEST(DelaunayBoundLong, TightnessByAngularSize) {
         };
         if (!valid(origin)) continue;
         const auto forms = reference::delaunay_forms(s[0], s[1], s[2], s[3], origin);
-        const double bound =
-            std::min({std::max(forms.general, forms.quadrangle), reference::facing_bound(s[0], s[1], s[2], origin),
-                      reference::facing_bound(s[3], s[2], s[1], origin)});
+        const double bound = std::min({std::max({forms.general, forms.quadrangle, forms.ball}),
+                                       reference::facing_bound(s[0], s[1], s[2], origin),
+                                       reference::facing_bound(s[3], s[2], s[1], origin)});
         double nearest = 2;
         for (int n = 0; n < 400; ++n) {
           const auto direction = unit(random);
