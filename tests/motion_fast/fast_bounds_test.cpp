@@ -239,6 +239,63 @@ void expect_no_violation(std::uint64_t viewpoints, int tries, std::uint64_t seed
 TEST(FastBounds, AMillionAdversarialViewpoints) { expect_no_violation(1'000'000, 256, 5); }
 TEST(FastBoundsLong, TenMillionAdversarialViewpoints) { expect_no_violation(10'000'000, 2048, 7); }
 
+// Triangles and edges, and viewpoints at up to twice their bounds: what violates is not nearer than the bound. Every branch of the exact bound of an edge is taken.
+void compare_with_viewpoints(int scenes, int viewpoints, std::uint64_t seed) {
+  fuzz::Random random(seed);
+  std::map<exact::EdgeBranch, int> branches;
+  std::uint64_t held = 0, violated = 0;
+  int triangles = 0, edges = 0;
+  while (triangles < scenes || edges < scenes) {
+    Scene scene = scene_of(random);
+    if (random.one_in(20)) {  // a direction on the other side
+      scene.s[0].is_direction = true;
+      for (double& x : scene.s[0].at) x = -x;
+    }
+    turn_to_face(scene);
+    if (scene.v != MotionPoint{}) continue;
+    MotionThresholds thresholds;
+    thresholds.kappa = std::array{2000.0, 20.0, 1.0, 0.0, -0.5}[static_cast<std::size_t>(random.between(0, 4))];
+    const auto &a = scene.s[0], &b = scene.s[1];
+    ++branches[exact::edge_branch(a, b, exact::exact_viewpoint(scene.v), exact::ExactThresholds(thresholds))];
+    Constraints decide(thresholds);
+    const auto rows = scene.rows();
+    const double facing = facing_bound(rows[0], rows[1], rows[2]);
+    const double edge = edge_bound(rows[0], rows[1], BoundThresholds(thresholds));
+    for (const bool of_edge : {false, true}) {
+      const double bound = of_edge ? edge : facing;
+      int& made = of_edge ? edges : triangles;
+      if (bound == 0 || made == scenes) continue;
+      ++made;
+      for (int k = 0; k < viewpoints; ++k) {
+        const MotionPoint way = direction(random);
+        const double s = (std::isfinite(bound) ? 2 * bound : 1e6) * uniform(random, 0, 1);
+        const MotionPoint p{s * way[0], s * way[1], s * way[2]};
+        std::array<Row, 3> r;
+        for (std::size_t i = 0; i < 3; ++i) r[i] = row_of(scene.s[i], p);
+        const auto seen = [&](std::size_t i) { return Seen{&scene.s[i], &r[i]}; };
+        const bool holds =
+            of_edge ? decide.edge_length(seen(0), seen(1), p) : decide.facing(seen(0), seen(1), seen(2), p) > 0;
+        ++(holds ? held : violated);
+        ASSERT_TRUE(holds || s * (1 + 0x1p-50) >= bound) << made;
+      }
+    }
+  }
+  for (const auto branch :
+       {exact::EdgeBranch::violated, exact::EdgeBranch::end_point, exact::EdgeBranch::tube,
+        exact::EdgeBranch::cone_side, exact::EdgeBranch::cone_apex, exact::EdgeBranch::never_changes}) {
+    EXPECT_GT(branches[branch], 0) << static_cast<int>(branch);
+    std::printf("branch %d: %d edges\n", static_cast<int>(branch), branches[branch]);
+  }
+  EXPECT_GT(violated, held / 100);
+  std::printf("%llu viewpoints hold, %llu violate, none of these nearer than the bound\n",
+              static_cast<unsigned long long>(held), static_cast<unsigned long long>(violated));
+}
+
+TEST(FastBounds, NoViewpointViolatesNearerThanTheBound) { compare_with_viewpoints(2000, 100, 12); }
+TEST(FastBoundsLong, TenThousandTrianglesAndEdgesAgainstTenThousandViewpointsEach) {
+  compare_with_viewpoints(10'000, 10'000, 13);
+}
+
 // Were the bounds of tests above far too small, they would say nothing: a twentieth more is found out.
 TEST(FastBounds, ATwentiethMoreIsFoundOut) {
   EXPECT_GT(adversarial_viewpoints(20'000, 256, 9, true, 1.05).violations, 0U);
