@@ -61,31 +61,74 @@ SceneQuery::SceneQuery(const Complex& complex, const ConvexCell& cell, const std
   tree_ = BoxTree(std::move(boxes));
 }
 
-SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_planes) const {
-  SegmentAnswer answer;
-  for (const std::uint32_t t : candidates(SegmentBoxTest(v, p))) {
-    const auto& c = complex_->pieces[t].corners;
-    const Point3 &a = complex_->points[c[0]], &b = complex_->points[c[1]], &d = complex_->points[c[2]];
-    const CGAL::Orientation at_p = CGAL::orientation(a, b, d, p);
-    const CGAL::Orientation at_v = CGAL::orientation(a, b, d, v);
-    if (at_p == CGAL::COPLANAR) {
-      if (at_v == CGAL::COPLANAR && !off_planes) {
-        answer.degenerate |= CGAL::do_intersect(Kernel::Segment_3(v, p), Kernel::Triangle_3(a, b, d));
-      }
-      continue;
+namespace {
+
+// What a segment from v to p does at a piece, for one piece after the other.
+class Crossing {
+ public:
+  enum class Kind { none, clean, degenerate };
+
+  Crossing(const Complex& complex, const ConvexCell& cell, const Point3& v, const Point3& p, bool off_planes)
+      : complex_(complex), cell_(cell), v_(v), p_(p), off_planes_(off_planes) {}
+
+  Kind at(std::uint32_t t) {
+    const auto& c = complex_.pieces[t].corners;
+    const Point3 &a = complex_.points[c[0]], &b = complex_.points[c[1]], &d = complex_.points[c[2]];
+    look_at_plane(complex_.pieces[t].origins.front(), a, b, d);
+    if (at_p_ == CGAL::COPLANAR) {
+      const bool in_plane = at_v_ == CGAL::COPLANAR && !off_planes_;
+      return in_plane && CGAL::do_intersect(Kernel::Segment_3(v_, p_), Kernel::Triangle_3(a, b, d)) ? Kind::degenerate
+                                                                                                    : Kind::none;
     }
-    if (at_v == at_p) continue;
-    const CGAL::Orientation o1 = CGAL::orientation(v, p, a, b), o2 = CGAL::orientation(v, p, b, d),
-                            o3 = CGAL::orientation(v, p, d, a);
+    if (at_v_ == at_p_) return Kind::none;
+    const CGAL::Orientation o1 = CGAL::orientation(v_, p_, a, b), o2 = CGAL::orientation(v_, p_, b, d),
+                            o3 = CGAL::orientation(v_, p_, d, a);
     const bool negative = o1 == CGAL::NEGATIVE || o2 == CGAL::NEGATIVE || o3 == CGAL::NEGATIVE;
     const bool positive = o1 == CGAL::POSITIVE || o2 == CGAL::POSITIVE || o3 == CGAL::POSITIVE;
-    if (negative && positive) continue;
+    if (negative && positive) return Kind::none;
     // On a triangle that holds what of V is next to v, v starts beside it, and a line that leaves its plane does not come back.
-    if (at_v == CGAL::COPLANAR && lies_in(*cell_, complex_->planes[t])) continue;
-    if (at_v == CGAL::COPLANAR || o1 == CGAL::COPLANAR || o2 == CGAL::COPLANAR || o3 == CGAL::COPLANAR) {
-      answer.degenerate = true;
-      return answer;
-    }
+    if (at_v_ == CGAL::COPLANAR && lies_in(cell_, complex_.planes[t])) return Kind::none;
+    const bool at_border = o1 == CGAL::COPLANAR || o2 == CGAL::COPLANAR || o3 == CGAL::COPLANAR;
+    return at_v_ == CGAL::COPLANAR || at_border ? Kind::degenerate : Kind::clean;
+  }
+
+ private:
+  // The pieces of an input triangle, which mostly follow each other, have one plane.
+  void look_at_plane(const Origin& origin, const Point3& a, const Point3& b, const Point3& d) {
+    if (known_ == origin.triangle) return;
+    const auto side_of = [&](const Point3& x) {
+      return origin.same_side ? CGAL::orientation(a, b, d, x) : CGAL::orientation(b, a, d, x);
+    };
+    known_ = origin.triangle;
+    at_p_ = side_of(p_);
+    at_v_ = side_of(v_);
+  }
+
+  const Complex& complex_;
+  const ConvexCell& cell_;
+  const Point3 &v_, &p_;
+  bool off_planes_;
+  std::optional<std::uint32_t> known_;
+  CGAL::Orientation at_p_ = CGAL::COPLANAR, at_v_ = CGAL::COPLANAR;  // of the triangle that is known
+};
+
+}  // namespace
+
+SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_planes,
+                                    std::optional<std::uint32_t> first) const {
+  SegmentAnswer answer;
+  Crossing crossing(*complex_, *cell_, v, p, off_planes);
+  const auto is_degenerate = [&](Crossing::Kind kind, std::uint32_t t) {
+    if (kind != Crossing::Kind::degenerate) return false;
+    answer.degenerate = true;
+    answer.at = t;
+    return true;
+  };
+  if (first && is_degenerate(crossing.at(*first), *first)) return answer;
+  for (const std::uint32_t t : candidates(SegmentBoxTest(v, p))) {
+    const Crossing::Kind kind = crossing.at(t);
+    if (is_degenerate(kind, t)) return answer;
+    if (kind == Crossing::Kind::none) continue;
     const FT at_end = value_at(complex_->planes[t], p), at_start = value_at(complex_->planes[t], v);
     const FT s = at_start / (at_start - at_end);
     if (cell_->dimension() == 3 && meets_cell_[t] && cell_->interior_contains(v + s * (p - v))) continue;

@@ -20,8 +20,9 @@ struct Hit {
 };
 
 struct SegmentAnswer {
-  bool degenerate = false;  // touches an edge, a vertex, or runs in a plane: choose another segment
-  std::vector<Hit> hits;    // ascending in t; complete unless degenerate
+  bool degenerate = false;          // touches an edge, a vertex, or runs in a plane: choose another segment
+  std::optional<std::uint32_t> at;  // then mostly: a piece where
+  std::vector<Hit> hits;            // ascending in t; complete unless degenerate
 
   bool is_clear() const { return !degenerate && hits.empty(); }  // surely nothing in between
 };
@@ -40,8 +41,10 @@ class SceneQuery {
 
   // The clean crossings of the open segment (v,p), v in int V. A piece whose plane contains p is not crossed (it can only be met
   // at p). Crossings inside int V do not count (D3). A piece in whose plane the segment runs, and meets it, is degenerate - or
-  // not met at all, if p stands for points just off that plane (`off_planes`). O(log n + boxes met).
-  SegmentAnswer crossings(const Point3& v, const Point3& p, bool off_planes = false) const;
+  // not met at all, if p stands for points just off that plane (`off_planes`). `first`, an occluder, is looked at before the
+  // others: where it is degenerate they do not matter. O(log n + boxes met).
+  SegmentAnswer crossings(const Point3& v, const Point3& p, bool off_planes = false,
+                          std::optional<std::uint32_t> first = std::nullopt) const;
 
   // Whether the open segment (v,p) meets no closed piece outside int V (D5): exact for every two points, never degenerate.
   bool is_free(const Point3& v, const Point3& p) const;

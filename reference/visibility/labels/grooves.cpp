@@ -27,9 +27,14 @@ std::optional<Point3> Walker::end_of_groove(const SurfaceSide& one, const Surfac
 
 bool Walker::is_wall(std::uint32_t piece, const SurfaceSide& in, const SurfaceSide& before) const {
   const exact::Complex& complex = scene_->complex();
+  const exact::Plane3 &plane = complex.planes[in.piece], &wall = complex.planes[before.piece];
   const auto& c = complex.pieces[piece].corners;
-  return std::all_of(c.begin(), c.end(), [&](auto i) { return CGAL::is_zero(height(in, complex.points[i])); }) &&
-         std::any_of(c.begin(), c.end(), [&](auto i) { return CGAL::is_positive(height(before, complex.points[i])); });
+  const bool of_one_triangle =
+      complex.pieces[piece].origins.front().triangle == complex.pieces[in.piece].origins.front().triangle;
+  const auto front = before.front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE;
+  return (of_one_triangle ||
+          std::all_of(c.begin(), c.end(), [&](auto i) { return plane.has_on(complex.points[i]); })) &&
+         std::any_of(c.begin(), c.end(), [&](auto i) { return wall.oriented_side(complex.points[i]) == front; });
 }
 
 bool Walker::carries_both(const exact::Edge& e, const SurfaceSide& one, const SurfaceSide& two) const {

@@ -1,8 +1,11 @@
 #include "reference/visibility/labels/walk.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "exact/cell/direction_cone.h"
 #include "exact/complex/simple_point.h"
+#include "reference/visibility/labels/special_position.h"
 #include "scene/messages/error.h"
 
 namespace clues::reference {
@@ -13,6 +16,7 @@ using exact::Point3;
 namespace {
 
 constexpr std::int64_t kLongestWalk = 64;  // legs; what is longer has lost its way in a corner of several walls
+constexpr int kCoincidences = 4;           // this many in a row, and a plane in common may be the reason
 constexpr int kAttempts = 200;  // sight lines in special position come from coincidences; this many in a row mean a bug
 
 std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
@@ -22,12 +26,12 @@ std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
   return x ^ (x >> 31);
 }
 
-CGAL::Oriented_side strict_side(bool front) { return front ? CGAL::ON_POSITIVE_SIDE : CGAL::ON_NEGATIVE_SIDE; }
-
 }  // namespace
 
 Walker::Walker(const exact::SceneQuery& scene, std::int64_t longest)
-    : scene_(&scene), longest_(longest == exact::Dials::kOwn ? kLongestWalk : longest) {}
+    : scene_(&scene), longest_(longest == exact::Dials::kOwn ? kLongestWalk : longest) {
+  if (scene.cell().dimension() == 2) in_cell_plane_.emplace(scene, scene.cell().facets()[0].plane);
+}
 
 Point3 Walker::choose(std::uint64_t seed, const std::optional<Point3>& anchor, const Good& good) const {
   const exact::ConvexCell& cell = scene_->cell();
@@ -43,6 +47,25 @@ Point3 Walker::choose(std::uint64_t seed, const std::optional<Point3>& anchor, c
     const Point3 v = *anchor + pull * (u - *anchor);
     if (good(v)) return exact::collapsed(v);
   }
+}
+
+std::optional<Point3> Walker::generic_viewpoint(const std::vector<exact::Plane3>& sides, const Point3& p,
+                                                bool off_planes, bool& special) const {
+  const exact::ConvexCell& cell = scene_->cell();
+  std::vector<Point3> part = cell.vertices();
+  std::optional<SpecialPosition> own;
+  if (cell.dimension() == 2 && cell.facets()[0].plane.has_on(p)) {
+    part.clear();
+    for (const int i : cell.facets()[0].corners) part.push_back(cell.vertices()[static_cast<std::size_t>(i)]);
+  } else if (cell.dimension() == 1 && !CGAL::collinear(part[0], part[1], p)) {
+    own.emplace(*scene_, exact::Plane3(part[0], part[1], p));
+  } else {
+    return std::nullopt;
+  }
+  for (const exact::Plane3& side : sides) part = exact::clipped(part, side);
+  const auto found = (own ? *own : *in_cell_plane_).free_viewpoint(part, p, off_planes);
+  special = !found;
+  return found;
 }
 
 std::optional<Point3> Walker::foot(const Point3& p) const {
@@ -145,14 +168,15 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
       return walk;
     }
     std::optional<Point3> anchor;
-    Good good = [](const Point3&) { return true; };
+    std::vector<exact::Plane3> sides;   // v is to be strictly on their positive sides
     std::optional<Point3> along;        // a v whose sight line leaves a groove at its end
     std::optional<SurfaceSide> before;  // the wall that the walk stood on before this one, if they share an edge
     if (surface) {
       anchor = anchor_beyond(*surface, nullptr);
       if (!anchor) return walk;
-      const auto beyond = [&complex](const SurfaceSide& side, const Point3& v) {
-        return complex.planes[side.piece].oriented_side(v) == strict_side(side.front);
+      const auto plane_of = [&](const SurfaceSide& side) {
+        const exact::Plane3& plane = complex.planes[side.piece];
+        return side.front ? plane : plane.opposite();
       };
       if (walk.legs.size() >= 2) {
         const Leg& previous = walk.legs[walk.legs.size() - 2];
@@ -170,23 +194,25 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
           before.reset();
         }
       }
-      good = [beyond, on = *surface, before](const Point3& v) {
-        return beyond(on, v) && (!before || beyond(*before, v));
-      };
+      sides.push_back(plane_of(*surface));
+      if (before) sides.push_back(plane_of(*before));
     } else if (contour) {
       // v so near the supporting plane that no incident piece lies between it and the supporting polygon.
       anchor = cell.vertices()[static_cast<std::size_t>(contour->touching.front())];
       const exact::Edge& e = complex.edges[contour->edge];
       const Point3 &a = complex.points[e.a], &b = complex.points[e.b], &s = *anchor;
-      good = [&complex, &e, &a, &b, s](const Point3& v) {
-        return std::all_of(e.pieces.begin(), e.pieces.end(), [&](auto t) {
-          const auto& c = complex.pieces[t].corners;
-          const auto third = *std::find_if(c.begin(), c.end(), [&](auto i) { return i != e.a && i != e.b; });
-          const CGAL::Orientation at_s = CGAL::orientation(a, b, complex.points[third], s);
-          return at_s == CGAL::COPLANAR || CGAL::orientation(a, b, complex.points[third], v) == at_s;
-        });
-      };
+      for (const std::uint32_t t : e.pieces) {
+        const auto& c = complex.pieces[t].corners;
+        const auto third = *std::find_if(c.begin(), c.end(), [&](auto i) { return i != e.a && i != e.b; });
+        const exact::Plane3 plane(a, b, complex.points[third]);
+        const auto at_s = plane.oriented_side(s);
+        if (at_s != CGAL::ON_ORIENTED_BOUNDARY)
+          sides.push_back(at_s == CGAL::ON_POSITIVE_SIDE ? plane : plane.opposite());
+      }
     }
+    const Good good = [&](const Point3& x) {
+      return std::all_of(sides.begin(), sides.end(), [&](const exact::Plane3& h) { return h.has_on_positive_side(x); });
+    };
     if (surface) {  // next to a flat cell or a segment few points of V may see p: those right beneath it
       const std::optional<Point3> beneath = foot(p);
       if (beneath && good(*beneath) && scene_->crossings(*beneath, p).is_clear()) {
@@ -197,8 +223,11 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
     exact::SegmentAnswer answer;
     Point3 v;
     int attempt = 0;
+    std::optional<Point3> generic;  // next to it are the right sight lines, where those from anywhere are not
     do {
-      if (attempt == (cell.dimension() == 0 ? 1 : kAttempts)) {
+      bool special = attempt == (cell.dimension() == 0 ? 1 : kAttempts);
+      if (attempt == kCoincidences) generic = generic_viewpoint(sides, p, contour != nullptr, special);
+      if (special) {
         // A flat cell, or a point, in a plane with what is before it: every sight line runs in that plane, along the edges that lie in it.
         walk.unresolved = walk.special = true;
         return walk;
@@ -218,7 +247,11 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
       }
       v = choose(mix(seed * 1000003 + static_cast<std::uint64_t>(depth) * 1009 + static_cast<std::uint64_t>(attempt)),
                  anchor, good);
-      answer = scene_->crossings(v, p, contour != nullptr);
+      if (generic) {
+        const Point3 near = *generic + FT(std::ldexp(1, -attempt)) * (v - *generic);
+        if (good(near)) v = exact::collapsed(near);
+      }
+      answer = scene_->crossings(v, p, contour != nullptr, answer.at);
       ++attempt;
     } while (answer.degenerate);
     if (answer.hits.empty()) {

@@ -31,6 +31,7 @@
 
 #include "exact/dials.h"
 #include "exact/sight/scene_query.h"
+#include "reference/visibility/labels/special_position.h"
 #include "reference/visibility/wedges/contour.h"
 #include "reference/visibility/wedges/wedge_set.h"
 
@@ -89,6 +90,10 @@ class Walker {
   using Good = std::function<bool(const exact::Point3&)>;
   // A point v of int V near `anchor` (or anywhere) that satisfies the predicate; it must hold near the anchor.
   exact::Point3 choose(std::uint64_t seed, const std::optional<exact::Point3>& anchor, const Good& good) const;
+  // For a p in a plane with V, on the border of what of V is on the positive sides of the planes: next to which sight lines to p may be in general
+  // position. `special`: they are nowhere.
+  std::optional<exact::Point3> generic_viewpoint(const std::vector<exact::Plane3>& sides, const exact::Point3& p,
+                                                 bool off_planes, bool& special) const;
   // The point of a flat cell or a segment that is nearest to p, if that is in int V.
   std::optional<exact::Point3> foot(const exact::Point3& p) const;
   // A multiple of the distance of x from the piece's plane, positive on the given side.
@@ -144,6 +149,7 @@ class Walker {
                               const Good& good) const;
   const exact::SceneQuery* scene_;
   std::int64_t longest_;
+  std::optional<SpecialPosition> in_cell_plane_;  // of a flat cell
 };
 
 }  // namespace clues::reference
