@@ -25,12 +25,13 @@
 #include "scene/multires/feature_file.h"
 #include "scene/multires/hierarchy_file.h"
 #include "validate/multires/check_hierarchy.h"
+#include "validate/multires/check_remesh.h"
 
 namespace clues::app {
 namespace {
 
 struct MapsRequest {
-  std::string mesh, features, out, patches, base_out, remesh, svg;
+  std::string mesh, features, out, patches, base_out, remesh, proof, svg;
   std::uint64_t base = 200;
   std::optional<int> uniform;
   std::optional<double> adaptive;
@@ -74,6 +75,9 @@ void check_remesh(const MapsRequest& request) {
     throw scene::Error(scene::ErrorCode::bad_argument,
                        "--uniform L and --adaptive EPS say how --remesh FILE is made: give one of them, and the file");
   }
+  if (!request.proof.empty() && request.remesh.empty()) {
+    throw scene::Error(scene::ErrorCode::bad_argument, "--proof is about a remesh: --remesh FILE is missing");
+  }
   if (request.adaptive && !(*request.adaptive > 0 && *request.adaptive <= 100)) {
     throw scene::Error(
         scene::ErrorCode::bad_argument,
@@ -88,10 +92,11 @@ void check_remesh(const MapsRequest& request) {
 }
 
 struct RemeshAnswer {
-  std::string file, row;
+  std::string file, proof, row;
   bool reached = true;
 };
-RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarchy) {
+// Adds E7 to the report: what was made is judged before it is written.
+RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarchy, validate::HierarchyReport& report) {
   const double side = longest_side(hierarchy.input);
   reference::RemeshOptions options;
   if (request.uniform) options.level = *request.uniform;
@@ -101,13 +106,18 @@ RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarch
   const auto made = reference::remeshed(hierarchy, options);
   RemeshAnswer answer;
   answer.file = remesh_to_file(made, request.remesh);
+  answer.proof = scene::to_text(made.proof);
+  validate::check_remesh(hierarchy, made.mesh,
+                         scene::parse_remesh_proof(answer.proof, "the proof of the remesh",
+                                                   hierarchy.input.points.size(), hierarchy.input.triangles.size()),
+                         false, report);
   answer.reached = made.reached;
   answer.row = fmt::format(
       "remesh: {} vertices, {} triangles; no point of the input is farther than {:.4g} from it ({:.3g} % of the box), "
       "none of it farther "
       "than {:.4g} ({:.3g} %) from the input\n",
-      made.mesh.points.size(), made.mesh.triangles.size(), made.error.to_remesh, 100 * made.error.to_remesh / side,
-      made.error.to_input, 100 * made.error.to_input / side);
+      made.mesh.points.size(), made.mesh.triangles.size(), made.proof.to_remesh, 100 * made.proof.to_remesh / side,
+      made.proof.to_input, 100 * made.proof.to_input / side);
   if (!made.reached)
     answer.row +=
         "the error that was asked for was not reached: the map is too narrow in places for the grids, or for 4^8 parts "
@@ -117,8 +127,8 @@ RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarch
 
 int run_maps(const MapsRequest& request) {
   if (request.mesh.empty()) throw scene::Error(scene::ErrorCode::bad_argument, "MESH is required (or verify)");
-  const std::vector<const std::string*> outputs{&request.out,    &request.patches, &request.base_out,
-                                                &request.remesh, &request.svg,     &request.json.file()};
+  const std::vector<const std::string*> outputs{&request.out,   &request.patches, &request.base_out,   &request.remesh,
+                                                &request.proof, &request.svg,     &request.json.file()};
   for (const std::string* file : outputs) {
     if (!file->empty()) require_writable_parent(*file);
   }
@@ -139,15 +149,16 @@ int run_maps(const MapsRequest& request) {
   }
   // What is written is what was judged: the text, read again.
   const std::string text = scene::to_text(hierarchy);
-  const auto report = validate::check_hierarchy(scene::parse_hierarchy(text, "the hierarchy"));
+  auto report = validate::check_hierarchy(scene::parse_hierarchy(text, "the hierarchy"));
+  RemeshAnswer answer;
+  if (report.sound() && !request.remesh.empty()) answer = remesh(request, hierarchy, report);
   if (!report.sound()) {
     print(validate::to_text(report), stderr);
     return oracle_contradiction;
   }
-  RemeshAnswer answer;
-  if (!request.remesh.empty()) answer = remesh(request, hierarchy);
   if (!request.out.empty()) scene::write_file_atomically(request.out, text);
   if (!request.remesh.empty()) scene::write_file_atomically(request.remesh, answer.file);
+  if (!request.proof.empty()) scene::write_file_atomically(request.proof, answer.proof);
   if (!request.patches.empty()) scene::write_file_atomically(request.patches, patches_to_ply(hierarchy));
   if (!request.base_out.empty()) scene::write_file_atomically(request.base_out, base_to_off(hierarchy));
   if (!request.svg.empty()) scene::write_file_atomically(request.svg, base_to_svg(hierarchy));
@@ -195,6 +206,8 @@ void add_maps_command(CLI::App& program, int& status) {
       ->add_option("--remesh", request->remesh,
                    "Where that mesh goes: FILE.ply (a colour for each base triangle), .obj or .off")
       ->type_name("FILE");
+  command->add_option("--proof", request->proof, "Why that mesh is as near as is said, for clues maps verify --proof")
+      ->type_name("FILE");
   request->json.add_to(*command, "The table of the levels");
   command->footer(
       "DESCRIPTION\n"
@@ -214,7 +227,8 @@ void add_maps_command(CLI::App& program, int& status) {
       "  clues maps ball.off --base 20 -o ball.maps --patches ball.ply\n"
       "  clues maps verify ball.maps\n"
       "  clues maps ball.off --base 20 --features 40 --json ball.json\n"
-      "  clues maps ball.off --base 20 --uniform 2 --remesh uniform.ply\n"
+      "  clues maps ball.off --base 20 --uniform 2 --remesh uniform.ply --proof uniform.proof\n"
+      "  clues maps verify ball.maps --remesh uniform.ply --proof uniform.proof\n"
       "  clues maps ball.off --base 20 --adaptive 5 --remesh adaptive.obj\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input (no surface: the message says where)   3 --adaptive was not reached   4 an "

@@ -19,6 +19,9 @@ struct ByPlace {
   bool operator()(const CarrierPoint& a, const CarrierPoint& b) const {
     return a.corner != b.corner ? a.corner < b.corner : a.weight < b.weight;
   }
+  bool operator()(const scene::OverlayVertex& a, const scene::OverlayVertex& b) const {
+    return a.source == b.source ? (*this)(a.image, b.image) : (*this)(a.source, b.source);
+  }
 };
 
 class Remesher {
@@ -111,10 +114,35 @@ class Remesher {
   std::uint32_t vertex(const Patch& patch, const CarrierPoint& corner) {
     const auto [place, fresh] = numbers_.try_emplace(corner, static_cast<std::uint32_t>(out_.mesh.points.size()));
     if (fresh) {
-      out_.parameters.push_back(corner);
+      out_.proof.parameters.push_back(corner);
       out_.sources.push_back(source_at(patch, corner));
       out_.mesh.points.push_back(position_estimate(out_.sources.back(), h_.input));
     }
+    return place->second;
+  }
+
+  // The point with its place on the remesh triangle: parts of the patch are multiples of 2^-60, for a patch is a base triangle made smaller by a power
+  // of two, or half of that.
+  std::uint32_t proof_point(const Patch& patch, const scene::Triangle& t, const StarPoint& point) {
+    const auto& c = patch.corners;
+    const exact::Wide whole = exact::area_in(patch.triangle, c[0], c[1], c[2]) >> scene::weight_bits;
+    std::array<std::pair<std::uint32_t, std::int64_t>, 3> parts;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const exact::Wide area = exact::area_in(patch.triangle, c[(k + 1) % 3], c[(k + 2) % 3], point.at.image);
+      if (area % whole != 0)
+        throw scene::Error(scene::ErrorCode::internal, "remesh: a point of a patch that is not on its grid");
+      parts[k] = {t[k], static_cast<std::int64_t>(area / whole)};
+    }
+    std::sort(parts.begin(), parts.end());
+    scene::OverlayVertex out{point.at.source, {}};
+    std::size_t size = 0;
+    for (const auto& [corner, weight] : parts) {
+      if (weight == 0) continue;
+      out.image.corner[size] = corner;
+      out.image.weight[size++] = weight;
+    }
+    const auto [place, fresh] = proof_points_.try_emplace(out, static_cast<std::uint32_t>(out_.proof.points.size()));
+    if (fresh) out_.proof.points.push_back(out);
     return place->second;
   }
 
@@ -123,11 +151,20 @@ class Remesher {
     for (std::size_t k = 0; k < 3; ++k) t[k] = vertex(patch, patch.corners[k]);
     out_.mesh.face_of.push_back(static_cast<std::uint32_t>(out_.mesh.triangles.size()));
     out_.mesh.triangles.push_back(t);
+    out_.proof.triangles.push_back(t);
     out_.base.push_back(patch.base);
+    scene::RemeshProof& proof = out_.proof;
+    std::vector<std::uint32_t> near;
     const PatchError error =
-        error_bound(patch, {out_.mesh.points[t[0]], out_.mesh.points[t[1]], out_.mesh.points[t[2]]}, h_.input);
-    out_.error.to_remesh = std::max(out_.error.to_remesh, error.to_remesh);
-    out_.error.to_input = std::max(out_.error.to_input, error.to_input);
+        error_bound(patch, {out_.mesh.points[t[0]], out_.mesh.points[t[1]], out_.mesh.points[t[2]]}, h_.input, &near);
+    proof.to_remesh = std::max(proof.to_remesh, error.to_remesh);
+    proof.to_input = std::max(proof.to_input, error.to_input);
+    proof.near.insert(proof.near.end(), near.begin(), near.end());
+    std::vector<std::uint32_t> numbers;
+    for (const StarPoint& point : patch.pieces.points) numbers.push_back(proof_point(patch, t, point));
+    for (const StarPiece& piece : patch.pieces.pieces)
+      proof.pieces.push_back(
+          {{numbers[piece.corners[0]], numbers[piece.corners[1]], numbers[piece.corners[2]]}, piece.input});
   }
 
   void write() {
@@ -143,7 +180,7 @@ class Remesher {
         }
       }
     }
-    out_.reached = !(out_.error.worst() > options_.error);
+    out_.reached = !(out_.error() > options_.error);
   }
 
   const scene::Hierarchy h_;
@@ -151,6 +188,7 @@ class Remesher {
   std::deque<Patch> leaves_;
   std::set<CarrierPoint, ByPlace> used_;
   std::map<CarrierPoint, std::uint32_t, ByPlace> numbers_;
+  std::map<scene::OverlayVertex, std::uint32_t, ByPlace> proof_points_;
   Remesh out_;
 };
 

@@ -3,10 +3,12 @@
 // apart is bounded, both ways.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 
 #include "reference/multires/remesh_error.h"
+#include "scene/multires/remesh_proof.h"
 
 namespace clues::reference {
 
@@ -19,12 +21,12 @@ struct RemeshOptions {
 };
 
 struct Remesh {
-  scene::TriangleMesh mesh;                     // positions are those of `sources`, rounded
-  std::vector<scene::CarrierPoint> sources;     // of each vertex, on the input
-  std::vector<scene::CarrierPoint> parameters;  // on the base domain
-  std::vector<std::uint32_t> base;              // of each triangle
-  PatchError error;                             // of the rounded mesh: the larger one bounds the Hausdorff distance
-  bool reached = true;                          // the error that was asked for
+  scene::TriangleMesh mesh;                  // positions are those of `sources`, rounded
+  std::vector<scene::CarrierPoint> sources;  // of each vertex, on the input
+  std::vector<std::uint32_t> base;           // of each triangle
+  scene::RemeshProof proof;                  // parameters, pieces, and the bounds of the rounded mesh
+  bool reached = true;                       // the error that was asked for
+  double error() const { return std::max(proof.to_remesh, proof.to_input); }  // bounds the Hausdorff distance
 };
 
 // Neighbours differ by at most one level, and a triangle whose neighbour is finer is cut in two, so that edges meet whole edges. `hierarchy` has

@@ -85,7 +85,8 @@ std::array<Point, 3> corners_of(const scene::TriangleMesh& mesh, std::uint32_t t
 
 }  // namespace
 
-PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle, const scene::TriangleMesh& input) {
+PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle, const scene::TriangleMesh& input,
+                       std::vector<std::uint32_t>* near) {
   const CGAL::Protect_FPU_rounding<true> protect(CGAL_FE_UPWARD);
   const Interval whole = enclosed(exact::area_in(patch.triangle, patch.corners[0], patch.corners[1], patch.corners[2]));
   std::vector<Box> remeshed;
@@ -107,11 +108,11 @@ PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle,
     return most;
   };
   std::vector<std::pair<double, std::size_t>> own;  // distances of pieces of the remesh to their own input triangles
-  std::vector<std::uint32_t> near;
+  std::vector<std::uint32_t> tried, nearest;
   for (std::size_t i = 0; i < patch.pieces.pieces.size(); ++i) {
     const StarPiece& piece = patch.pieces.pieces[i];
     own.emplace_back(farthest(piece, piece.input), i);
-    near.push_back(piece.input);
+    tried.push_back(piece.input);
     const auto source = corners_of(input, piece.input);
     const auto& numbers = input.triangles[piece.input];
     for (const std::uint32_t v : piece.corners) {
@@ -124,16 +125,23 @@ PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle,
     }
   }
   // Any input triangle will do, so where its own is far, others of the patch are tried: the farthest pieces first, until one cannot be bettered.
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
+  nearest = tried;
+  std::sort(tried.begin(), tried.end());
+  tried.erase(std::unique(tried.begin(), tried.end()), tried.end());
   std::sort(own.begin(), own.end(),
             [](const auto& p, const auto& q) { return p.first != q.first ? p.first > q.first : p.second < q.second; });
   for (const auto& [square, i] : own) {
     if (square <= to_input) break;
     double best = square;
-    for (const std::uint32_t t : near) best = std::min(best, farthest(patch.pieces.pieces[i], t));
+    for (const std::uint32_t t : tried) {
+      const double other = farthest(patch.pieces.pieces[i], t);
+      if (!(other < best)) continue;
+      best = other;
+      nearest[i] = t;
+    }
     to_input = std::max(to_input, best);
   }
+  if (near != nullptr) *near = std::move(nearest);
   return {CGAL::sqrt(Interval(to_remesh)).sup(), CGAL::sqrt(Interval(to_input)).sup()};
 }
 

@@ -15,15 +15,24 @@ using testing::HasSubstr;
 TEST(MapsCommand, WritesWhatItVerifies) {
   const tests::TestFolder folder;
   folder.write("ball.off", scene::to_off_text(fuzz::ball(4)));
-  const auto ran =
-      tests::run_clues({"maps", "ball.off", "--base", "20", "-o", "a.maps", "--patches", "p.ply", "--svg", "b.svg",
-                        "--base-out", "b.off", "--uniform", "2", "--remesh", "r.obj", "--json", "t.json"},
-                       folder.path());
+  const auto ran = tests::run_clues(
+      {"maps",       "ball.off", "--base",    "20", "-o",       "a.maps", "--patches", "p.ply",   "--svg",  "b.svg",
+       "--base-out", "b.off",    "--uniform", "2",  "--remesh", "r.obj",  "--proof",   "r.proof", "--json", "t.json"},
+      folder.path());
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("verified: a homeomorphism"));
-  EXPECT_THAT(folder.names(), ElementsAre("a.maps", "b.off", "b.svg", "ball.off", "p.ply", "r.obj", "t.json"));
+  EXPECT_THAT(folder.names(),
+              ElementsAre("a.maps", "b.off", "b.svg", "ball.off", "p.ply", "r.obj", "r.proof", "t.json"));
   for (const char* mesh : {"b.off", "p.ply", "r.obj"}) EXPECT_NO_THROW(scene::read_mesh(folder.path() / mesh)) << mesh;
   EXPECT_EQ(tests::run_clues({"maps", "verify", "a.maps"}, folder.path()).exit_code, 0);
+  const std::vector<std::string> judge{"maps", "verify", "a.maps", "--remesh", "r.obj", "--proof", "r.proof"};
+  EXPECT_EQ(tests::run_clues(judge, folder.path()).exit_code, 0);
+  auto obj = tests::read_all(folder.path() / "r.obj");
+  obj.insert(obj.find('.') + 1, "0");  // a first coordinate is a tenth of what it was
+  folder.write("r.obj", obj);
+  const auto moved = tests::run_clues(judge, folder.path());
+  EXPECT_EQ(moved.exit_code, 1);
+  EXPECT_THAT(moved.out, HasSubstr("E7 vertex"));
   auto text = tests::read_all(folder.path() / "a.maps");
   text.replace(text.rfind("\npieces"), 7, "\npiecse");
   folder.write("b.maps", text);
@@ -46,6 +55,8 @@ TEST(MapsCommand, RefusesAndWritesNothing) {
   refused({"ball.off", "--svg", "ball.off"}, "ball.off");
   refused({"ball.off", "--uniform", "9", "--remesh", "r.off"}, "--uniform 9");
   refused({"ball.off", "--uniform", "1"}, "--remesh");
+  refused({"ball.off", "--proof", "r.proof"}, "--remesh FILE is missing");
+  refused({"verify", "ball.off", "--proof", "r.proof"}, "--remesh and --proof");
   refused({"ball.off", "--adaptive", "0", "--remesh", "r.off"}, "--adaptive 0");
   refused({"ball.off", "--uniform", "1", "--remesh", "r.stl"}, ".ply, .obj or .off");
   refused({"ball.off", "--features", "181"}, "180 degrees");
