@@ -6,6 +6,7 @@
 #include "app/commands/maps_check.h"
 #include "app/common.h"
 #include "app/json_output.h"
+#include "app/maps/remesh_output.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/multires/hierarchy_file.h"
@@ -57,7 +58,8 @@ int run_maps_verify(const MapsVerifyRequest& request) {
   if (!request.remesh.empty()) {
     const auto proof =
         scene::read_remesh_proof(request.proof, hierarchy.input.points.size(), hierarchy.input.triangles.size());
-    validate::check_remesh(hierarchy, scene::read_scene(request.remesh).mesh, proof, false, report);
+    validate::check_remesh(hierarchy, scene::read_scene(request.remesh).mesh, proof, is_of_floats(request.remesh),
+                           report);
   }
   if (request.json.asked()) request.json.write(validate::to_json_text(report));
   if (!request.json.on_stdout()) print(validate::to_text(report));

@@ -38,8 +38,9 @@ class Remesher {
   }
 
  private:
+  scene::Point position(const CarrierPoint& source) const { return remesh_position(source, h_.input, options_.single); }
   scene::Point position(const Patch& patch, const CarrierPoint& corner) const {
-    return position_estimate(source_at(patch, corner), h_.input);
+    return position(source_at(patch, corner));
   }
   PatchError error_of(const Patch& patch) const {
     return error_bound(
@@ -116,9 +117,18 @@ class Remesher {
     if (fresh) {
       out_.proof.parameters.push_back(corner);
       out_.sources.push_back(source_at(patch, corner));
-      out_.mesh.points.push_back(position_estimate(out_.sources.back(), h_.input));
+      out_.mesh.points.push_back(position(out_.sources.back()));
     }
     return place->second;
+  }
+
+  // Of the triangles of a base triangle that is cut in four, the middle one does: then two of its corners are farthest to the first corner, else one
+  // (a half of one that is cut in two has a corner in the middle, and goes with the corner that it keeps).
+  static bool stands_on_its_head(const Patch& patch) {
+    std::array<std::int64_t, 3> first{};
+    for (std::size_t k = 0; k < 3; ++k) first[k] = patch.corners[k].weight_of(patch.triangle[0]);
+    const auto most = *std::max_element(first.begin(), first.end());
+    return std::count(first.begin(), first.end(), most) == 2;
   }
 
   // The point with its place on the remesh triangle: parts of the patch are multiples of 2^-60, for a patch is a base triangle made smaller by a power
@@ -153,17 +163,13 @@ class Remesher {
     out_.mesh.triangles.push_back(t);
     out_.proof.triangles.push_back(t);
     out_.base.push_back(patch.base);
-    scene::RemeshProof& proof = out_.proof;
-    std::vector<std::uint32_t> near;
-    const PatchError error =
-        error_bound(patch, {out_.mesh.points[t[0]], out_.mesh.points[t[1]], out_.mesh.points[t[2]]}, h_.input, &near);
-    proof.to_remesh = std::max(proof.to_remesh, error.to_remesh);
-    proof.to_input = std::max(proof.to_input, error.to_input);
-    proof.near.insert(proof.near.end(), near.begin(), near.end());
+    out_.first_piece.push_back(out_.proof.pieces.size());
+    out_.turned.push_back(stands_on_its_head(patch));
+    add_error(patch, out_.mesh, t, h_.input, out_.proof);
     std::vector<std::uint32_t> numbers;
     for (const StarPoint& point : patch.pieces.points) numbers.push_back(proof_point(patch, t, point));
     for (const StarPiece& piece : patch.pieces.pieces)
-      proof.pieces.push_back(
+      out_.proof.pieces.push_back(
           {{numbers[piece.corners[0]], numbers[piece.corners[1]], numbers[piece.corners[2]]}, piece.input});
   }
 
@@ -180,6 +186,7 @@ class Remesher {
         }
       }
     }
+    out_.first_piece.push_back(out_.proof.pieces.size());
     out_.reached = !(out_.error() > options_.error);
   }
 
@@ -193,6 +200,23 @@ class Remesher {
 };
 
 }  // namespace
+
+scene::Point remesh_position(const CarrierPoint& source, const scene::TriangleMesh& input, bool single) {
+  scene::Point at = position_estimate(source, input);
+  if (single) {
+    for (double& x : at) x = static_cast<float>(x);
+  }
+  return at;
+}
+
+void add_error(const Patch& patch, const scene::TriangleMesh& mesh, const scene::Triangle& t,
+               const scene::TriangleMesh& input, scene::RemeshProof& proof) {
+  std::vector<std::uint32_t> near;
+  const PatchError error = error_bound(patch, {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]}, input, &near);
+  proof.to_remesh = std::max(proof.to_remesh, error.to_remesh);
+  proof.to_input = std::max(proof.to_input, error.to_input);
+  proof.near.insert(proof.near.end(), near.begin(), near.end());
+}
 
 Remesh remeshed(const scene::Hierarchy& hierarchy, const RemeshOptions& options) {
   if (options.level < 0 || options.level > options.most || options.most > most_levels - 2) {

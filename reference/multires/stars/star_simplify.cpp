@@ -11,7 +11,7 @@ namespace {
 using exact::Wide;
 using scene::CarrierPoint;
 
-// Whether v may move to w on the input: inside of the triangle anywhere, on an edge along it.
+// Whether v may move to w on a surface: inside of the triangle anywhere, on an edge along it.
 bool may_slide(const CarrierPoint& v, const CarrierPoint& w) {
   if (v.size() == 3) return true;
   if (v.size() != 2) return false;
@@ -21,18 +21,22 @@ bool may_slide(const CarrierPoint& v, const CarrierPoint& w) {
 
 class Simplifier {
  public:
-  Simplifier(const scene::Triangle& triangle, const std::vector<scene::Triangle>& input, const StarPieces& star,
-             std::vector<StarPiece>& pieces)
-      : triangle_(triangle), input_(input), star_(star), pieces_(pieces), alive_(pieces.size(), true) {
+  // Piece k lies in triangles[part[k]].
+  Simplifier(const std::vector<scene::Triangle>& triangles, const std::vector<std::size_t>& part,
+             const std::vector<scene::Triangle>& input, const StarPieces& star, std::vector<StarPiece>& pieces)
+      : triangles_(triangles), part_(part), input_(input), star_(star), pieces_(pieces), alive_(pieces.size(), true) {
     for (std::uint32_t k = 0; k < pieces_.size(); ++k) {
       for (const std::uint32_t v : pieces_[k].corners) around_[v].push_back(k);
     }
   }
 
-  void run() {
+  // `hub`: points on the edges from it are looked at too.
+  void run(std::uint32_t hub) {
     std::vector<std::uint32_t> candidates;
     for (const auto& [v, unused] : around_) {
-      if (!star_.points[v].of_input && star_.points[v].at.image.size() == 3) candidates.push_back(v);
+      const CarrierPoint& image = star_.points[v].at.image;
+      if (!star_.points[v].of_input && (image.size() == 3 || (image.size() == 2 && image.weight_of(hub) > 0)))
+        candidates.push_back(v);
     }
     for (bool changed = true; changed;) {
       changed = false;
@@ -46,12 +50,8 @@ class Simplifier {
       }
       candidates = std::move(left);
     }
-    std::vector<StarPiece> kept;
-    for (std::size_t k = 0; k < pieces_.size(); ++k) {
-      if (alive_[k]) kept.push_back(pieces_[k]);
-    }
-    pieces_ = std::move(kept);
   }
+  bool is_left(std::size_t piece) const { return alive_[piece]; }
 
  private:
   // The smallest image that would be left with v at w; 0 where that is not allowed.
@@ -66,8 +66,8 @@ class Simplifier {
       }
       std::replace(corners.begin(), corners.end(), v, w);
       const auto& at = star_.points;
-      const Wide area =
-          exact::area_in(triangle_, at[corners[0]].at.image, at[corners[1]].at.image, at[corners[2]].at.image);
+      const Wide area = exact::area_in(triangles_[part_[k]], at[corners[0]].at.image, at[corners[1]].at.image,
+                                       at[corners[2]].at.image);
       if (area <= 0 || exact::orientation_in(input_[pieces_[k].input], at[corners[0]].at.source,
                                              at[corners[1]].at.source, at[corners[2]].at.source) <= 0) {
         return 0;
@@ -89,7 +89,8 @@ class Simplifier {
     Wide best = 0;
     std::uint32_t target = v;
     for (const std::uint32_t w : neighbours) {
-      if (!may_slide(star_.points[v].at.source, star_.points[w].at.source)) continue;
+      const auto &from = star_.points[v].at, &to = star_.points[w].at;
+      if (!may_slide(from.source, to.source) || !may_slide(from.image, to.image)) continue;
       const Wide area = smallest_left(v, w);
       if (area > best) {
         best = area;
@@ -113,7 +114,8 @@ class Simplifier {
     return true;
   }
 
-  const scene::Triangle& triangle_;
+  const std::vector<scene::Triangle>& triangles_;
+  const std::vector<std::size_t>& part_;
   const std::vector<scene::Triangle>& input_;
   const StarPieces& star_;
   std::vector<StarPiece>& pieces_;
@@ -125,7 +127,32 @@ class Simplifier {
 
 void simplify(const scene::Triangle& triangle, const std::vector<scene::Triangle>& input, const StarPieces& star,
               std::vector<StarPiece>& pieces) {
-  Simplifier(triangle, input, star, pieces).run();
+  const std::vector<scene::Triangle> triangles{triangle};
+  const std::vector<std::size_t> part(pieces.size(), 0);
+  Simplifier simplifier(triangles, part, input, star, pieces);
+  simplifier.run(scene::no_vertex);
+  std::vector<StarPiece> kept;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (simplifier.is_left(k)) kept.push_back(pieces[k]);
+  }
+  pieces = std::move(kept);
+}
+
+void simplify_star(const std::vector<scene::Triangle>& triangles, std::uint32_t hub,
+                   const std::vector<scene::Triangle>& input, const StarPieces& star,
+                   std::vector<std::vector<StarPiece>>& pieces) {
+  std::vector<StarPiece> all;
+  std::vector<std::size_t> part;
+  for (std::size_t t = 0; t < pieces.size(); ++t) {
+    all.insert(all.end(), pieces[t].begin(), pieces[t].end());
+    part.insert(part.end(), pieces[t].size(), t);
+    pieces[t].clear();
+  }
+  Simplifier simplifier(triangles, part, input, star, all);
+  simplifier.run(hub);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (simplifier.is_left(k)) pieces[part[k]].push_back(all[k]);
+  }
 }
 
 }  // namespace clues::reference
