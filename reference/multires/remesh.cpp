@@ -204,7 +204,11 @@ class Remesher {
 scene::Point remesh_position(const CarrierPoint& source, const scene::TriangleMesh& input, bool single) {
   scene::Point at = position_estimate(source, input);
   if (single) {
-    for (double& x : at) x = static_cast<float>(x);
+    for (double& x : at) {
+      // Through memory, because g++ 12 leaves out two conversions in a row where it makes vectors of them (-O2).
+      const volatile float rounded = static_cast<float>(x);
+      x = rounded;
+    }
   }
   return at;
 }
