@@ -55,7 +55,8 @@ class RemeshJudge {
       const std::uint32_t v = point.image.corner[0];
       seen[v] = true;
       for (const double x : remesh_.points[v]) {
-        if (single && x != static_cast<float>(x)) wrong(fmt::format("vertex {} of the remesh is at no float: {}", v, x));
+        if (single && x != static_cast<float>(x))
+          wrong(fmt::format("vertex {} of the remesh is at no float: {}", v, x));
       }
       if (!is_rounded_from({point.source, h_.input}, remesh_.points[v], single)) {
         wrong(fmt::format("vertex {} of the remesh is not where the input is at its point", v));

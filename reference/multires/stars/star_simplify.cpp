@@ -1,7 +1,6 @@
 // Half-edge collapses, each proved by the signs of what is left: the pieces around the point fill the same polygon before and after, on both
 // surfaces, and fill it once if they all turn counter-clockwise.
 #include <algorithm>
-#include <map>
 
 #include "reference/multires/stars/star_pieces.h"
 
@@ -24,7 +23,13 @@ class Simplifier {
   // Piece k lies in triangles[part[k]].
   Simplifier(const std::vector<scene::Triangle>& triangles, const std::vector<std::size_t>& part,
              const std::vector<scene::Triangle>& input, const StarPieces& star, std::vector<StarPiece>& pieces)
-      : triangles_(triangles), part_(part), input_(input), star_(star), pieces_(pieces), alive_(pieces.size(), true) {
+      : triangles_(triangles),
+        part_(part),
+        input_(input),
+        star_(star),
+        pieces_(pieces),
+        alive_(pieces.size(), true),
+        around_(star.points.size()) {
     for (std::uint32_t k = 0; k < pieces_.size(); ++k) {
       for (const std::uint32_t v : pieces_[k].corners) around_[v].push_back(k);
     }
@@ -33,7 +38,8 @@ class Simplifier {
   // `hub`: points on the edges from it are looked at too.
   void run(std::uint32_t hub) {
     std::vector<std::uint32_t> candidates;
-    for (const auto& [v, unused] : around_) {
+    for (std::uint32_t v = 0; v < around_.size(); ++v) {
+      if (around_[v].empty()) continue;
       const CarrierPoint& image = star_.points[v].at.image;
       if (!star_.points[v].of_input && (image.size() == 3 || (image.size() == 2 && image.weight_of(hub) > 0)))
         candidates.push_back(v);
@@ -58,7 +64,7 @@ class Simplifier {
   Wide smallest_left(std::uint32_t v, std::uint32_t w) const {
     Wide smallest = 0;
     std::size_t shared = 0;
-    for (const std::uint32_t k : around_.at(v)) {
+    for (const std::uint32_t k : around_[v]) {
       auto corners = pieces_[k].corners;
       if (std::find(corners.begin(), corners.end(), w) != corners.end()) {
         ++shared;
@@ -79,7 +85,7 @@ class Simplifier {
 
   bool take_out(std::uint32_t v) {
     std::vector<std::uint32_t> neighbours;
-    for (const std::uint32_t k : around_.at(v)) {
+    for (const std::uint32_t k : around_[v]) {
       for (const std::uint32_t w : pieces_[k].corners) {
         if (w != v) neighbours.push_back(w);
       }
@@ -98,19 +104,19 @@ class Simplifier {
       }
     }
     if (target == v) return false;
-    for (const std::uint32_t k : around_.at(v)) {
+    for (const std::uint32_t k : around_[v]) {
       auto& corners = pieces_[k].corners;
       if (std::find(corners.begin(), corners.end(), target) != corners.end()) {
         alive_[k] = false;
         for (const std::uint32_t w : corners) {
-          if (w != v) std::erase(around_.at(w), k);
+          if (w != v) std::erase(around_[w], k);
         }
       } else {
         std::replace(corners.begin(), corners.end(), v, target);
-        around_.at(target).push_back(k);
+        around_[target].push_back(k);
       }
     }
-    around_.erase(v);
+    around_[v].clear();
     return true;
   }
 
@@ -120,7 +126,7 @@ class Simplifier {
   const StarPieces& star_;
   std::vector<StarPiece>& pieces_;
   std::vector<bool> alive_;
-  std::map<std::uint32_t, std::vector<std::uint32_t>> around_;
+  std::vector<std::vector<std::uint32_t>> around_;  // by point: its pieces
 };
 
 }  // namespace
