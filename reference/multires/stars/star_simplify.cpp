@@ -1,6 +1,7 @@
 // Half-edge collapses, each proved by the signs of what is left: the pieces around the point fill the same polygon before and after, on both
 // surfaces, and fill it once if they all turn counter-clockwise.
 #include <algorithm>
+#include <boost/container/small_vector.hpp>
 
 #include "reference/multires/stars/star_pieces.h"
 
@@ -84,17 +85,17 @@ class Simplifier {
   }
 
   bool take_out(std::uint32_t v) {
-    std::vector<std::uint32_t> neighbours;
+    neighbours_.clear();
     for (const std::uint32_t k : around_[v]) {
       for (const std::uint32_t w : pieces_[k].corners) {
-        if (w != v) neighbours.push_back(w);
+        if (w != v) neighbours_.push_back(w);
       }
     }
-    std::sort(neighbours.begin(), neighbours.end());
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+    std::sort(neighbours_.begin(), neighbours_.end());
+    neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
     Wide best = 0;
     std::uint32_t target = v;
-    for (const std::uint32_t w : neighbours) {
+    for (const std::uint32_t w : neighbours_) {
       const auto &from = star_.points[v].at, &to = star_.points[w].at;
       if (!may_slide(from.source, to.source) || !may_slide(from.image, to.image)) continue;
       const Wide area = smallest_left(v, w);
@@ -109,7 +110,9 @@ class Simplifier {
       if (std::find(corners.begin(), corners.end(), target) != corners.end()) {
         alive_[k] = false;
         for (const std::uint32_t w : corners) {
-          if (w != v) std::erase(around_[w], k);
+          if (w == v) continue;
+          auto& left = around_[w];
+          left.erase(std::remove(left.begin(), left.end(), k), left.end());
         }
       } else {
         std::replace(corners.begin(), corners.end(), v, target);
@@ -126,7 +129,8 @@ class Simplifier {
   const StarPieces& star_;
   std::vector<StarPiece>& pieces_;
   std::vector<bool> alive_;
-  std::vector<std::vector<std::uint32_t>> around_;  // by point: its pieces
+  std::vector<boost::container::small_vector<std::uint32_t, 8>> around_;  // by point: its pieces
+  std::vector<std::uint32_t> neighbours_;                                 // of the point that is looked at
 };
 
 }  // namespace
