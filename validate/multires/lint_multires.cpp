@@ -81,42 +81,23 @@ std::string vertex_word(const MultiresVector& test, std::uint32_t v, std::vector
     if (w != v || std::find(test.fixed.begin(), test.fixed.end(), w) != test.fixed.end()) options.fixed.push_back(w);
   }
   auto h = reference::build_hierarchy(test.mesh, options);
-  // A level that removes nothing is not in a hierarchy; here it is wanted for its reasons.
-  std::string word;
-  if (!h.levels.empty()) {
-    word = "removable";
-  } else if (std::find(h.fixed.begin(), h.fixed.end(), v) != h.fixed.end()) {
-    word = "fixed";
-  } else {
-    const auto high = [&] {
-      std::set<std::uint32_t> around;
-      for (const auto& t : test.mesh.triangles) {
-        if (names(t, v)) around.insert(t.begin(), t.end());
-      }
-      return around.size() > 12;  // itself is there too
-    };
-    if (high()) {
-      word = "high";
-    } else {
-      // One of the reasons holds, by the judge, and the other does not.
-      std::vector<std::string> held;
-      for (const auto& [reason, name] :
-           {std::pair{scene::KeptFor::link, "link"}, std::pair{scene::KeptFor::flat, "flat"}}) {
-        h.levels = {{{}, {{v, reason}}}};
-        if (check_hierarchy(h).sound()) held.emplace_back(name);
-      }
-      // A side of one triangle has no triangulation either: flat is said of those.
-      if (held.empty()) {
-        flaws.push_back(fmt::format("vertex {}: stays, and no reason holds", v));
-        return "";
-      }
-      word = held.back();
-      return word;
-    }
-  }
   if (!check_hierarchy(h).sound())
     flaws.push_back(fmt::format("vertex {}: the reference and the judge contradict each other", v));
-  return word;
+  if (!h.levels.empty()) return "removable";
+  if (std::find(h.fixed.begin(), h.fixed.end(), v) != h.fixed.end()) return "fixed";
+  std::set<std::uint32_t> around;  // and itself
+  for (const auto& t : test.mesh.triangles) {
+    if (names(t, v)) around.insert(t.begin(), t.end());
+  }
+  if (around.size() > 12) return "high";
+  // A level that removes nothing is in no hierarchy; here the judge is asked which reason holds. Where a side is one triangle both do.
+  for (const auto& [reason, word] :
+       {std::pair{scene::KeptFor::flat, "flat"}, std::pair{scene::KeptFor::link, "link"}}) {
+    h.levels = {{{}, {{v, reason}}}};
+    if (check_hierarchy(h).sound()) return word;
+  }
+  flaws.push_back(fmt::format("vertex {}: stays, and no reason holds", v));
+  return "";
 }
 
 SurfaceFacts facts_of(const MultiresVector& test, std::vector<std::string>& flaws) {
