@@ -42,14 +42,12 @@ class Remesher {
   scene::Point position(const Patch& patch, const CarrierPoint& corner) const {
     return position(source_at(patch, corner));
   }
-  PatchError error_of(const Patch& patch) const {
-    return error_bound(
-        patch,
-        {position(patch, patch.corners[0]), position(patch, patch.corners[1]), position(patch, patch.corners[2])},
-        h_.input);
-  }
   bool too_far(const Patch& patch) const {
-    return options_.error < std::numeric_limits<double>::infinity() && error_of(patch).worst() > options_.error;
+    if (options_.error == std::numeric_limits<double>::infinity()) return false;
+    const auto& c = patch.corners;
+    return error_bound(patch, {position(patch, c[0]), position(patch, c[1]), position(patch, c[2])}, h_.input, nullptr,
+                       options_.error)
+               .worst() > options_.error;
   }
 
   void refine(Patch patch) {

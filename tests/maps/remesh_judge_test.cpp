@@ -78,6 +78,20 @@ void judge_random_surfaces(std::uint64_t seed, std::uint64_t count) {
 TEST(JudgeOfRemeshes, AcceptsThoseOfRandomSurfaces) { judge_random_surfaces(kSeed + 5, 40); }
 TEST(JudgeOfRemeshesLong, AcceptsThoseOfRandomSurfaces) { judge_random_surfaces(kSeed + 6, 2000); }
 
+// Squares of distances overflow: there is no bound, and nothing else is wrong.
+TEST(JudgeOfRemeshes, AcceptsHugeCoordinatesWithoutABound) {
+  auto mesh = fuzz::ball(3);
+  for (auto& p : mesh.points) {
+    for (double& x : p) x *= 0x1p1020;
+  }
+  Made m = made(mesh, 24, {});
+  EXPECT_TRUE(std::isinf(m.remesh.proof.to_remesh));
+  EXPECT_TRUE(std::isinf(m.remesh.proof.to_input));
+  EXPECT_EQ(verdict(m), "");
+  for (auto& x : m.remesh.mesh.points[0]) x /= 2;
+  EXPECT_THAT(verdict(m), HasSubstr("is not where the input is"));
+}
+
 TEST(JudgeOfRemeshes, FindsAMovedVertex) {
   for (const double by : {0.1, 0x1p-50}) {
     Made m = uniform_ball();
