@@ -225,7 +225,17 @@ Remesh remeshed(const scene::Hierarchy& hierarchy, const RemeshOptions& options)
     throw scene::Error(scene::ErrorCode::bad_argument,
                        fmt::format("remesh: a level is from 0 to {}", std::min(options.most, most_levels - 2)));
   }
-  return Remesher(hierarchy, options).run();
+  // Neighbours of fine triangles are cut too, and may lie where the grids do not let them: then all are to be coarser.
+  RemeshOptions coarser = options;
+  while (coarser.most > coarser.level && coarser.error < std::numeric_limits<double>::infinity()) {
+    try {
+      return Remesher(hierarchy, coarser).run();
+    } catch (const scene::Error& error) {
+      if (error.code() != scene::ErrorCode::unsupported) throw;
+      --coarser.most;
+    }
+  }
+  return Remesher(hierarchy, coarser).run();
 }
 
 }  // namespace clues::reference

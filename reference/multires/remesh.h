@@ -33,7 +33,7 @@ struct Remesh {
 };
 
 // Neighbours differ by at most one level, and a triangle whose neighbour is finer is cut in two, so that edges meet whole edges. `hierarchy` has
-// to be a verified one. Throws Error unsupported where the grids are too coarse, bad_argument for a level above `most` or most_levels.
+// to be a verified one. Where the grids are too coarse for an error that is asked for, parts are larger; for `level`: throws Error unsupported, bad_argument for a level above `most` or most_levels.
 Remesh remeshed(const scene::Hierarchy& hierarchy, const RemeshOptions& options);
 
 // Parts of it: where a vertex lies; and the bounds of a triangle of the remesh, added to those of the proof, with the triangles that its pieces are near to.

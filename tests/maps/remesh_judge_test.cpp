@@ -71,12 +71,25 @@ void judge_random_surfaces(std::uint64_t seed, std::uint64_t count) {
       ++judged;
     } catch (const scene::Error& error) {
       EXPECT_EQ(error.code(), scene::ErrorCode::unsupported) << k << error.what();
+      EXPECT_GT(options.level, 0) << k;  // an error that is asked for may be missed, and nothing is refused
     }
   }
   EXPECT_GT(judged, count / 2);
 }
 TEST(JudgeOfRemeshes, AcceptsThoseOfRandomSurfaces) { judge_random_surfaces(kSeed + 5, 40); }
 TEST(JudgeOfRemeshesLong, AcceptsThoseOfRandomSurfaces) { judge_random_surfaces(kSeed + 6, 2000); }
+
+// Neighbours of fine triangles lay where the grids are too coarse for cuts: no remesh was made at all.
+TEST(JudgeOfRemeshes, AcceptsWhatMissesAnErrorThatGridsForbid) {
+  for (const std::uint64_t k : {30, 40}) {
+    reference::RemeshOptions options;
+    options.error = 0.1;
+    options.most = 4;
+    const Made m = made(fuzz::surface_case(77, k).mesh, 20, options);
+    EXPECT_FALSE(m.remesh.reached);
+    EXPECT_EQ(verdict(m), "") << k;
+  }
+}
 
 // Squares of distances overflow: there is no bound, and nothing else is wrong.
 TEST(JudgeOfRemeshes, AcceptsHugeCoordinatesWithoutABound) {
