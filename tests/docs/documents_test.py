@@ -232,7 +232,7 @@ class Scratch:
         at = {v: (t, k) for t, corners in enumerate(triangles) for k, v in enumerate(corners)}
         self.write("plain.txt", "".join(f"{at[v][0]} {' '.join('1' if k == at[v][1] else '0' for k in range(3))}\n"
                                         for v in range(len(points))))
-        self.sh("clues maps ball.off --base 20 -o ball.maps")
+        self.sh("clues maps ball.off --base 20 -o ball.maps --uniform 2 --remesh uniform.ply --proof uniform.proof")
 
     def cases(self):
         shutil.copytree(self.folder / "vectors", self.folder / "my-cases")
