@@ -9,6 +9,7 @@
 #include "app/progress.h"
 #include "scene/messages/error.h"
 #include "validate/motion/lint_motion.h"
+#include "validate/multires/lint_multires.h"
 #include "validate/vectors/lint.h"
 
 namespace clues::app {
@@ -20,12 +21,11 @@ struct LintRequest {
   validate::LintOptions options;
 };
 
-// The cases about motion have a folder, and proofs, of their own.
-int run_lint_of_motion(const LintRequest& request) {
-  const auto report = validate::lint_motion_suite(
-      request.folder, {request.options.glob, request.options.write, request.options.accept});
-  if (request.json.asked()) request.json.write(validate::to_json_text(report));
-  if (!request.json.on_stdout()) print(validate::to_text(report));
+// The suites beside the one about visibility have proofs of their own.
+int end_side_lint(const LintRequest& request, const validate::SideLintReport& report, const std::string& about,
+                  const std::string& format) {
+  if (request.json.asked()) request.json.write(validate::to_json_text(report, format));
+  if (!request.json.on_stdout()) print(validate::to_text(report, about));
   if (!report.malformed.empty()) return bad_usage;
   if (!report.findings.empty()) return findings;
   if (report.selected == 0) {
@@ -42,7 +42,14 @@ int run_lint(const LintRequest& request) {
   }
   require_writable_parent(request.json.file());
   require_outside(request.json.file(), request.folder);
-  if (validate::is_motion_suite(request.folder)) return run_lint_of_motion(request);
+  const validate::SideLintOptions side{options.glob, options.write, options.accept};
+  if (validate::is_motion_suite(request.folder)) {
+    return end_side_lint(request, validate::lint_motion_suite(request.folder, side), "motion", "clues-motion-lint/1");
+  }
+  if (validate::is_multires_suite(request.folder)) {
+    return end_side_lint(request, validate::lint_multires_suite(request.folder, side), "maps of surfaces",
+                         "clues-multires-lint/1");
+  }
   if (options.jobs == 0) options.jobs = static_cast<int>(std::thread::hardware_concurrency());
   validate::LintReport report;
   {
@@ -99,10 +106,11 @@ void add_lint_command(CLI::App& program, int& status) {
       "  ids must be unique and may not vanish from index.json, and counts must agree.\n"
       "  vectors/motion, the cases about motion bounds, is a suite of its own: bounds called sound are proved, those "
       "called\n"
-      "  unsound refuted (docs/motion.md).\n\n"
+      "  unsound refuted (docs/motion.md). vectors/multires is about surfaces and their maps (docs/maps.md).\n\n"
       "EXAMPLES\n"
       "  clues lint\n"
       "  clues lint vectors/motion\n"
+      "  clues lint vectors/multires\n"
       "  clues lint vectors --case 'edge-*' --jobs 2\n"
       "  clues lint my-cases --write\n\n"
       "EXIT CODES\n"

@@ -14,25 +14,30 @@
 #include "app/common.h"
 #include "app/json_output.h"
 #include "app/maps/maps_output.h"
+#include "app/maps/remesh_output.h"
 #include "app/progress.h"
 #include "reference/multires/hierarchy.h"
 #include "reference/multires/remesh.h"
+#include "reference/multires/smoothing.h"
 #include "reference/multires/stars/features.h"
 #include "scene/files/atomic_file.h"
 #include "scene/formats/number.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
+#include "scene/multires/attributes.h"
 #include "scene/multires/feature_file.h"
 #include "scene/multires/hierarchy_file.h"
 #include "validate/multires/check_hierarchy.h"
+#include "validate/multires/check_remesh.h"
 
 namespace clues::app {
 namespace {
 
 struct MapsRequest {
-  std::string mesh, features, out, patches, base_out, remesh, svg;
+  std::string mesh, features, out, patches, base_out, remesh, proof, checker, svg;
   std::uint64_t base = 200;
   std::optional<int> uniform;
+  int smooth = 0;
   std::optional<double> adaptive;
   JsonOutput json;
 };
@@ -70,9 +75,18 @@ double longest_side(const scene::TriangleMesh& mesh) {
 void check_remesh(const MapsRequest& request) {
   if (request.uniform && request.adaptive)
     throw scene::Error(scene::ErrorCode::bad_argument, "--uniform or --adaptive, not both");
-  if (request.remesh.empty() != (!request.uniform && !request.adaptive)) {
+  if ((request.remesh.empty() && request.checker.empty()) != (!request.uniform && !request.adaptive)) {
     throw scene::Error(scene::ErrorCode::bad_argument,
-                       "--uniform L and --adaptive EPS say how --remesh FILE is made: give one of them, and the file");
+                       "--uniform L and --adaptive EPS say how --remesh FILE (or --checker FILE) is made: give one of "
+                       "them, and the file");
+  }
+  if (request.smooth != 0 && !request.uniform)
+    throw scene::Error(scene::ErrorCode::bad_argument, "--smooth is about remeshes of --uniform L, which is missing");
+  if (request.smooth < 0 || request.smooth > 1000)
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       fmt::format("--smooth {}: a number of rounds is from 0 to 1000", request.smooth));
+  if (!request.proof.empty() && request.remesh.empty()) {
+    throw scene::Error(scene::ErrorCode::bad_argument, "--proof is about a remesh: --remesh FILE is missing");
   }
   if (request.adaptive && !(*request.adaptive > 0 && *request.adaptive <= 100)) {
     throw scene::Error(
@@ -88,26 +102,59 @@ void check_remesh(const MapsRequest& request) {
 }
 
 struct RemeshAnswer {
-  std::string file, row;
+  std::string file, proof, checker, row;
   bool reached = true;
 };
-RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarchy) {
+// What it did to angles.
+std::string smooth(const MapsRequest& request, const scene::Hierarchy& hierarchy, bool single,
+                   reference::Remesh& remesh) {
+  ProgressBar bar("clues maps, smoothing");
+  reference::SmoothingOptions options;
+  options.rounds = request.smooth;
+  options.single = single;
+  options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("vertices", done, total); };
+  const auto before = reference::neighbour_angles_estimate(remesh.mesh);
+  const std::uint64_t moves = reference::smooth(remesh, hierarchy, options);
+  const auto after = reference::neighbour_angles_estimate(remesh.mesh);
+  return fmt::format(
+      "smoothed: {} moves; angles between neighbouring triangles, in degrees: {:.1f} at most and {:.2f} in the mean, "
+      "they were {:.1f} and {:.2f}\n",
+      moves, after.largest, after.mean, before.largest, before.mean);
+}
+
+// Adds E7 to the report: what was made is judged before it is written.
+RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarchy,
+                    const scene::MeshAttributes& attributes, validate::HierarchyReport& report) {
   const double side = longest_side(hierarchy.input);
   reference::RemeshOptions options;
+  options.single = is_of_floats(request.remesh);
   if (request.uniform) options.level = *request.uniform;
   if (request.adaptive) options.error = *request.adaptive / 100 * side;
   ProgressBar bar("clues maps, remesh");
   options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("base triangles", done, total); };
-  const auto made = reference::remeshed(hierarchy, options);
+  auto made = reference::remeshed(hierarchy, options);
   RemeshAnswer answer;
-  answer.file = remesh_to_file(made, request.remesh);
+  if (request.smooth > 0) answer.row = smooth(request, hierarchy, options.single, made);
+  const auto carried = reference::carried(made, hierarchy.input, attributes);
+  if (!request.remesh.empty()) answer.file = remesh_to_file(made, carried.attributes, request.remesh);
+  if (!request.checker.empty()) answer.checker = checker_to_ply(made, hierarchy.input);
+  answer.proof = scene::to_text(made.proof);
+  validate::check_remesh(hierarchy, made.mesh,
+                         scene::parse_remesh_proof(answer.proof, "the proof of the remesh",
+                                                   hierarchy.input.points.size(), hierarchy.input.triangles.size()),
+                         options.single, report);
   answer.reached = made.reached;
-  answer.row = fmt::format(
+  answer.row += fmt::format(
       "remesh: {} vertices, {} triangles; no point of the input is farther than {:.4g} from it ({:.3g} % of the box), "
       "none of it farther "
       "than {:.4g} ({:.3g} %) from the input\n",
-      made.mesh.points.size(), made.mesh.triangles.size(), made.error.to_remesh, 100 * made.error.to_remesh / side,
-      made.error.to_input, 100 * made.error.to_input / side);
+      made.mesh.points.size(), made.mesh.triangles.size(), made.proof.to_remesh, 100 * made.proof.to_remesh / side,
+      made.proof.to_input, 100 * made.proof.to_input / side);
+  if (carried.across_seams > 0) {
+    answer.row += fmt::format(
+        "{} triangles of the remesh lie across a seam of the texture; as --features FILE, seams stay edges\n",
+        carried.across_seams);
+  }
   if (!made.reached)
     answer.row +=
         "the error that was asked for was not reached: the map is too narrow in places for the grids, or for 4^8 parts "
@@ -117,8 +164,9 @@ RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarch
 
 int run_maps(const MapsRequest& request) {
   if (request.mesh.empty()) throw scene::Error(scene::ErrorCode::bad_argument, "MESH is required (or verify)");
-  const std::vector<const std::string*> outputs{&request.out,    &request.patches, &request.base_out,
-                                                &request.remesh, &request.svg,     &request.json.file()};
+  const std::vector<const std::string*> outputs{&request.out,     &request.patches,    &request.base_out,
+                                                &request.remesh,  &request.proof,      &request.svg,
+                                                &request.checker, &request.json.file()};
   for (const std::string* file : outputs) {
     if (!file->empty()) require_writable_parent(*file);
   }
@@ -126,6 +174,8 @@ int run_maps(const MapsRequest& request) {
   check_remesh(request);
   const auto mesh = scene::read_mesh(request.mesh);
   const auto census = reference::checked_surface(mesh, request.mesh);
+  scene::MeshAttributes attributes;
+  if (request.uniform || request.adaptive) attributes = scene::read_attributes(request.mesh, mesh);
   reference::HierarchyOptions options;
   options.base_triangles = request.base;
   add_features(request.features, mesh, options);
@@ -139,15 +189,17 @@ int run_maps(const MapsRequest& request) {
   }
   // What is written is what was judged: the text, read again.
   const std::string text = scene::to_text(hierarchy);
-  const auto report = validate::check_hierarchy(scene::parse_hierarchy(text, "the hierarchy"));
+  auto report = validate::check_hierarchy(scene::parse_hierarchy(text, "the hierarchy"));
+  RemeshAnswer answer;
+  if (report.sound() && (request.uniform || request.adaptive)) answer = remesh(request, hierarchy, attributes, report);
   if (!report.sound()) {
     print(validate::to_text(report), stderr);
     return oracle_contradiction;
   }
-  RemeshAnswer answer;
-  if (!request.remesh.empty()) answer = remesh(request, hierarchy);
   if (!request.out.empty()) scene::write_file_atomically(request.out, text);
   if (!request.remesh.empty()) scene::write_file_atomically(request.remesh, answer.file);
+  if (!request.checker.empty()) scene::write_file_atomically(request.checker, answer.checker);
+  if (!request.proof.empty()) scene::write_file_atomically(request.proof, answer.proof);
   if (!request.patches.empty()) scene::write_file_atomically(request.patches, patches_to_ply(hierarchy));
   if (!request.base_out.empty()) scene::write_file_atomically(request.base_out, base_to_off(hierarchy));
   if (!request.svg.empty()) scene::write_file_atomically(request.svg, base_to_svg(hierarchy));
@@ -192,8 +244,20 @@ void add_maps_command(CLI::App& program, int& status) {
                    "Mesh it anew, as fine as an error asks for: percent of the longest side of its box (with --remesh)")
       ->type_name("EPS");
   command
-      ->add_option("--remesh", request->remesh,
-                   "Where that mesh goes: FILE.ply (a colour for each base triangle), .obj or .off")
+      ->add_option(
+          "--remesh", request->remesh,
+          "Where that mesh goes: .ply, .obj, .off, .glb or .gltf, with the texture coordinates and colours of MESH")
+      ->type_name("FILE");
+  command
+      ->add_option("--smooth", request->smooth,
+                   "Move its vertices on the surface, N times each, so that they lie more evenly (with --uniform)")
+      ->type_name("N");
+  command
+      ->add_option(
+          "--checker", request->checker,
+          "A checkerboard on the base domain, as the map draws it on the input (PLY; with --uniform or --adaptive)")
+      ->type_name("FILE");
+  command->add_option("--proof", request->proof, "Why that mesh is as near as is said, for clues maps verify --proof")
       ->type_name("FILE");
   request->json.add_to(*command, "The table of the levels");
   command->footer(
@@ -214,8 +278,10 @@ void add_maps_command(CLI::App& program, int& status) {
       "  clues maps ball.off --base 20 -o ball.maps --patches ball.ply\n"
       "  clues maps verify ball.maps\n"
       "  clues maps ball.off --base 20 --features 40 --json ball.json\n"
-      "  clues maps ball.off --base 20 --uniform 2 --remesh uniform.ply\n"
-      "  clues maps ball.off --base 20 --adaptive 5 --remesh adaptive.obj\n\n"
+      "  clues maps ball.off --base 20 --uniform 2 --remesh uniform.ply --proof uniform.proof\n"
+      "  clues maps verify ball.maps --remesh uniform.ply --proof uniform.proof\n"
+      "  clues maps ball.off --base 20 --uniform 3 --smooth 3 --remesh smooth.ply --checker checker.ply\n"
+      "  clues maps ball.off --base 20 --adaptive 5 --remesh adaptive.glb\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input (no surface: the message says where)   3 --adaptive was not reached   4 an "
       "oracle "

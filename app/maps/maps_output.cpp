@@ -3,12 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 
+#include "app/maps/patch_colours.h"
 #include "scene/mesh_io.h"
-#include "scene/messages/error.h"
 
 namespace clues::app {
 namespace {
@@ -19,19 +18,6 @@ constexpr fmt::string_view coloured_ply =
     "{}\n"
     "property list uchar uint vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar "
     "blue\nend_header\n";
-
-// Neighbouring numbers get colours far apart.
-std::array<int, 3> colour_of(std::uint32_t number) {
-  const double hue = std::fmod(0.618033988749895 * number, 1.0) * 6,
-               shade = number % 3 == 0 ? 1.0 : (number % 3 == 1 ? 0.8 : 0.6);
-  const double x = 1 - std::abs(std::fmod(hue, 2.0) - 1);
-  const std::array<std::array<double, 3>, 6> wheel{{{1, x, 0}, {x, 1, 0}, {0, 1, x}, {0, x, 1}, {x, 0, 1}, {1, 0, x}}};
-  std::array<int, 3> out{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    out[i] = static_cast<int>(255 * shade * (0.25 + 0.75 * wheel[static_cast<std::size_t>(hue) % 6][i]));
-  }
-  return out;
-}
 
 // The base triangle that a piece lies in; no_vertex for a file that was not verified.
 std::uint32_t base_of(const std::map<scene::Triangle, std::uint32_t>& base, const scene::Hierarchy& h,
@@ -65,7 +51,7 @@ std::string patches_to_ply(const scene::Hierarchy& h) {
     fmt::format_to(to, "{} {} {}\n", at[0], at[1], at[2]);
   }
   for (const auto& piece : h.pieces) {
-    const auto colour = colour_of(base_of(base, h, piece));
+    const auto colour = patch_colour(base_of(base, h, piece));
     fmt::format_to(to, "3 {} {} {} {} {} {}\n", piece.corners[0], piece.corners[1], piece.corners[2], colour[0],
                    colour[1], colour[2]);
   }
@@ -106,7 +92,7 @@ std::string base_to_svg(const scene::Hierarchy& h) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 800 800\">\n<title>base domain: {} triangles</title>\n",
       h.base.size());
   for (const auto& [depth, t] : order) {
-    const auto colour = colour_of(t);
+    const auto colour = patch_colour(t);
     const auto& c = h.base[t];
     fmt::format_to(to,
                    "<path d=\"M{:.2f} {:.2f}L{:.2f} {:.2f}L{:.2f} {:.2f}Z\" fill=\"#{:02x}{:02x}{:02x}\" "
@@ -133,30 +119,22 @@ std::string base_to_off(const scene::Hierarchy& h) {
   return scene::to_off_text(mesh);
 }
 
-void require_remesh_format(const std::string& file) {
-  const std::string extension = scene::lower_case_extension(file);
-  if (extension != ".ply" && extension != ".obj" && extension != ".off") {
-    throw scene::Error(scene::ErrorCode::unsupported,
-                       fmt::format("--remesh {}: meshes are written as .ply, .obj or .off", file));
-  }
-}
-
-std::string remesh_to_file(const reference::Remesh& remesh, const std::string& file) {
-  const std::string extension = scene::lower_case_extension(file);
-  if (extension == ".off") return scene::to_off_text(remesh.mesh);
+std::string checker_to_ply(const reference::Remesh& remesh, const scene::TriangleMesh& input) {
+  const auto& proof = remesh.proof;
   fmt::memory_buffer out;
   auto to = std::back_inserter(out);
-  if (extension == ".obj") {
-    for (const auto& p : remesh.mesh.points) fmt::format_to(to, "v {} {} {}\n", p[0], p[1], p[2]);
-    for (const auto& t : remesh.mesh.triangles) fmt::format_to(to, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
-    return fmt::to_string(out);
+  fmt::format_to(to, fmt::runtime(coloured_ply), proof.points.size(), proof.pieces.size());
+  for (const auto& p : proof.points) {
+    const auto at = reference::position_estimate(p.source, input);
+    fmt::format_to(to, "{} {} {}\n", at[0], at[1], at[2]);
   }
-  fmt::format_to(to, fmt::runtime(coloured_ply), remesh.mesh.points.size(), remesh.mesh.triangles.size());
-  for (const auto& p : remesh.mesh.points) fmt::format_to(to, "{} {} {}\n", p[0], p[1], p[2]);
-  for (std::size_t k = 0; k < remesh.base.size(); ++k) {
-    const auto& t = remesh.mesh.triangles[k];
-    const auto colour = colour_of(remesh.base[k]);
-    fmt::format_to(to, "3 {} {} {} {} {} {}\n", t[0], t[1], t[2], colour[0], colour[1], colour[2]);
+  for (std::size_t t = 0; t < remesh.base.size(); ++t) {
+    auto colour = patch_colour(remesh.base[t]);
+    for (int& channel : colour) channel = remesh.turned[t] ? channel / 4 : 128 + channel / 2;
+    for (std::size_t i = remesh.first_piece[t]; i < remesh.first_piece[t + 1]; ++i) {
+      const auto& c = proof.pieces[i].corners;
+      fmt::format_to(to, "3 {} {} {} {} {} {}\n", c[0], c[1], c[2], colour[0], colour[1], colour[2]);
+    }
   }
   return fmt::to_string(out);
 }

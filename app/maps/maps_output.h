@@ -16,8 +16,8 @@ std::string base_to_svg(const scene::Hierarchy& hierarchy);
 // The base domain with vertices of the input; those that it does not use are left out.
 std::string base_to_off(const scene::Hierarchy& hierarchy);
 
-// By the name's extension: PLY with a colour for each base triangle, OBJ, OFF. Other extensions: Error unsupported.
-void require_remesh_format(const std::string& file);
-std::string remesh_to_file(const reference::Remesh& remesh, const std::string& file);
+// The input, cut along the parameter lines of the remesh: its triangles light, and dark where they stand on their heads, in the colours of their base
+// triangles (ascii PLY). Positions are estimates.
+std::string checker_to_ply(const reference::Remesh& remesh, const scene::TriangleMesh& input);
 
 }  // namespace clues::app

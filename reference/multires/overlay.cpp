@@ -1,7 +1,6 @@
 #include "reference/multires/overlay.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "reference/multires/stars/star_pieces.h"
 
@@ -104,22 +103,26 @@ bool Overlay::carry(std::uint32_t vertex, const StarShape& shape, const FlatStar
                     const std::vector<scene::Triangle>& closing) {
   const Disk disk{vertex, shape.ring.vertices, flat.ring};
   StarPieces star;
-  std::unordered_map<std::uint32_t, std::uint32_t> place;
   std::size_t old_count = 0;
+  for (const std::uint32_t number : shape.ring.triangles) old_count += pieces_[number].size();
+  star.pieces.reserve(2 * old_count);
+  star.points.reserve(2 * old_count);
+  place_.resize(points_.size(), scene::no_vertex);
   for (const std::uint32_t number : shape.ring.triangles) {
     for (const auto& piece : pieces_[number]) {
       StarPiece local{{}, piece.input, false};
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t point = piece.corners[k];
-        const auto [where, fresh] = place.try_emplace(point, static_cast<std::uint32_t>(star.points.size()));
-        if (fresh)
+        if (place_[point] == scene::no_vertex) {
+          place_[point] = static_cast<std::uint32_t>(star.points.size());
           star.points.push_back({point, point < input_vertices_, points_[point], disk.at(points_[point].image)});
-        local.corners[k] = where->second;
+        }
+        local.corners[k] = place_[point];
       }
       star.pieces.push_back(local);
     }
-    old_count += pieces_[number].size();
   }
+  for (const StarPoint& point : star.points) place_[point.number] = scene::no_vertex;
   for (const Diagonal& diagonal : diagonals_of(closing, disk)) {
     if (!cut_along(diagonal, star)) return false;
   }

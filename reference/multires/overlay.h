@@ -39,6 +39,7 @@ class Overlay {
   std::vector<scene::OverlayVertex> points_;
   std::vector<std::vector<scene::OverlayTriangle>> pieces_;  // by number of the triangle in the complex
   std::size_t count_;
+  std::vector<std::uint32_t> place_;  // of each point among those of the star at hand; no_vertex between stars
 };
 
 }  // namespace clues::reference

@@ -19,6 +19,9 @@ struct ByPlace {
   bool operator()(const CarrierPoint& a, const CarrierPoint& b) const {
     return a.corner != b.corner ? a.corner < b.corner : a.weight < b.weight;
   }
+  bool operator()(const scene::OverlayVertex& a, const scene::OverlayVertex& b) const {
+    return a.source == b.source ? (*this)(a.image, b.image) : (*this)(a.source, b.source);
+  }
 };
 
 class Remesher {
@@ -35,17 +38,16 @@ class Remesher {
   }
 
  private:
+  scene::Point position(const CarrierPoint& source) const { return remesh_position(source, h_.input, options_.single); }
   scene::Point position(const Patch& patch, const CarrierPoint& corner) const {
-    return position_estimate(source_at(patch, corner), h_.input);
-  }
-  PatchError error_of(const Patch& patch) const {
-    return error_bound(
-        patch,
-        {position(patch, patch.corners[0]), position(patch, patch.corners[1]), position(patch, patch.corners[2])},
-        h_.input);
+    return position(source_at(patch, corner));
   }
   bool too_far(const Patch& patch) const {
-    return options_.error < std::numeric_limits<double>::infinity() && error_of(patch).worst() > options_.error;
+    if (options_.error == std::numeric_limits<double>::infinity()) return false;
+    const auto& c = patch.corners;
+    return error_bound(patch, {position(patch, c[0]), position(patch, c[1]), position(patch, c[2])}, h_.input, nullptr,
+                       options_.error)
+               .worst() > options_.error;
   }
 
   void refine(Patch patch) {
@@ -111,10 +113,44 @@ class Remesher {
   std::uint32_t vertex(const Patch& patch, const CarrierPoint& corner) {
     const auto [place, fresh] = numbers_.try_emplace(corner, static_cast<std::uint32_t>(out_.mesh.points.size()));
     if (fresh) {
-      out_.parameters.push_back(corner);
+      out_.proof.parameters.push_back(corner);
       out_.sources.push_back(source_at(patch, corner));
-      out_.mesh.points.push_back(position_estimate(out_.sources.back(), h_.input));
+      out_.mesh.points.push_back(position(out_.sources.back()));
     }
+    return place->second;
+  }
+
+  // Of the triangles of a base triangle that is cut in four, the middle one does: then two of its corners are farthest to the first corner, else one
+  // (a half of one that is cut in two has a corner in the middle, and goes with the corner that it keeps).
+  static bool stands_on_its_head(const Patch& patch) {
+    std::array<std::int64_t, 3> first{};
+    for (std::size_t k = 0; k < 3; ++k) first[k] = patch.corners[k].weight_of(patch.triangle[0]);
+    const auto most = *std::max_element(first.begin(), first.end());
+    return std::count(first.begin(), first.end(), most) == 2;
+  }
+
+  // The point with its place on the remesh triangle: parts of the patch are multiples of 2^-60, for a patch is a base triangle made smaller by a power
+  // of two, or half of that.
+  std::uint32_t proof_point(const Patch& patch, const scene::Triangle& t, const StarPoint& point) {
+    const auto& c = patch.corners;
+    const exact::Wide whole = exact::area_in(patch.triangle, c[0], c[1], c[2]) >> scene::weight_bits;
+    std::array<std::pair<std::uint32_t, std::int64_t>, 3> parts;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const exact::Wide area = exact::area_in(patch.triangle, c[(k + 1) % 3], c[(k + 2) % 3], point.at.image);
+      if (area % whole != 0)
+        throw scene::Error(scene::ErrorCode::internal, "remesh: a point of a patch that is not on its grid");
+      parts[k] = {t[k], static_cast<std::int64_t>(area / whole)};
+    }
+    std::sort(parts.begin(), parts.end());
+    scene::OverlayVertex out{point.at.source, {}};
+    std::size_t size = 0;
+    for (const auto& [corner, weight] : parts) {
+      if (weight == 0) continue;
+      out.image.corner[size] = corner;
+      out.image.weight[size++] = weight;
+    }
+    const auto [place, fresh] = proof_points_.try_emplace(out, static_cast<std::uint32_t>(out_.proof.points.size()));
+    if (fresh) out_.proof.points.push_back(out);
     return place->second;
   }
 
@@ -123,11 +159,16 @@ class Remesher {
     for (std::size_t k = 0; k < 3; ++k) t[k] = vertex(patch, patch.corners[k]);
     out_.mesh.face_of.push_back(static_cast<std::uint32_t>(out_.mesh.triangles.size()));
     out_.mesh.triangles.push_back(t);
+    out_.proof.triangles.push_back(t);
     out_.base.push_back(patch.base);
-    const PatchError error =
-        error_bound(patch, {out_.mesh.points[t[0]], out_.mesh.points[t[1]], out_.mesh.points[t[2]]}, h_.input);
-    out_.error.to_remesh = std::max(out_.error.to_remesh, error.to_remesh);
-    out_.error.to_input = std::max(out_.error.to_input, error.to_input);
+    out_.first_piece.push_back(out_.proof.pieces.size());
+    out_.turned.push_back(stands_on_its_head(patch));
+    add_error(patch, out_.mesh, t, h_.input, out_.proof);
+    std::vector<std::uint32_t> numbers;
+    for (const StarPoint& point : patch.pieces.points) numbers.push_back(proof_point(patch, t, point));
+    for (const StarPiece& piece : patch.pieces.pieces)
+      out_.proof.pieces.push_back(
+          {{numbers[piece.corners[0]], numbers[piece.corners[1]], numbers[piece.corners[2]]}, piece.input});
   }
 
   void write() {
@@ -143,7 +184,8 @@ class Remesher {
         }
       }
     }
-    out_.reached = !(out_.error.worst() > options_.error);
+    out_.first_piece.push_back(out_.proof.pieces.size());
+    out_.reached = !(out_.error() > options_.error);
   }
 
   const scene::Hierarchy h_;
@@ -151,17 +193,49 @@ class Remesher {
   std::deque<Patch> leaves_;
   std::set<CarrierPoint, ByPlace> used_;
   std::map<CarrierPoint, std::uint32_t, ByPlace> numbers_;
+  std::map<scene::OverlayVertex, std::uint32_t, ByPlace> proof_points_;
   Remesh out_;
 };
 
 }  // namespace
+
+scene::Point remesh_position(const CarrierPoint& source, const scene::TriangleMesh& input, bool single) {
+  scene::Point at = position_estimate(source, input);
+  if (single) {
+    for (double& x : at) {
+      // Through memory, because g++ 12 leaves out two conversions in a row where it makes vectors of them (-O2).
+      const volatile float rounded = static_cast<float>(x);
+      x = rounded;
+    }
+  }
+  return at;
+}
+
+void add_error(const Patch& patch, const scene::TriangleMesh& mesh, const scene::Triangle& t,
+               const scene::TriangleMesh& input, scene::RemeshProof& proof) {
+  std::vector<std::uint32_t> near;
+  const PatchError error = error_bound(patch, {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]}, input, &near);
+  proof.to_remesh = std::max(proof.to_remesh, error.to_remesh);
+  proof.to_input = std::max(proof.to_input, error.to_input);
+  proof.near.insert(proof.near.end(), near.begin(), near.end());
+}
 
 Remesh remeshed(const scene::Hierarchy& hierarchy, const RemeshOptions& options) {
   if (options.level < 0 || options.level > options.most || options.most > most_levels - 2) {
     throw scene::Error(scene::ErrorCode::bad_argument,
                        fmt::format("remesh: a level is from 0 to {}", std::min(options.most, most_levels - 2)));
   }
-  return Remesher(hierarchy, options).run();
+  // Neighbours of fine triangles are cut too, and may lie where the grids do not let them: then all are to be coarser.
+  RemeshOptions coarser = options;
+  while (coarser.most > coarser.level && coarser.error < std::numeric_limits<double>::infinity()) {
+    try {
+      return Remesher(hierarchy, coarser).run();
+    } catch (const scene::Error& error) {
+      if (error.code() != scene::ErrorCode::unsupported) throw;
+      --coarser.most;
+    }
+  }
+  return Remesher(hierarchy, coarser).run();
 }
 
 }  // namespace clues::reference

@@ -85,7 +85,8 @@ std::array<Point, 3> corners_of(const scene::TriangleMesh& mesh, std::uint32_t t
 
 }  // namespace
 
-PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle, const scene::TriangleMesh& input) {
+PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle, const scene::TriangleMesh& input,
+                       std::vector<std::uint32_t>* near, double enough) {
   const CGAL::Protect_FPU_rounding<true> protect(CGAL_FE_UPWARD);
   const Interval whole = enclosed(exact::area_in(patch.triangle, patch.corners[0], patch.corners[1], patch.corners[2]));
   std::vector<Box> remeshed;
@@ -99,19 +100,25 @@ PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle,
     remeshed.push_back(on(triangle, weights));
   }
   double to_remesh = 0, to_input = 0;
+  const auto root = [](double square) { return std::isfinite(square) ? CGAL::sqrt(Interval(square)).sup() : square; };
+  const auto roots = [&] { return PatchError{root(to_remesh), root(to_input)}; };
+  const double enough_square = std::isfinite(enough) ? CGAL::square(Interval(enough)).sup() : enough;
   std::vector<bool> seen(patch.pieces.points.size(), false);
-  const auto farthest = [&](const StarPiece& piece, std::uint32_t t) {
+  // Beyond `limit` it does not matter by how much.
+  const auto farthest = [&](const StarPiece& piece, std::uint32_t t, double limit) {
     const auto source = corners_of(input, t);
     double most = 0;
-    for (const std::uint32_t v : piece.corners) most = std::max(most, square_bound(remeshed[v], source));
+    for (std::size_t k = 0; k < 3 && most < limit; ++k)
+      most = std::max(most, square_bound(remeshed[piece.corners[k]], source));
     return most;
   };
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
   std::vector<std::pair<double, std::size_t>> own;  // distances of pieces of the remesh to their own input triangles
-  std::vector<std::uint32_t> near;
+  std::vector<std::uint32_t> tried, nearest;
   for (std::size_t i = 0; i < patch.pieces.pieces.size(); ++i) {
     const StarPiece& piece = patch.pieces.pieces[i];
-    own.emplace_back(farthest(piece, piece.input), i);
-    near.push_back(piece.input);
+    own.emplace_back(farthest(piece, piece.input, unlimited), i);
+    tried.push_back(piece.input);
     const auto source = corners_of(input, piece.input);
     const auto& numbers = input.triangles[piece.input];
     for (const std::uint32_t v : piece.corners) {
@@ -123,18 +130,27 @@ PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle,
       to_remesh = std::max(to_remesh, square_bound(on(source, weights), triangle));
     }
   }
+  if (to_remesh > enough_square) return roots();
   // Any input triangle will do, so where its own is far, others of the patch are tried: the farthest pieces first, until one cannot be bettered.
-  std::sort(near.begin(), near.end());
-  near.erase(std::unique(near.begin(), near.end()), near.end());
+  nearest = tried;
+  std::sort(tried.begin(), tried.end());
+  tried.erase(std::unique(tried.begin(), tried.end()), tried.end());
   std::sort(own.begin(), own.end(),
             [](const auto& p, const auto& q) { return p.first != q.first ? p.first > q.first : p.second < q.second; });
   for (const auto& [square, i] : own) {
-    if (square <= to_input) break;
+    if (square <= to_input || to_input > enough_square) break;
     double best = square;
-    for (const std::uint32_t t : near) best = std::min(best, farthest(patch.pieces.pieces[i], t));
+    for (const std::uint32_t t : tried) {
+      const double other = farthest(patch.pieces.pieces[i], t, best);
+      if (!(other < best)) continue;
+      best = other;
+      nearest[i] = t;
+      if (best <= to_input) break;  // the largest is another one
+    }
     to_input = std::max(to_input, best);
   }
-  return {CGAL::sqrt(Interval(to_remesh)).sup(), CGAL::sqrt(Interval(to_input)).sup()};
+  if (near != nullptr) *near = std::move(nearest);
+  return roots();
 }
 
 Point position_estimate(const scene::CarrierPoint& source, const scene::TriangleMesh& input) {

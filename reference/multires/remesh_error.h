@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "reference/multires/patch.h"
 
@@ -18,9 +19,11 @@ struct PatchError {
   double worst() const { return to_remesh > to_input ? to_remesh : to_input; }
 };
 
-// `triangle`: the corners of the patch in the remesh. Coordinates below 2^500, or the bound is infinite.
+// `triangle`: the corners of the patch in the remesh. Coordinates below 2^500, or the bound is infinite. `near`, where it is given: for each piece an
+// input triangle that its part of the remesh triangle is within to_input of. Where one of the two is above `enough`, what is returned is one above it.
 PatchError error_bound(const Patch& patch, const std::array<scene::Point, 3>& triangle,
-                       const scene::TriangleMesh& input);
+                       const scene::TriangleMesh& input, std::vector<std::uint32_t>* near = nullptr,
+                       double enough = std::numeric_limits<double>::infinity());
 
 // Where a point of the input surface lies, rounded.
 scene::Point position_estimate(const scene::CarrierPoint& source, const scene::TriangleMesh& input);

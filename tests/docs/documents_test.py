@@ -165,6 +165,7 @@ class Scratch:
         r"README\.md|clues|docs/(?!adding)": ["my_adapter", "library", "answers"],
         r"docs/adding": ["sources"],
         r"clues lint|clues motion|docs/motion": ["motion_cases"],
+        r"clues lint|docs/maps": ["maps_cases"],
         r"clues motion": ["depth_mesh"],
         r"clues maps|docs/maps": ["surfaces"],
         r"clues lint": ["cases"],
@@ -188,6 +189,9 @@ class Scratch:
 
     def motion_cases(self):
         shutil.copytree(self.source / "vectors" / "motion", self.folder / "vectors" / "motion")
+
+    def maps_cases(self):
+        shutil.copytree(self.source / "vectors" / "multires", self.folder / "vectors" / "multires")
 
     # An octahedron of samples, seen from the middle and from beside it, with bounds that are sound and a walk that is valid.
     def depth_mesh(self):
@@ -228,7 +232,7 @@ class Scratch:
         at = {v: (t, k) for t, corners in enumerate(triangles) for k, v in enumerate(corners)}
         self.write("plain.txt", "".join(f"{at[v][0]} {' '.join('1' if k == at[v][1] else '0' for k in range(3))}\n"
                                         for v in range(len(points))))
-        self.sh("clues maps ball.off --base 20 -o ball.maps")
+        self.sh("clues maps ball.off --base 20 -o ball.maps --uniform 2 --remesh uniform.ply --proof uniform.proof")
 
     def cases(self):
         shutil.copytree(self.folder / "vectors", self.folder / "my-cases")

@@ -4,6 +4,8 @@
 
 #include "fuzz/multires/surfaces.h"
 #include "scene/mesh_io.h"
+#include "scene/multires/attributes.h"
+#include "scene/scenes/scene_io.h"
 #include "tests/app/program.h"
 
 namespace clues {
@@ -15,19 +17,56 @@ using testing::HasSubstr;
 TEST(MapsCommand, WritesWhatItVerifies) {
   const tests::TestFolder folder;
   folder.write("ball.off", scene::to_off_text(fuzz::ball(4)));
-  const auto ran =
-      tests::run_clues({"maps", "ball.off", "--base", "20", "-o", "a.maps", "--patches", "p.ply", "--svg", "b.svg",
-                        "--base-out", "b.off", "--uniform", "2", "--remesh", "r.obj", "--json", "t.json"},
-                       folder.path());
+  const auto ran = tests::run_clues(
+      {"maps",       "ball.off", "--base",    "20", "-o",       "a.maps", "--patches", "p.ply",   "--svg",  "b.svg",
+       "--base-out", "b.off",    "--uniform", "2",  "--remesh", "r.obj",  "--proof",   "r.proof", "--json", "t.json"},
+      folder.path());
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("verified: a homeomorphism"));
-  EXPECT_THAT(folder.names(), ElementsAre("a.maps", "b.off", "b.svg", "ball.off", "p.ply", "r.obj", "t.json"));
+  EXPECT_THAT(folder.names(),
+              ElementsAre("a.maps", "b.off", "b.svg", "ball.off", "p.ply", "r.obj", "r.proof", "t.json"));
   for (const char* mesh : {"b.off", "p.ply", "r.obj"}) EXPECT_NO_THROW(scene::read_mesh(folder.path() / mesh)) << mesh;
   EXPECT_EQ(tests::run_clues({"maps", "verify", "a.maps"}, folder.path()).exit_code, 0);
+  const std::vector<std::string> judge{"maps", "verify", "a.maps", "--remesh", "r.obj", "--proof", "r.proof"};
+  EXPECT_EQ(tests::run_clues(judge, folder.path()).exit_code, 0);
+  auto obj = tests::read_all(folder.path() / "r.obj");
+  obj.insert(obj.find('.') + 1, "0");  // a first coordinate is a tenth of what it was
+  folder.write("r.obj", obj);
+  const auto moved = tests::run_clues(judge, folder.path());
+  EXPECT_EQ(moved.exit_code, 1);
+  EXPECT_THAT(moved.out, HasSubstr("E7 vertex"));
   auto text = tests::read_all(folder.path() / "a.maps");
   text.replace(text.rfind("\npieces"), 7, "\npiecse");
   folder.write("b.maps", text);
   EXPECT_EQ(tests::run_clues({"maps", "verify", "b.maps"}, folder.path()).exit_code, 2);
+}
+
+// Texture coordinates jump at the edges of the square's halves: glTF splits vertices there, and its positions are floats.
+TEST(MapsCommand, CarriesTexturesAndWritesGltf) {
+  const tests::TestFolder folder;
+  folder.write("sheet.obj",
+               "v 0 0 0.1 1 0 0\nv 1 0 0.2 0 1 0\nv 2 0 0.3 0 0 1\nv 0 1 0.1 1 1 0\nv 1 1 0.7 0 1 1\nv 2 1 0.3 1 0 1\n"
+               "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+               "f 1/1 2/2 5/3\nf 1/1 5/3 4/4\nf 2/1 3/2 6/3\nf 2/1 6/3 5/4\n");
+  for (const char* mesh : {"r.glb", "r.gltf", "r.ply", "r.obj"}) {
+    const auto ran = tests::run_clues({"maps", "sheet.obj", "-o", "a.maps", "--uniform", "2", "--smooth", "1",
+                                       "--remesh", mesh, "--proof", "r.proof", "--checker", "c.ply"},
+                                      folder.path());
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    EXPECT_THAT(ran.out, HasSubstr("smoothed: "));
+    const auto judged =
+        tests::run_clues({"maps", "verify", "a.maps", "--remesh", mesh, "--proof", "r.proof"}, folder.path());
+    EXPECT_EQ(judged.exit_code, 0) << mesh << judged.out << judged.err;
+  }
+  const auto remesh = scene::read_mesh(folder.path() / "r.obj");
+  const auto carried = scene::read_attributes(folder.path() / "r.obj", remesh);
+  EXPECT_EQ(carried.colours.size(), remesh.points.size());
+  ASSERT_EQ(carried.texture_corners.size(), remesh.triangles.size());
+  for (const auto& corners : carried.texture_corners) EXPECT_NE(corners[0], scene::no_vertex);
+  const auto in_ply = scene::read_mesh(folder.path() / "r.ply");
+  EXPECT_EQ(scene::read_attributes(folder.path() / "r.ply", in_ply).texture_corners.size(), remesh.triangles.size());
+  EXPECT_GT(scene::read_scene(folder.path() / "r.glb").mesh.points.size(), remesh.points.size());
+  EXPECT_GT(scene::read_mesh(folder.path() / "c.ply").triangles.size(), remesh.triangles.size());
 }
 
 TEST(MapsCommand, RefusesAndWritesNothing) {
@@ -46,8 +85,11 @@ TEST(MapsCommand, RefusesAndWritesNothing) {
   refused({"ball.off", "--svg", "ball.off"}, "ball.off");
   refused({"ball.off", "--uniform", "9", "--remesh", "r.off"}, "--uniform 9");
   refused({"ball.off", "--uniform", "1"}, "--remesh");
+  refused({"ball.off", "--adaptive", "5", "--smooth", "1", "--remesh", "r.off"}, "--uniform L");
+  refused({"ball.off", "--proof", "r.proof"}, "--remesh FILE is missing");
+  refused({"verify", "ball.off", "--proof", "r.proof"}, "--remesh and --proof");
   refused({"ball.off", "--adaptive", "0", "--remesh", "r.off"}, "--adaptive 0");
-  refused({"ball.off", "--uniform", "1", "--remesh", "r.stl"}, ".ply, .obj or .off");
+  refused({"ball.off", "--uniform", "1", "--remesh", "r.stl"}, ".ply, .obj, .off, .glb or .gltf");
   refused({"ball.off", "--features", "181"}, "180 degrees");
   EXPECT_THAT(folder.names(), ElementsAre("ball.off", "strip.off"));
   EXPECT_EQ(tests::read_all(folder.path() / "ball.off"), ball);

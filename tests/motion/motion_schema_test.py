@@ -41,8 +41,8 @@ def lint(clues, folder):
                           check=False)
 
 
-def main():
-    clues, vectors = sys.argv[1], pathlib.Path(sys.argv[2])
+def agree(clues, vectors, planted):
+    """Of any suite beside the one about visibility."""
     schema = json.loads((vectors / "schema.json").read_text())
     files = [f for f in sorted(vectors.glob("*.json")) if f.name != "schema.json"]
     assert files, "no topics"
@@ -54,14 +54,15 @@ def main():
         shutil.copy(vectors / "schema.json", folder)
         good = json.loads(files[0].read_text())
         target = folder / files[0].name
-        for what, plant in PLANTED.items():
+        for what, plant in planted.items():
             bad = copy.deepcopy(good)
             plant(bad)
             target.write_text(json.dumps(bad))
             assert checker.errors(bad, schema, schema), f"the schema takes {what}"
             run = lint(clues, folder)
             assert run.returncode == 2 and target.name in run.stdout + run.stderr, f"the reader takes {what}: {run}"
-    print(f"{len(files)} topics, {len(PLANTED)} planted files: schema and reader agree")
+    print(f"{len(files)} topics, {len(planted)} planted files: schema and reader agree")
 
 
-main()
+if __name__ == "__main__":
+    agree(sys.argv[1], pathlib.Path(sys.argv[2]), PLANTED)

@@ -39,7 +39,7 @@ TEST(MotionSuite, IsProved) {
   EXPECT_TRUE(validate::is_motion_suite(CLUES_SOURCE_DIR "/vectors/motion"));
   EXPECT_FALSE(validate::is_motion_suite(CLUES_SOURCE_DIR "/vectors"));
   const auto report = validate::lint_motion_suite(CLUES_SOURCE_DIR "/vectors/motion", {});
-  EXPECT_TRUE(report.findings.empty() && report.malformed.empty()) << validate::to_text(report);
+  EXPECT_TRUE(report.findings.empty() && report.malformed.empty()) << validate::to_text(report, "motion");
   EXPECT_EQ(report.proved, report.cases);
   EXPECT_GE(report.cases, 40U);
 }
@@ -81,7 +81,7 @@ TEST(MotionSuite, TellsWrongProgramsFromRightOnes) {
 }
 
 TEST(MotionSuite, ReadsAndWritesItsOwnText) {
-  for (const auto& path : validate::motion_vector_files(CLUES_SOURCE_DIR "/vectors/motion")) {
+  for (const auto& path : validate::side_vector_files(CLUES_SOURCE_DIR "/vectors/motion")) {
     const auto topic = validate::read_motion_topic(path);
     const auto text = validate::to_json_text(topic);
     EXPECT_EQ(text, validate::to_json_text(validate::parse_motion_topic(text, path.string()))) << path;

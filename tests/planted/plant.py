@@ -135,6 +135,21 @@ COPIES = {
     "no_link_condition": ("reference/hierarchy.cpp", [
         ("const auto forbidden = [this](std::uint32_t a, std::uint32_t b) { return complex_.has_edge(a, b); };",
          "const auto forbidden = [](std::uint32_t, std::uint32_t) { return false; };")]),
+    # What is farthest from the remesh is not looked at.
+    "remesh_bound_too_small": ("reference/remesh_error.cpp", [
+        ("      to_remesh = std::max(to_remesh, square_bound(on(source, weights), triangle));\n",
+         "      if (at.size() == 3) to_remesh = std::max(to_remesh, square_bound(on(source, weights), triangle));\n")]),
+    # The vertices of a remesh lie a little beside their places.
+    "remesh_vertex_moved": ("reference/remesh.cpp", [
+        ("  scene::Point at = position_estimate(source, input);\n",
+         "  scene::Point at = position_estimate(source, input);\n  at[0] += 0x1p-40;\n")]),
+    # A star is carried to another place of its vertex with one spoke uncut.
+    "smoothing_without_a_cut": ("reference/smoothing.cpp", [
+        ("    for (std::size_t k = 0; k < n; ++k) {\n      if (!cut_along(",
+         "    for (std::size_t k = 1; k < n; ++k) {\n      if (!cut_along("),
+        ("      if (!lies_in(closing[t], a.image) || !lies_in(closing[t], b.image) || !lies_in(closing[t], c.image)) continue;\n"
+         "      if (exact::orientation_in(closing[t], a.image, b.image, c.image) > 0) return t;\n",
+         "      if (lies_in(closing[t], a.image)) return t;\n")]),
 }
 
 

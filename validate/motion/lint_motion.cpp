@@ -6,17 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
-#include <set>
 
 #include "exact/motion/compare_bounds.h"
 #include "reference/motion/mesh.h"
-#include "scene/files/atomic_file.h"
-#include "scene/formats/file_bytes.h"
-#include "scene/messages/error.h"
 #include "validate/motion/judge_bounds.h"
 #include "validate/motion/mesh_places.h"
-#include "validate/vectors/reader.h"
 
 namespace clues::validate {
 namespace {
@@ -143,68 +137,22 @@ void fill_in(MotionVector& test) {
   test.has_expectation = true;
 }
 
-MotionLintReport lint_motion_suite(const std::filesystem::path& folder, const MotionLintOptions& options) {
-  MotionLintReport report;
-  std::set<std::string> ids;
-  for (const auto& path : motion_vector_files(folder)) {
-    MotionTopic topic;
-    std::string text;
-    try {
-      text = scene::read_file_bytes(path);
-      topic = parse_motion_topic(text, path.string(), options.write);
-    } catch (const scene::Error& e) {
-      report.malformed.push_back(e.what());
-      continue;
-    }
-    if (path.stem() != topic.topic)
-      report.findings.push_back(path.string() + ": the topic is not the name of the file");
-    for (auto& test : topic.cases) {
-      ++report.cases;
-      const auto say = [&](const std::string& what) {
-        report.findings.push_back(fmt::format("{}: case '{}': {}", path.string(), test.id, what));
-      };
-      if (!ids.insert(test.id).second) say("the id is there twice");
-      if (!matches_glob(test.id, options.glob)) continue;
-      ++report.selected;
-      if (!test.has_expectation) fill_in(test);
-      auto flaws = flaws_of(test);
-      if (!flaws.empty() && options.write && options.accept) {
-        fill_in(test);
-        flaws = flaws_of(test);
-      }
-      for (const auto& flaw : flaws) say(flaw);
-      report.proved += flaws.empty() ? 1 : 0;
-    }
-    const auto canonical = to_json_text(topic);
-    if (canonical == text) continue;
-    if (options.write) {
-      scene::write_file_atomically(path, canonical);
-      report.written.push_back(path.string());
-    } else {
-      report.findings.push_back(path.string() + ": not in its canonical form; `clues lint --write` brings it into it");
-    }
-  }
-  if (report.cases == 0 && report.malformed.empty()) {
-    report.malformed.push_back(folder.string() + ": there is no case");
-  }
-  return report;
-}
+namespace {
 
-std::string to_text(const MotionLintReport& report) {
-  std::string text;
-  for (const auto& line : report.malformed) text += line + "\n";
-  for (const auto& line : report.findings) text += line + "\n";
-  for (const auto& file : report.written) text += "written: " + file + "\n";
-  return text +
-         fmt::format("{} cases about motion, {} looked at, {} proved\n", report.cases, report.selected, report.proved);
-}
+struct MotionCases {
+  static MotionTopic parse(std::string_view text, const std::string& file, bool drafts) {
+    return parse_motion_topic(text, file, drafts);
+  }
+  static bool has_expectation(const MotionVector& test) { return test.has_expectation; }
+  static void fill_in(MotionVector& test) { validate::fill_in(test); }
+  static std::vector<std::string> flaws_of(const MotionVector& test) { return validate::flaws_of(test); }
+  static std::string to_json_text(const MotionTopic& topic) { return validate::to_json_text(topic); }
+};
 
-std::string to_json_text(const MotionLintReport& report) {
-  const nlohmann::json root{{"format", "clues-motion-lint/1"}, {"cases", report.cases},
-                            {"selected", report.selected},     {"proved", report.proved},
-                            {"findings", report.findings},     {"malformed", report.malformed},
-                            {"written", report.written}};
-  return root.dump(2).append("\n");
+}  // namespace
+
+SideLintReport lint_motion_suite(const std::filesystem::path& folder, const SideLintOptions& options) {
+  return lint_side_suite<MotionCases>(folder, options);
 }
 
 }  // namespace clues::validate

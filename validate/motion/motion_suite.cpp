@@ -14,6 +14,7 @@
 #include "scene/json_reader.h"
 #include "scene/messages/error.h"
 #include "scene/motion/motion_files.h"
+#include "validate/vectors/side_lint.h"
 
 namespace clues::validate {
 namespace {
@@ -167,19 +168,6 @@ bool is_motion_suite(const std::filesystem::path& folder) {
   return schema.is_object() && schema.value("title", "") == format_name;
 }
 
-std::vector<std::filesystem::path> motion_vector_files(const std::filesystem::path& folder) {
-  std::error_code problem;
-  if (!std::filesystem::is_directory(folder, problem)) {
-    throw scene::Error(scene::ErrorCode::file_not_found, folder.string() + ": no such folder");
-  }
-  std::vector<std::filesystem::path> out;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() == ".json" && entry.path().filename() != "schema.json") out.push_back(entry.path());
-  }
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
 MotionTopic parse_motion_topic(std::string_view text, const std::string& file, bool drafts) {
   const auto root = scene::parse_json(text, file);
   require_keys(root, {"format", "topic", "cases"}, {}, file);
@@ -206,7 +194,7 @@ std::string to_json_text(const MotionTopic& topic) {
 std::vector<MotionVector> read_motion_suite(const std::filesystem::path& folder) {
   std::vector<MotionVector> out;
   std::set<std::string> ids;
-  for (const auto& path : motion_vector_files(folder)) {
+  for (const auto& path : side_vector_files(folder)) {
     for (auto& test : read_motion_topic(path).cases) {
       if (!ids.insert(test.id).second) fail(path.string(), "the id '" + test.id + "' is there twice");
       out.push_back(std::move(test));

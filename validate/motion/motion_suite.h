@@ -37,8 +37,6 @@ struct MotionTopic {
 
 // Whether `clues lint` of this folder is about motion: its schema says so.
 bool is_motion_suite(const std::filesystem::path& folder);
-// *.json but schema.json, sorted. Throws Error file_not_found.
-std::vector<std::filesystem::path> motion_vector_files(const std::filesystem::path& folder);
 // A case without "expect" is accepted when `drafts`. Throws Error malformed with file and case.
 MotionTopic read_motion_topic(const std::filesystem::path& path, bool drafts = false);
 MotionTopic parse_motion_topic(std::string_view text, const std::string& file, bool drafts = false);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "scene/messages/error.h"
@@ -49,6 +50,11 @@ std::string to_text(const HierarchyReport& r) {
   out += fmt::format(
       "without the overlay, linear on input triangles: {} of {} that lie in one base triangle are flipped\n",
       r.linear_flips, r.linear_judged);
+  if (r.remesh) {
+    out += fmt::format(
+        "a remesh of {} vertices and {} triangles, by {} pieces: bounds {} (input to remesh), {} (remesh to input)\n",
+        r.remesh->vertices, r.remesh->triangles, r.remesh->pieces, r.remesh->to_remesh, r.remesh->to_input);
+  }
   for (const auto& f : r.findings) out += fmt::format("{} {}\n", f.check, f.what);
   for (const auto& [check, count] : r.counts) {
     if (count > most_listed) out += fmt::format("{}: {} findings, {} are listed\n", check, count, most_listed);
@@ -73,17 +79,25 @@ std::string to_json_text(const HierarchyReport& r) {
                       {"kept_numbers", row.kept_numbers}});
   }
   for (const auto& f : r.findings) findings.push_back({{"check", f.check}, {"what", f.what}});
-  const nlohmann::json out{{"format", "clues-maps-verdict/1"},
-                           {"verified", r.sound()},
-                           {"counts", r.counts},
-                           {"findings", findings},
-                           {"levels", levels},
-                           {"input_triangles", r.input_triangles},
-                           {"base_triangles", r.base_triangles},
-                           {"points", r.points},
-                           {"pieces", r.pieces},
-                           {"linear_flips", r.linear_flips},
-                           {"linear_judged", r.linear_judged}};
+  nlohmann::json out{{"format", "clues-maps-verdict/1"},
+                     {"verified", r.sound()},
+                     {"counts", r.counts},
+                     {"findings", findings},
+                     {"levels", levels},
+                     {"input_triangles", r.input_triangles},
+                     {"base_triangles", r.base_triangles},
+                     {"points", r.points},
+                     {"pieces", r.pieces},
+                     {"linear_flips", r.linear_flips},
+                     {"linear_judged", r.linear_judged}};
+  if (r.remesh) {
+    const auto bound = [](double x) { return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(nullptr); };
+    out["remesh"] = {{"vertices", r.remesh->vertices},
+                     {"triangles", r.remesh->triangles},
+                     {"pieces", r.remesh->pieces},
+                     {"to_remesh", bound(r.remesh->to_remesh)},
+                     {"to_input", bound(r.remesh->to_input)}};
+  }
   return out.dump(1) + "\n";
 }
 

@@ -1,4 +1,4 @@
-// The judge of a hierarchy file (E1 to E6): everything it says is recomputed from the file alone, in rationals or whole numbers of any length.
+// The judge of a hierarchy file (E1 to E6; E7 is in check_remesh.h): everything it says is recomputed from the file alone, in rationals or whole numbers of any length.
 // Shares no code with what makes hierarchies.
 //
 //   E1 every level is a surface with boundary; Euler number and boundaries stay as they are (on OpenMesh's half-edge mesh)
@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,11 @@ struct LevelRow {
   std::uint64_t kept_link = 0, kept_flat = 0, kept_numbers = 0;
 };
 
+struct RemeshRow {
+  std::uint64_t vertices = 0, triangles = 0, pieces = 0;
+  double to_remesh = 0, to_input = 0;  // the bounds that were judged
+};
+
 struct HierarchyReport {
   std::vector<MapFinding> findings;  // at most 20 of each check; `counts` has all
   std::map<std::string, std::uint64_t> counts;
@@ -38,6 +44,7 @@ struct HierarchyReport {
   std::uint64_t input_triangles = 0, base_triangles = 0, points = 0, pieces = 0;
   // The map that is linear on input triangles and has the same vertex images: no claim of the file, but what others would draw.
   std::uint64_t linear_flips = 0, linear_judged = 0;
+  std::optional<RemeshRow> remesh;  // of E7, where there is one
 
   bool sound() const { return counts.empty(); }
   void find(const std::string& check, const std::string& what);

@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "validate/multires/check_hierarchy.h"
+#include "validate/multires/common_triangulation.h"
 
 namespace clues::validate {
 namespace {
@@ -88,81 +89,86 @@ mpz_class part_of(const Triangle& t, const std::array<const CarrierPoint*, 3>& p
   return a * d - b * c;
 }
 
-void check_point(const std::string& place, const Carriers& surface, const CarrierPoint& point,
+void check_point(const std::string& check, const std::string& place, const Carriers& surface, const CarrierPoint& point,
                  HierarchyReport& report) {
   mpz_class sum = 0;
   for (std::size_t k = 0; k < point.size(); ++k) {
     sum += mpz_class(point.weight[k]);
     if (point.weight[k] <= 0)
-      report.find("E4", fmt::format("{}: the weight {} is not positive", place, point.weight[k]));
+      report.find(check, fmt::format("{}: the weight {} is not positive", place, point.weight[k]));
   }
   if (sum != mpz_class(scene::whole_weight)) {
     const mpz_class off = sum - mpz_class(scene::whole_weight);
-    report.find("E4", fmt::format("{}: its weights sum to 1 {} {} * 2^-60", place, off > 0 ? "+" : "-",
-                                  mpz_class(abs(off)).get_str()));
+    report.find(check, fmt::format("{}: its weights sum to 1 {} {} * 2^-60", place, off > 0 ? "+" : "-",
+                                   mpz_class(abs(off)).get_str()));
   }
-  if (!surface.carries(point)) report.find("E4", fmt::format("{}: there is no simplex with these corners", place));
+  if (!surface.carries(point)) report.find(check, fmt::format("{}: there is no simplex with these corners", place));
 }
 
 }  // namespace
 
-void check_overlay(const scene::Hierarchy& h, HierarchyReport& report) {
-  const Carriers input(h.input.triangles), base(h.base);
-  for (std::uint32_t p = 0; p < h.points.size(); ++p) {
-    check_point(fmt::format("point {}, source", p), input, h.points[p].source, report);
-    check_point(fmt::format("point {}, image", p), base, h.points[p].image, report);
-    if (p < h.input.points.size() && !(h.points[p].source == scene::at_vertex(p))) {
-      report.find("E6", fmt::format("point {} is not vertex {} of the input", p, p));
-    }
+void check_common_triangulation(const CommonTriangulation& c, HierarchyReport& report) {
+  const Carriers input(c.first), base(c.second);
+  const auto wrong = [&](const std::string& what) { report.find(c.cover_check, what); };
+  for (std::uint32_t p = 0; p < c.points.size(); ++p) {
+    check_point(c.weight_check, fmt::format("point {}, source", p), input, c.points[p].source, report);
+    check_point(c.weight_check, fmt::format("point {}, image", p), base, c.points[p].image, report);
   }
   const mpz_class one = mpz_class(scene::whole_weight) * mpz_class(scene::whole_weight);
-  std::vector<mpz_class> covered(h.input.triangles.size()), covered_base(h.base.size());
+  std::vector<mpz_class> covered(c.first.size()), covered_base(c.second.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
-  for (std::uint32_t i = 0; i < h.pieces.size(); ++i) {
-    const auto& piece = h.pieces[i];
+  for (std::uint32_t i = 0; i < c.pieces.size(); ++i) {
+    const auto& piece = c.pieces[i];
     std::array<const CarrierPoint*, 3> source{}, image{};
     for (std::size_t k = 0; k < 3; ++k) {
-      source[k] = &h.points[piece.corners[k]].source;
-      image[k] = &h.points[piece.corners[k]].image;
+      source[k] = &c.points[piece.corners[k]].source;
+      image[k] = &c.points[piece.corners[k]].image;
       if (!edges.try_emplace({piece.corners[k], piece.corners[(k + 1) % 3]}, i).second) {
-        report.find("E6", fmt::format("pieces {} and {} lie on the same side of an edge",
-                                      edges[{piece.corners[k], piece.corners[(k + 1) % 3]}], i));
+        wrong(fmt::format("pieces {} and {} lie on the same side of an edge",
+                          edges[{piece.corners[k], piece.corners[(k + 1) % 3]}], i));
       }
     }
     const auto in = common_triangle(input, source), on = common_triangle(base, image);
     if (!in || *in != piece.input) {
-      report.find("E6", fmt::format("piece {} does not lie in triangle {} of the input", i, piece.input));
+      wrong(fmt::format("piece {} does not lie in triangle {} of {}", i, piece.input, c.first_name));
       continue;
     }
     if (!on) {
-      report.find("E6", fmt::format("piece {} does not lie in one triangle of the base domain", i));
+      wrong(fmt::format("piece {} does not lie in one triangle of {}", i, c.second_name));
       continue;
     }
     const mpz_class a = part_of(input[*in], source), b = part_of(base[*on], image);
-    if (a <= 0) report.find("E6", fmt::format("piece {} is flipped or flat on the input (triangle {})", i, *in));
-    if (b <= 0) report.find("E6", fmt::format("piece {} is flipped or flat on the base domain (triangle {})", i, *on));
+    if (a <= 0) wrong(fmt::format("piece {} is flipped or flat on {} (triangle {})", i, c.first_name, *in));
+    if (b <= 0) wrong(fmt::format("piece {} is flipped or flat on {} (triangle {})", i, c.second_name, *on));
     covered[*in] += a;
     covered_base[*on] += b;
   }
   for (const auto& [edge, i] : edges) {
     if (edges.count({edge.second, edge.first}) != 0) continue;
-    const auto &p = h.points[edge.first], &q = h.points[edge.second];
+    const auto &p = c.points[edge.first], &q = c.points[edge.second];
     if (!input.on_boundary(p.source, q.source) || !base.on_boundary(p.image, q.image)) {
-      report.find("E6", fmt::format("piece {} has no neighbour at the edge from point {} to point {}", i, edge.first,
-                                    edge.second));
+      wrong(fmt::format("piece {} has no neighbour at the edge from point {} to point {}", i, edge.first, edge.second));
     }
   }
-  for (std::size_t t = 0; t < covered.size(); ++t) {
-    if (covered[t] != one)
-      report.find("E6", fmt::format("triangle {} of the input: its pieces have {:.17g} of its area", t,
-                                    mpq_class(covered[t], one).get_d()));
-  }
-  for (std::size_t t = 0; t < covered_base.size(); ++t) {
-    if (covered_base[t] != one) {
-      report.find("E6", fmt::format("triangle {} of the base domain: its pieces have {:.17g} of its area", t,
-                                    mpq_class(covered_base[t], one).get_d()));
+  const auto sums = [&](const std::vector<mpz_class>& parts, const std::string& name) {
+    for (std::size_t t = 0; t < parts.size(); ++t) {
+      if (parts[t] != one)
+        wrong(fmt::format("triangle {} of {}: its pieces have {:.17g} of its area", t, name,
+                          mpq_class(parts[t], one).get_d()));
     }
+  };
+  sums(covered, c.first_name);
+  sums(covered_base, c.second_name);
+}
+
+void check_overlay(const scene::Hierarchy& h, HierarchyReport& report) {
+  for (std::uint32_t p = 0; p < h.input.points.size(); ++p) {
+    if (!(h.points[p].source == scene::at_vertex(p)))
+      report.find("E6", fmt::format("point {} is not vertex {} of the input", p, p));
   }
+  check_common_triangulation(
+      {h.input.triangles, h.base, h.points, h.pieces, "the input", "the base domain", "E4", "E6"}, report);
+  const Carriers base(h.base);
   // (a) of E6: what would flip without the overlay.
   for (const auto& t : h.input.triangles) {
     std::array<const CarrierPoint*, 3> image{};

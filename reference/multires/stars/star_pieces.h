@@ -39,5 +39,9 @@ bool cut_along(const Diagonal& diagonal, StarPieces& star);
 // neighbour (along the input edge that it lies on), if all pieces that are left keep both orientations.
 void simplify(const scene::Triangle& triangle, const std::vector<scene::Triangle>& input, const StarPieces& star,
               std::vector<StarPiece>& pieces);
+// The same for all triangles at a vertex, by triangle, with points on the edges from it: these move along the edge.
+void simplify_star(const std::vector<scene::Triangle>& triangles, std::uint32_t hub,
+                   const std::vector<scene::Triangle>& input, const StarPieces& star,
+                   std::vector<std::vector<StarPiece>>& pieces);
 
 }  // namespace clues::reference
