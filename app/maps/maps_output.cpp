@@ -9,26 +9,20 @@
 
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
+#include "scene/ply_text.h"
 
 namespace clues::app {
 namespace {
 
-// Takes the numbers of vertices and of faces.
-constexpr fmt::string_view coloured_ply =
-    "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\nelement face "
-    "{}\n"
-    "property list uchar uint vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar "
-    "blue\nend_header\n";
-
 // Neighbouring numbers get colours far apart.
-std::array<int, 3> colour_of(std::uint32_t number) {
+std::array<std::uint32_t, 3> colour_of(std::uint32_t number) {
   const double hue = std::fmod(0.618033988749895 * number, 1.0) * 6,
                shade = number % 3 == 0 ? 1.0 : (number % 3 == 1 ? 0.8 : 0.6);
   const double x = 1 - std::abs(std::fmod(hue, 2.0) - 1);
   const std::array<std::array<double, 3>, 6> wheel{{{1, x, 0}, {x, 1, 0}, {0, 1, x}, {0, x, 1}, {x, 0, 1}, {1, 0, x}}};
-  std::array<int, 3> out{};
+  std::array<std::uint32_t, 3> out{};
   for (std::size_t i = 0; i < 3; ++i) {
-    out[i] = static_cast<int>(255 * shade * (0.25 + 0.75 * wheel[static_cast<std::size_t>(hue) % 6][i]));
+    out[i] = static_cast<std::uint32_t>(255 * shade * (0.25 + 0.75 * wheel[static_cast<std::size_t>(hue) % 6][i]));
   }
   return out;
 }
@@ -57,19 +51,13 @@ std::string patches_to_ply(const scene::Hierarchy& h) {
     std::sort(corners.begin(), corners.end());
     base.emplace(corners, t);
   }
-  fmt::memory_buffer out;
-  auto to = std::back_inserter(out);
-  fmt::format_to(to, fmt::runtime(coloured_ply), h.points.size(), h.pieces.size());
-  for (const auto& p : h.points) {
-    const auto at = reference::position_estimate(p.source, h.input);
-    fmt::format_to(to, "{} {} {}\n", at[0], at[1], at[2]);
-  }
+  scene::PlyText out(h.points.size(), h.pieces.size(), {.of_face = scene::ply_colour});
+  for (const auto& p : h.points) out.vertex(reference::position_estimate(p.source, h.input));
   for (const auto& piece : h.pieces) {
-    const auto colour = colour_of(base_of(base, h, piece));
-    fmt::format_to(to, "3 {} {} {} {} {} {}\n", piece.corners[0], piece.corners[1], piece.corners[2], colour[0],
-                   colour[1], colour[2]);
+    const auto [r, g, b] = colour_of(base_of(base, h, piece));
+    out.face({piece.corners[0], piece.corners[1], piece.corners[2]}, {r, g, b});
   }
-  return fmt::to_string(out);
+  return out.take();
 }
 
 std::string base_to_svg(const scene::Hierarchy& h) {
