@@ -97,20 +97,21 @@ double remainder_of(const std::array<Term, 3>& terms, double q, double s) {
   return ((remainder_of(terms[0], q, s) + remainder_of(terms[1], q, s)) + remainder_of(terms[2], q, s)) * kUp;
 }
 
-}  // namespace
+using Rows = std::array<const Row*, 4>;
 
-double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
-  if (!fits(a) || !fits(b) || !fits(c) || !fits(d)) return 0;
-  const std::array<const Row*, 4> rows{&a, &b, &c, &d};
-  const double value = delaunay_value(a, b, c, d) - kDelaunayError * ((a.length * b.length) * (c.length * d.length));
-  if (!(value > 0)) return 0;
-  if (!a.moves && !b.moves && !c.moves && !d.moves) return kInfinity;
+// Cofactors of the last column and what they come from, in doubles. Pairs: ab ac ad bc bd cd.
+struct Cofactors {
+  std::array<Vec, 6> pair;       // x_i x x_j
+  std::array<double, 4> value;   // C_i
+  std::array<Vec, 4> gradient;   // m_i
+  std::array<double, 4> triple;  // the other three lengths: their product,
+  std::array<double, 4> twice;   // and the sum of those of two
+};
 
-  // Products of two rows: pair(i, j) is x_i x x_j for i < j.
+Cofactors cofactors_of(const Row& a, const Row& b, const Row& c, const Row& d) {
   const Vec ab = cross(a.x, b.x), ac = cross(a.x, c.x), ad = cross(a.x, d.x), bc = cross(b.x, c.x),
             bd = cross(b.x, d.x), cd = cross(c.x, d.x);
   // C = (-det(b,c,d), det(a,c,d), -det(a,b,d), det(a,b,c)); its gradient is minus the sum of the products, each where the third row moves.
-  const std::array<double, 4> cofactor{-dot(b.x, cd), dot(a.x, cd), -dot(a.x, bd), dot(a.x, bc)};
   const auto fall = [](const Row& p, const Row& q, const Row& r, const Vec& pq, const Vec& qr, const Vec& pr) {
     Vec sum;
     if (p.moves) sum = sum - qr;
@@ -118,64 +119,69 @@ double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
     if (r.moves) sum = sum - pq;
     return sum;
   };
-  std::array<Vec, 4> m{fall(b, c, d, bc, cd, bd), fall(a, c, d, ac, cd, ad), fall(a, b, d, ab, bd, ad),
-                       fall(a, b, c, ab, bc, ac)};
-  m[0] = -1.0 * m[0];
-  m[2] = -1.0 * m[2];
-  // Errors: a product of two lengths times 16u for a gradient, of three times 9.3u for a cofactor (predicates.h). In g, each l_i m_i has products of three
-  // lengths times 16u + 6u, each C_i u_i such with 10u + 8u, and there are six sums: below 48u for each of the products that
-  // occur, each in three of the l_i m_i and one C_i u_i, 2^-46 altogether.
+  Cofactors out{
+      {ab, ac, ad, bc, bd, cd},
+      {-dot(b.x, cd), dot(a.x, cd), -dot(a.x, bd), dot(a.x, bc)},
+      {fall(b, c, d, bc, cd, bd), fall(a, c, d, ac, cd, ad), fall(a, b, d, ab, bd, ad), fall(a, b, c, ab, bc, ac)},
+      {},
+      {}};
+  out.gradient[0] = -1.0 * out.gradient[0];
+  out.gradient[2] = -1.0 * out.gradient[2];
   const double la = a.length, lb = b.length, lc = c.length, ld = d.length;
-  const std::array<double, 4> triple{lb * lc * ld, la * lc * ld, la * lb * ld, la * lb * lc};
-  const std::array<double, 4> twice{lb * lc + lc * ld + lb * ld, la * lc + lc * ld + la * ld,
-                                    la * lb + lb * ld + la * ld, la * lb + lb * lc + la * lc};
+  out.triple = {lb * lc * ld, la * lc * ld, la * lb * ld, la * lb * lc};
+  out.twice = {lb * lc + lc * ld + lb * ld, la * lc + lc * ld + la * ld, la * lb + lb * ld + la * ld,
+               la * lb + lb * lc + la * lc};
+  return out;
+}
+
+// The gradient of G.
+Vec gradient_of(const Rows& rows, const Cofactors& c) {
   Vec g;
   for (std::size_t i = 0; i < 4; ++i) {
-    g = g + rows[i]->length * m[i];
-    if (rows[i]->moves) g = g - (cofactor[i] / rows[i]->length) * rows[i]->x;
+    g = g + rows[i]->length * c.gradient[i];
+    if (rows[i]->moves) g = g - (c.value[i] / rows[i]->length) * rows[i]->x;
   }
-  double nearest = kInfinity;
-  for (const Row* r : rows) {
-    if (r->moves) nearest = std::min(nearest, r->length);
-  }
+  return g;
+}
+
+// q. Any is sound. Where gradients have little in common, or what they have is gone after a short way, none is better.
+Vec common_factor(const Cofactors& c, double nearest) {
   Vec q;
   double squares = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    q = q + cofactor[i] * m[i];
-    squares += cofactor[i] * cofactor[i];
+    q = q + c.value[i] * c.gradient[i];
+    squares += c.value[i] * c.value[i];
   }
   q = (squares > 0 ? 1 / squares : 0) * q;
-  // Any q is sound. Where gradients have little in common, or what they have is gone after a short way, none is better.
   double before = 0, after = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vec left = m[i] - cofactor[i] * q;
-    before += dot(m[i], m[i]);
+    const Vec left = c.gradient[i] - c.value[i] * q;
+    before += dot(c.gradient[i], c.gradient[i]);
     after += dot(left, left);
   }
   if (!(after < 0.1 * before) || !(norm(q) * nearest < 4)) q = {};
-  const double q_up = norm(q) * kUp;
-  // In g - G q: G as computed is wrong by kDelaunayError at most, the product and the difference by 4u of their terms; in m' = m - C q likewise.
-  const double all = (la * lb) * (lc * ld);
-  const double computed = delaunay_value(a, b, c, d);
-  const double slope = (norm(g - computed * q) + 0x1p-46 * ((triple[0] + triple[1]) + (triple[2] + triple[3])) +
-                        q_up * (kDelaunayError * all + 0x1p-50 * std::fabs(computed))) *
-                           kUp +
-                       0x1p-50 * norm(g);
+  return q;
+}
 
-  std::array<double, 4> cofactor_up{}, gradient_up{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    cofactor_up[i] = std::fabs(cofactor[i]) + kDeterminantError * triple[i];
-    gradient_up[i] = norm(m[i] - cofactor[i] * q) + 0x1p-48 * twice[i] +
-                     q_up * (kDeterminantError * triple[i] + 0x1p-50 * std::fabs(cofactor[i]));
-  }
-
-  // The base with the least remainder for short ways is taken. pairs: ab ac ad bc bd cd
-  const std::array<PairOf, 6> pairs{pair_of(a, b, ab), pair_of(a, c, ac), pair_of(a, d, ad),
-                                    pair_of(b, c, bc), pair_of(b, d, bd), pair_of(c, d, cd)};
-  constexpr std::array<std::array<std::size_t, 4>, 4> at{{{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
-  const double most = std::min(value / slope, 0.5 * nearest), near = std::min(most, 0x1p-5 * nearest);
+// What is added up for Q, from the base with the least of it for short ways; `least` is infinite where there is none.
+struct Remainder {
   std::array<Term, 3> terms{};
   double least = kInfinity;
+};
+
+Remainder least_remainder(const Rows& rows, const Cofactors& of, const Vec& q, double q_up, double near) {
+  std::array<double, 4> cofactor_up{}, gradient_up{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    cofactor_up[i] = std::fabs(of.value[i]) + kDeterminantError * of.triple[i];
+    gradient_up[i] = norm(of.gradient[i] - of.value[i] * q) + 0x1p-48 * of.twice[i] +
+                     q_up * (kDeterminantError * of.triple[i] + 0x1p-50 * std::fabs(of.value[i]));
+  }
+  const auto& [a, b, c, d] = rows;
+  const std::array<PairOf, 6> pairs{pair_of(*a, *b, of.pair[0]), pair_of(*a, *c, of.pair[1]),
+                                    pair_of(*a, *d, of.pair[2]), pair_of(*b, *c, of.pair[3]),
+                                    pair_of(*b, *d, of.pair[4]), pair_of(*c, *d, of.pair[5])};
+  constexpr std::array<std::array<std::size_t, 4>, 4> at{{{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
+  Remainder out;
   for (std::size_t k = 0; k < 4; ++k) {
     std::array<Term, 3> at_k{};
     bool acute = true;
@@ -188,25 +194,59 @@ double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
                    pair.e,  pair.difference, cofactor_up[i], gradient_up[i]};
     }
     const double remainder = acute ? remainder_of(at_k, q_up, near) : kInfinity;
-    if (remainder < least) {
-      least = remainder;
-      terms = at_k;
+    if (remainder < out.least) {
+      out.least = remainder;
+      out.terms = at_k;
     }
   }
-  if (!(least < kInfinity)) return 0;
+  return out;
+}
 
+// Where `value` falls to nothing, by trials that come down from the root for less; at most `most`.
+double root_by_trials(const Remainder& q_of, double q_up, double value, double slope, double near, double most) {
   const auto root_for = [&](double remainder) {
     return 2 * value / (slope + std::sqrt(slope * slope + 4 * remainder * value));
   };
-  const double first = root_for(least);
+  const double first = root_for(q_of.least);
   double best = std::min(first, near), trial = std::min(first, most);
   for (int round = 0; round < 5 && trial > 1.05 * best; ++round) {
-    const double root = root_for(remainder_of(terms, q_up, trial));
+    const double root = root_for(remainder_of(q_of.terms, q_up, trial));
     best = std::max(best, std::min(root, trial));
     if (root >= trial) break;
     trial = std::sqrt(trial * std::max(best, 0.25 * trial));
   }
-  return best * kDown;
+  return best;
+}
+
+}  // namespace
+
+double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
+  if (!fits(a) || !fits(b) || !fits(c) || !fits(d)) return 0;
+  const Rows rows{&a, &b, &c, &d};
+  const double computed = delaunay_value(a, b, c, d), all = (a.length * b.length) * (c.length * d.length);
+  const double value = computed - kDelaunayError * all;
+  if (!(value > 0)) return 0;
+  if (!a.moves && !b.moves && !c.moves && !d.moves) return kInfinity;
+  double nearest = kInfinity;
+  for (const Row* r : rows) {
+    if (r->moves) nearest = std::min(nearest, r->length);
+  }
+  const Cofactors cofactors = cofactors_of(a, b, c, d);
+  const Vec g = gradient_of(rows, cofactors), q = common_factor(cofactors, nearest);
+  const double q_up = norm(q) * kUp;
+  // Errors: a product of two lengths times 16u for a gradient, of three times 9.3u for a cofactor (predicates.h). In g, each l_i m_i has products of three
+  // lengths times 16u + 6u, each C_i u_i such with 10u + 8u, and there are six sums: below 48u for each of the products that
+  // occur, each in three of the l_i m_i and one C_i u_i, 2^-46 altogether.
+  // In g - G q: G as computed is wrong by kDelaunayError at most, the product and the difference by 4u of their terms; in m' = m - C q likewise.
+  const std::array<double, 4>& triple = cofactors.triple;
+  const double slope = (norm(g - computed * q) + 0x1p-46 * ((triple[0] + triple[1]) + (triple[2] + triple[3])) +
+                        q_up * (kDelaunayError * all + 0x1p-50 * std::fabs(computed))) *
+                           kUp +
+                       0x1p-50 * norm(g);
+  const double most = std::min(value / slope, 0.5 * nearest), near = std::min(most, 0x1p-5 * nearest);
+  const Remainder remainder = least_remainder(rows, cofactors, q, q_up, near);
+  if (!(remainder.least < kInfinity)) return 0;
+  return root_by_trials(remainder, q_up, value, slope, near, most) * kDown;
 }
 
 }  // namespace clues::fastpath::motion
