@@ -69,7 +69,7 @@ function(clues_chapters name)
   target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
-# What `clues demo` needs, as folders and single sources: a third of all. Each library keeps the objects of these in a target of its
+# What `clues demo` needs, as folders and single sources: a quarter of all. Each library keeps the objects of these in a target of its
 # own, NAME_of_demo, and the program clues-demo (`./run demo`) is linked of nothing else. What is missing here, the linker names.
 set(demo_sources
   scene scene/files scene/formats scene/mesh scene/messages
