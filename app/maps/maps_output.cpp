@@ -132,21 +132,22 @@ void require_remesh_format(const std::string& file) {
 std::string remesh_to_file(const reference::Remesh& remesh, const std::string& file) {
   const std::string extension = scene::lower_case_extension(file);
   if (extension == ".off") return scene::to_off_text(remesh.mesh);
-  fmt::memory_buffer out;
-  auto to = std::back_inserter(out);
+  const auto& mesh = remesh.mesh;
   if (extension == ".obj") {
-    for (const auto& p : remesh.mesh.points) fmt::format_to(to, "v {} {} {}\n", p[0], p[1], p[2]);
-    for (const auto& t : remesh.mesh.triangles) fmt::format_to(to, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    fmt::memory_buffer out;
+    auto to = std::back_inserter(out);
+    for (const auto& p : mesh.points) fmt::format_to(to, "v {} {} {}\n", p[0], p[1], p[2]);
+    for (const auto& t : mesh.triangles) fmt::format_to(to, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
     return fmt::to_string(out);
   }
-  fmt::format_to(to, fmt::runtime(coloured_ply), remesh.mesh.points.size(), remesh.mesh.triangles.size());
-  for (const auto& p : remesh.mesh.points) fmt::format_to(to, "{} {} {}\n", p[0], p[1], p[2]);
+  scene::PlyText out(mesh.points.size(), mesh.triangles.size(), {.of_face = scene::ply_colour});
+  for (const auto& p : mesh.points) out.vertex(p);
   for (std::size_t k = 0; k < remesh.base.size(); ++k) {
-    const auto& t = remesh.mesh.triangles[k];
-    const auto colour = colour_of(remesh.base[k]);
-    fmt::format_to(to, "3 {} {} {} {} {} {}\n", t[0], t[1], t[2], colour[0], colour[1], colour[2]);
+    const auto& t = mesh.triangles[k];
+    const auto [r, g, b] = colour_of(remesh.base[k]);
+    out.face({t[0], t[1], t[2]}, {r, g, b});
   }
-  return fmt::to_string(out);
+  return out.take();
 }
 
 }  // namespace clues::app
