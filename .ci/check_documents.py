@@ -2,7 +2,8 @@
 """Documents can be read in any editor, and their links lead somewhere.
 
 No line of a Markdown file is longer than 110 columns, but for tables, code, and lines of one word, such as an address; wrap_documents.py makes
-them so. A relative link names a file or folder of the repository, and behind # a heading of that file.
+them so. A relative link names a file or folder of the repository, and behind # a heading of that file. The files in tables of questions
+(header "question | folder | file") are where these say.
 Usage: check_documents.py [ROOT]; prints one line per violation and exits 1 if there is one."""
 import pathlib
 import re
@@ -80,6 +81,22 @@ def flaw_of_link(root, file, target):
     return None
 
 
+def wrong_answers(root, lines):
+    """Line number and file of every answer in a table of questions that is not there."""
+    inside = False
+    for number, line in enumerate(lines, 1):
+        cells = [cell.strip() for cell in line.text.strip().strip("|").split("|")]
+        if line.kind != TABLE:
+            inside = False
+        elif cells == ["question", "folder", "file"]:
+            inside = True
+        elif inside and len(cells) == 3:
+            for file in re.findall(r"`([^`]+)`", cells[2]):
+                path = cells[1].strip("`") + "/" + file
+                if not (root / path).is_file():
+                    yield number, path
+
+
 def violations(root):
     seen = 0
     for document in documents(root):
@@ -92,6 +109,8 @@ def violations(root):
             flaw = flaw_of_link(root, root / document, target)
             if flaw:
                 yield f"{document}:{number}: the link {target} {flaw}"
+        for number, path in wrong_answers(root, lines):
+            yield f"{document}:{number}: there is no file {path}"
     if seen == 0:
         yield f"{root}: no documents found: nothing was checked"
 

@@ -48,6 +48,13 @@ class Planted(unittest.TestCase):
             with self.subTest(text=text):
                 self.assertEqual(self.found(text + "\n"), [])
 
+    def test_answers_to_questions(self):
+        table = "| question | folder | file |\n|---|---|---|\n| what | `scene` | `{}` |\n"
+        self.assertEqual(self.found(table.format("mesh.h")), [])
+        self.assertEqual(len(self.found(table.format("mesh.cpp"))), 1)
+        self.assertEqual(len(self.found(table.format("mesh.h`, and `none.h"))), 1)
+        self.assertEqual(self.found(table.format("mesh.cpp").replace("question", "thing")), [])
+
     def test_where_it_looks(self):
         for path in ["README.md", "CONTRIBUTING.md", "docs/page.md", "fastpath/README.md", "reference/visibility/README.md"]:
             with self.subTest(path=path):

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
+#include "scene/mesh/bounds.h"
 #include "scene/messages/error.h"
 
 namespace clues::app {
@@ -52,18 +52,14 @@ AutoCells auto_cells(const scene::FlaggedMesh& scene, double size, double height
   AutoCells out;
   using Index = std::array<std::int64_t, 3>;  // slowest axis first, so that they come out in order
   std::set<Index> marked;
-  Point low, high;
-  low.fill(std::numeric_limits<double>::infinity());
-  high.fill(-std::numeric_limits<double>::infinity());
   const auto box_of = [&](double value) { return static_cast<std::int64_t>(std::floor(value / size)); };
-  for (const auto& corners : scene.mesh.triangles) {
-    for (const auto c : corners) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        low[i] = std::min(low[i], scene.mesh.points[c][i]);
-        high[i] = std::max(high[i], scene.mesh.points[c][i]);
-      }
-    }
-  }
+  std::vector<Point> used;
+  for (const auto& corners : scene.mesh.triangles)
+    for (const auto c : corners) used.push_back(scene.mesh.points[c]);
+  if (used.empty())
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       fmt::format("--cells auto:{}: the scene has no triangles to walk on", size));
+  const auto [low, high] = scene::bounds_of(used);
   double boxes = 1;
   for (std::size_t i = 0; i < 3; ++i) boxes *= std::floor(high[i] / size) - std::floor(low[i] / size) + 1;
   if (!(boxes <= most_boxes))

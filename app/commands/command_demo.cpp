@@ -7,14 +7,18 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/demo/demo_alone.h"
 #include "app/demo/demo_picture.h"
 #include "app/demo/demo_scene.h"
 #include "app/demo/self_check.h"
+#include "app/program.h"
 #include "app/progress.h"
-#include "app/view/view_data.h"
+#include "app/view/page_data.h"
 #include "app/view/viewer_page.h"
 #include "scene/files/atomic_file.h"
 #include "scene/mesh_io.h"
@@ -66,7 +70,7 @@ void print_check(const SelfCheck& check, double seconds) {
       check.loss_is_caught ? "unsound, as it must be" : "NOT CAUGHT", seconds);
 }
 
-bool show(const DemoScene& demo, const DemoRequest& request, ViewData& view) {
+bool show(const DemoScene& demo, const DemoRequest& request, PageData& view) {
   fmt::print("{}: {}\n", demo.name, demo.title);
   std::fflush(stdout);
   ProgressBar bar("clues demo " + demo.name);
@@ -109,9 +113,12 @@ bool show(const DemoScene& demo, const DemoRequest& request, ViewData& view) {
 }
 
 // A build without Node has no page; the demo has its pictures all the same.
-void write_view(const ViewData& view, const fs::path& page) {
+void write_view(const PageData& view, const fs::path& page) {
   if (!has_view_page()) {
-    print("no page to look around in: this program was built without Node.js (`clues view`)\n");
+    print(
+        "no page to look around in: this program was built without Node.js and npm (`./run build` installs them; run "
+        "the "
+        "demo again)\n");
     return;
   }
   scene::write_file_atomically(page, view_page(view.text()));
@@ -131,7 +138,7 @@ int run_demo(const DemoRequest& request) {
   const auto animals = animals_scene(meshes, request.quick ? 40 : 200);
   const auto city = city_scene(request.quick ? 150 : 300, demo_seed);
   make_folder(request.out);
-  ViewData view;
+  PageData view;
   const bool animals_passed = show(animals, request, view);
   const bool city_passed = show(city, request, view);
   write_view(view, fs::path(request.out) / "view.html");
@@ -172,6 +179,15 @@ void add_demo_command(CLI::App& program, int& status) {
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   4 a map contradicted a check");
   command->callback([request, &status] { status = run_demo(*request); });
+}
+
+int demo_alone(std::vector<std::string> options) {
+  prepare_program();
+  CLI::App program{"clues - what can be seen from a region of space, exactly.", "clues"};
+  int status = fine;
+  add_demo_command(program, status);
+  options.insert(options.begin(), "demo");
+  return run_program(program, status, std::move(options));
 }
 
 }  // namespace clues::app

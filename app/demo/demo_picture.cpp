@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "reference/visibility/map/sides.h"
+#include "scene/ply_text.h"
 #include "validate/certificates/region_points.h"
 
 namespace clues::app {
@@ -18,7 +20,7 @@ using scene::Point;
 
 enum class Paint { away, hidden, seen };
 
-const std::array<std::array<int, 3>, 3> colours{{{150, 150, 150}, {120, 20, 25}, {60, 175, 75}}};
+const std::array<std::array<std::uint32_t, 3>, 3> colours{{{150, 150, 150}, {120, 20, 25}, {60, 175, 75}}};
 
 struct Fragment {
   Paint paint = Paint::away;
@@ -81,25 +83,23 @@ std::string to_ply_text(const reference::VisibilityMap& map) {
   const auto all = fragments(map);
   const auto [lo, hi] = bounds_of(map);
   const double hair = 1.0 / 8192 * std::hypot(hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]);
-  std::string text = fmt::format(
-      "ply\nformat ascii 1.0\ncomment green: seen from the cell; dark red: hidden; grey: faces away\n"
-      "element vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-      "element face {}\nproperty list uchar int vertex_indices\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-      3 * all.size(), all.size());
+  scene::PlyText text(3 * all.size(), all.size(),
+                      {.comment = "green: seen from the cell; dark red: hidden; grey: faces away",
+                       .of_vertex = scene::ply_colour,
+                       .of_face = scene::ply_colour,
+                       .floats = true});
   for (const auto& fragment : all) {
     const auto& [r, g, b] = colours[static_cast<std::size_t>(fragment.paint)];
     for (const auto& p : fragment.corners) {
-      text += fmt::format("{:.7g} {:.7g} {:.7g} {} {} {}\n", p[0] + hair * fragment.normal[0],
-                          p[1] + hair * fragment.normal[1], p[2] + hair * fragment.normal[2], r, g, b);
+      const auto& n = fragment.normal;
+      text.vertex({p[0] + hair * n[0], p[1] + hair * n[1], p[2] + hair * n[2]}, {r, g, b});
     }
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto& [r, g, b] = colours[static_cast<std::size_t>(all[i].paint)];
-    text += fmt::format("3 {} {} {} {} {} {}\n", 3 * i, 3 * i + 1, 3 * i + 2, r, g, b);
+    text.face({3 * i, 3 * i + 1, 3 * i + 2}, {r, g, b});
   }
-  return text;
+  return text.take();
 }
 
 std::string to_svg_text(const reference::VisibilityMap& map, const std::string& title) {

@@ -8,16 +8,13 @@
 
 #include "app/maps/patch_colours.h"
 #include "scene/mesh_io.h"
+#include "scene/ply_text.h"
 
 namespace clues::app {
 namespace {
 
-// Takes the numbers of vertices and of faces.
-constexpr fmt::string_view coloured_ply =
-    "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\nelement face "
-    "{}\n"
-    "property list uchar uint vertex_indices\nproperty uchar red\nproperty uchar green\nproperty uchar "
-    "blue\nend_header\n";
+// Of an int from 0 to 255.
+std::uint32_t channel(int value) { return static_cast<std::uint32_t>(value); }
 
 // The base triangle that a piece lies in; no_vertex for a file that was not verified.
 std::uint32_t base_of(const std::map<scene::Triangle, std::uint32_t>& base, const scene::Hierarchy& h,
@@ -43,19 +40,13 @@ std::string patches_to_ply(const scene::Hierarchy& h) {
     std::sort(corners.begin(), corners.end());
     base.emplace(corners, t);
   }
-  fmt::memory_buffer out;
-  auto to = std::back_inserter(out);
-  fmt::format_to(to, fmt::runtime(coloured_ply), h.points.size(), h.pieces.size());
-  for (const auto& p : h.points) {
-    const auto at = reference::position_estimate(p.source, h.input);
-    fmt::format_to(to, "{} {} {}\n", at[0], at[1], at[2]);
-  }
+  scene::PlyText out(h.points.size(), h.pieces.size(), {.of_face = scene::ply_colour});
+  for (const auto& p : h.points) out.vertex(reference::position_estimate(p.source, h.input));
   for (const auto& piece : h.pieces) {
-    const auto colour = patch_colour(base_of(base, h, piece));
-    fmt::format_to(to, "3 {} {} {} {} {} {}\n", piece.corners[0], piece.corners[1], piece.corners[2], colour[0],
-                   colour[1], colour[2]);
+    const auto [r, g, b] = patch_colour(base_of(base, h, piece));
+    out.face({piece.corners[0], piece.corners[1], piece.corners[2]}, {channel(r), channel(g), channel(b)});
   }
-  return fmt::to_string(out);
+  return out.take();
 }
 
 std::string base_to_svg(const scene::Hierarchy& h) {
@@ -121,22 +112,17 @@ std::string base_to_off(const scene::Hierarchy& h) {
 
 std::string checker_to_ply(const reference::Remesh& remesh, const scene::TriangleMesh& input) {
   const auto& proof = remesh.proof;
-  fmt::memory_buffer out;
-  auto to = std::back_inserter(out);
-  fmt::format_to(to, fmt::runtime(coloured_ply), proof.points.size(), proof.pieces.size());
-  for (const auto& p : proof.points) {
-    const auto at = reference::position_estimate(p.source, input);
-    fmt::format_to(to, "{} {} {}\n", at[0], at[1], at[2]);
-  }
+  scene::PlyText out(proof.points.size(), proof.pieces.size(), {.of_face = scene::ply_colour});
+  for (const auto& p : proof.points) out.vertex(reference::position_estimate(p.source, input));
   for (std::size_t t = 0; t < remesh.base.size(); ++t) {
     auto colour = patch_colour(remesh.base[t]);
-    for (int& channel : colour) channel = remesh.turned[t] ? channel / 4 : 128 + channel / 2;
+    for (int& value : colour) value = remesh.turned[t] ? value / 4 : 128 + value / 2;
     for (std::size_t i = remesh.first_piece[t]; i < remesh.first_piece[t + 1]; ++i) {
       const auto& c = proof.pieces[i].corners;
-      fmt::format_to(to, "3 {} {} {} {} {} {}\n", c[0], c[1], c[2], colour[0], colour[1], colour[2]);
+      out.face({c[0], c[1], c[2]}, {channel(colour[0]), channel(colour[1]), channel(colour[2])});
     }
   }
-  return fmt::to_string(out);
+  return out.take();
 }
 
 }  // namespace clues::app

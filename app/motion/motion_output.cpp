@@ -8,6 +8,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "scene/ply_text.h"
+
 namespace clues::app {
 namespace {
 
@@ -161,22 +163,19 @@ std::string to_ply(const scene::DepthMesh& mesh, const scene::MotionPoint& at) {
   for (const auto& s : mesh.samples) {
     if (!s.is_direction) furthest = std::max(furthest, fastpath::motion::distance_up(s.at, at));
   }
-  std::string text = fmt::format(
-      "ply\nformat ascii 1.0\ncomment a depth mesh around {} {} {}\nelement vertex {}\nproperty double x\nproperty "
-      "double "
-      "y\nproperty double z\nproperty uchar kind\nelement face {}\nproperty list uchar uint "
-      "vertex_indices\nend_header\n",
-      at[0], at[1], at[2], mesh.samples.size(), mesh.triangles.size());
+  const std::string comment = fmt::format("a depth mesh around {} {} {}", at[0], at[1], at[2]);
+  scene::PlyText text(mesh.samples.size(), mesh.triangles.size(),
+                      {.comment = comment, .of_vertex = "property uchar kind\n"});
   for (const auto& s : mesh.samples) {
     scene::MotionPoint p = s.at;
     if (s.is_direction) {
       const double length = std::sqrt(s.at[0] * s.at[0] + s.at[1] * s.at[1] + s.at[2] * s.at[2]);
       for (std::size_t i = 0; i < 3; ++i) p[i] = at[i] + s.at[i] / length * (2 * furthest);
     }
-    text += fmt::format("{} {} {} {}\n", p[0], p[1], p[2], s.is_base ? 2 : s.is_direction ? 1 : 0);
+    text.vertex(p, {s.is_base ? 2U : s.is_direction ? 1U : 0U});
   }
-  for (const auto& t : mesh.triangles) text += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
-  return text;
+  for (const auto& t : mesh.triangles) text.face({t[0], t[1], t[2]});
+  return text.take();
 }
 
 }  // namespace clues::app

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "app/view/page_data.h"
 #include "app/view/page_json.h"
 #include "app/view/page_stores.h"
 #include "fuzz/findings/json_fields.h"
@@ -45,8 +46,6 @@ std::string text_of(const json& object, const char* key) {
   const auto found = object.is_object() ? object.find(key) : object.end();
   return object.is_object() && found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
-
-std::string dumped(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
 
 enum class Content : std::uint8_t { scene, finding, bake, walk, maps, document };
 
@@ -86,21 +85,18 @@ struct ViewData::Parts {
   fs::path root;
   std::vector<KnownScene> scenes;
   std::set<fs::path> read;  // scenes, by canonical path
-  json files = json::array();
+  PageData page;
 
   std::string name_of(const fs::path& file) const {
     return root.empty() ? file.filename().string() : file.lexically_relative(root).string();
   }
-  std::size_t add_scene(const std::string& name, json mesh, std::size_t triangles, const std::string& sha256) {
-    files.push_back({{"path", name}, {"sha256", sha256}, {"mesh", std::move(mesh)}});
-    scenes.push_back({name, sha256, triangles});
-    return scenes.size() - 1;
-  }
   std::size_t read_scene(const fs::path& file) {
     read.insert(fs::weakly_canonical(file));
     const scene::FlaggedMesh mesh = scene::read_scene(file);
-    return add_scene(file.filename().string(), mesh_for_page(mesh), mesh.mesh.triangles.size(),
-                     scene::sha256_of_file(file));
+    const std::string name = file.filename().string(), sha256 = scene::sha256_of_file(file);
+    page.put({{"path", name}, {"sha256", sha256}, {"mesh", mesh_for_page(mesh)}});
+    scenes.push_back({name, sha256, mesh.mesh.triangles.size()});
+    return scenes.size() - 1;
   }
   // Of a scene that is named without its hash: that of the file, where all files are looked for.
   std::string hash_of(const std::string& file) const {
@@ -131,7 +127,7 @@ struct ViewData::Parts {
                 fmt::format("{}: is about the scene {}, which is not beside it{}; name that file too", about.string(),
                             name, named.sha256.empty() ? "" : " in the same version"));
   }
-  void put(const fs::path& file, json value) { files.push_back({{"path", name_of(file)}, {"json", std::move(value)}}); }
+  void put(const fs::path& file, json value) { page.put({{"path", name_of(file)}, {"json", std::move(value)}}); }
 
   void add_bake(const fs::path& file);
   void add_walk(const fs::path& file);
@@ -147,14 +143,14 @@ void ViewData::Parts::add_finding(const fs::path& folder) {
   const fs::path known = root.empty() ? fs::weakly_canonical(folder).filename() : folder.lexically_relative(root);
   const std::string base = known == "." ? "" : known.string() + "/";
   const auto& about = saved.finding;
-  files.push_back({{"path", base + "finding.json"},
-                   {"json",
-                    {{"format", "clues-finding/2"},
-                     {"oracle", about.oracle},
-                     {"verdict", about.verdict},
-                     {"explanation", about.explanation},
-                     {"subject", saved.subject},
-                     {"mode", about.where.solid ? "solid" : "sheet"}}}});
+  page.put({{"path", base + "finding.json"},
+            {"json",
+             {{"format", "clues-finding/2"},
+              {"oracle", about.oracle},
+              {"verdict", about.verdict},
+              {"explanation", about.explanation},
+              {"subject", saved.subject},
+              {"mode", about.where.solid ? "solid" : "sheet"}}}});
   for (const auto& [finding, place] :
        {std::pair{&saved.finding, std::string()}, {&saved.original, std::string("original/")}}) {
     scene::TriangleMesh cell;
@@ -166,9 +162,9 @@ void ViewData::Parts::add_finding(const fs::path& folder) {
       witness["v"] = finding->witness->v;
       witness["p"] = finding->witness->p;
     }
-    files.push_back({{"path", base + place + "scene.off"}, {"mesh", mesh_for_page(finding->where.mesh)}});
-    files.push_back({{"path", base + place + "cell.obj"}, {"mesh", mesh_for_page(cell)}});
-    files.push_back({{"path", base + place + "witness.json"}, {"json", std::move(witness)}});
+    page.put({{"path", base + place + "scene.off"}, {"mesh", mesh_for_page(finding->where.mesh)}});
+    page.put({{"path", base + place + "cell.obj"}, {"mesh", mesh_for_page(cell)}});
+    page.put({{"path", base + place + "witness.json"}, {"json", std::move(witness)}});
   }
 }
 
@@ -208,14 +204,13 @@ void ViewData::Parts::add_bake(const fs::path& file) {
 // Both are texts that the page reads as they are.
 void ViewData::Parts::add_walk(const fs::path& file) {
   json bounds = walk_for_page(file);
-  files.push_back(
-      {{"path", file.filename().string()}, {"text", scene::read_file_bytes(file)}, {"bounds", std::move(bounds)}});
+  page.put({{"path", file.filename().string()}, {"text", scene::read_file_bytes(file)}, {"bounds", std::move(bounds)}});
 }
 
 void ViewData::Parts::add_maps(const fs::path& file) {
   std::string text = scene::read_file_bytes(file);
   scene::parse_hierarchy(text, file.string());
-  files.push_back({{"path", file.filename().string()}, {"text", std::move(text)}});
+  page.put({{"path", file.filename().string()}, {"text", std::move(text)}});
 }
 
 void ViewData::Parts::add_json(const fs::path& file) {
@@ -273,15 +268,6 @@ ViewData::~ViewData() = default;
 ViewData::ViewData(ViewData&&) noexcept = default;
 ViewData& ViewData::operator=(ViewData&&) noexcept = default;
 
-void ViewData::add_scene(const std::string& name, const scene::TriangleMesh& mesh, const std::string& sha256) {
-  parts_->add_scene(name, mesh_for_page(mesh), mesh.triangles.size(), sha256);
-}
-
-void ViewData::add_result(const std::string& name, const scene::Result& result) {
-  parts_->put(name,
-              result_for_page(scene::parse_json(scene::to_json_text(result), name), result.scene_triangles, name));
-}
-
 void ViewData::add_files(const std::vector<fs::path>& files) {
   struct Other {
     fs::path file;
@@ -307,8 +293,8 @@ void ViewData::add_files(const std::vector<fs::path>& files) {
   }
 }
 
-std::size_t ViewData::count() const { return parts_->files.size(); }
+std::size_t ViewData::count() const { return parts_->page.count(); }
 
-std::string ViewData::text() const { return dumped({{"format", "clues-view/1"}, {"files", parts_->files}}); }
+std::string ViewData::text() const { return parts_->page.text(); }
 
 }  // namespace clues::app

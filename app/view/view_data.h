@@ -1,5 +1,4 @@
-// What goes into a page of `clues view`: files as the page reads them when they are dropped, but for meshes, which are binary, and for what it does not draw, which is
-// left out ("clues-view/1", docs/viewer.md). Everything is read by the readers that all commands use, and checked, before it goes in.
+// The files that a page of `clues view` shows (page_data.h). Everything is read by the readers that all commands use, and checked, before it goes in.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +6,6 @@
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "scene/mesh/mesh.h"
-#include "scene/result.h"
 
 namespace clues::app {
 
@@ -20,11 +16,6 @@ class ViewData {
   ~ViewData();
   ViewData(ViewData&&) noexcept;
   ViewData& operator=(ViewData&&) noexcept;
-
-  // `name` without folder.
-  void add_scene(const std::string& name, const scene::TriangleMesh& mesh, const std::string& sha256);
-  // Of a scene that was added.
-  void add_result(const std::string& name, const scene::Result& result);
 
   // Scenes, results, bakes, deltas, walks, hierarchies, judgements, umbrae, conformance reports, and folders of findings (or their finding.json) or of campaigns. The scene that a file is about is taken from the
   // others, or read where the file says it is, or from beside the file. Throws Error: as the readers; file_not_found where a scene is not there, unsupported

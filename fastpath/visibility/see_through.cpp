@@ -20,33 +20,16 @@ std::vector<std::uint32_t> ids_that(const scene::FlaggedMesh& scene, bool block)
   return ids;
 }
 
-Box hull_of(const Box& a, const Box& b) {
-  Box box = a;
-  for (std::size_t i = 0; i < 3; ++i) {
-    box.low[i] = std::min(a.low[i], b.low[i]);
-    box.high[i] = std::max(a.high[i], b.high[i]);
-  }
-  return box;
-}
-
-bool boxes_overlap(const Corners& t, const std::vector<Point>& cell) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto by_axis = [i](const Point& a, const Point& b) { return a[i] < b[i]; };
-    const auto [low, high] = std::minmax_element(cell.begin(), cell.end(), by_axis);
-    const auto [t_low, t_high] = std::minmax_element(t.begin(), t.end(), by_axis);
-    if ((*t_high)[i] < (*low)[i] || (*high)[i] < (*t_low)[i]) return false;
-  }
-  return true;
-}
-
 // Those of T that meet the cell, which no proof has to be asked about (D3).
 std::vector<std::uint32_t> meeting_the_cell(const Bvh& passing, const std::vector<Point>& points) {
   std::vector<std::uint32_t> met;
   const auto cell = exact::ConvexCell::from_doubles(points);
+  const scene::Bounds about = scene::bounds_of(points);
   for (std::uint32_t t = 0; t < passing.mesh().triangles.size(); ++t) {
     const Corners c = passing.corners(t);
     const auto exactly = [](const Point& p) { return exact::Point3(p[0], p[1], p[2]); };
-    if (boxes_overlap(c, points) && exact::meets_cell({exactly(c[0]), exactly(c[1]), exactly(c[2])}, cell))
+    if (scene::touch(scene::bounds_of(c), about) &&
+        exact::meets_cell({exactly(c[0]), exactly(c[1]), exactly(c[2])}, cell))
       met.push_back(t);
   }
   return met;
@@ -58,8 +41,9 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
   for (const auto t : guess) {
     if (const auto at = scene.find_blocking(t)) guessed.push_back(*at);
   }
-  const ClosedScene closed = close_by_engine(
-      scene.blocking(), cell, options, hull_of(outside_of(scene.blocking()), outside_of(scene.passing())), guessed);
+  const ClosedScene closed =
+      close_by_engine(scene.blocking(), cell, options,
+                      scene::hull_of(outside_of(scene.blocking()), outside_of(scene.passing())), guessed);
   SeeThroughList list;
   for (const auto t : closed.map().visible()) list.blocking.push_back(scene.blocking_id(closed.closure.part[t]));
   auto passing = not_proved_dark(scene.passing(), closed.closure, scene.blocking(), Cell(cell));

@@ -5,7 +5,7 @@
 
 #include "exact/cell/standard_range.h"
 #include "reference/visibility/first_order.h"
-#include "reference/visibility/map/side_faces.h"
+#include "reference/visibility/map/flat_sides.h"
 
 namespace clues::reference {
 

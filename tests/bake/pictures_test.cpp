@@ -10,6 +10,7 @@
 #include "scene/levels/bsp_scene.h"
 #include "tests/app/program.h"
 #include "tests/levels/made_level.h"
+#include "tests/point_within.h"
 
 namespace clues::tests {
 namespace {
@@ -52,14 +53,7 @@ TEST(Pictures, ABakedListDrawsWhatTheLevelDraws) {
     const auto& cell = bake.plan().cells[c];
     const Ids list = bake.cell(c).list;
     for (int i = 0; i < 4; ++i) {
-      scene::Point eye{};
-      double sum = 0;
-      for (const auto& p : cell.inner) {
-        const double w = weight(random);
-        sum += w;
-        for (std::size_t k = 0; k < 3; ++k) eye[k] += w * p[k];
-      }
-      for (double& x : eye) x /= sum;
+      const scene::Point eye = point_within(cell.inner, [&] { return weight(random); });
       for (int direction = 0; direction < 6; ++direction, ++views) {
         const auto whole = pictures.draw(level.mesh, all, hulls, eye, direction);
         EXPECT_EQ(whole, pictures.draw(level.mesh, list, hulls, eye, direction)) << cell.name << " " << direction;

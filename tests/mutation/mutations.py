@@ -1,4 +1,4 @@
-"""Mutations of the reference: (name, source, text, replacement), the source as in edits.py. Each changes one decision; `run.py` builds each and puts it to the suite."""
+"""Mutations of the two kernels: (name, source, text, replacement), the source as in edits.py. Each changes one decision; `run.py` builds each and puts it to the suite."""
 
 MUTATIONS = [
     ("contour-wrong-side", "reference/contour.cpp", "if (o == CGAL::ON_POSITIVE_SIDE) {", "if (o == CGAL::ON_NEGATIVE_SIDE) {"),
@@ -51,4 +51,34 @@ MUTATIONS = [
     ("fixpoint-nothing-lit-outright", "reference/fixpoint.cpp", "if (sources_[i].walk.ends_at_cell || sources_[i].walk.unresolved) lit.push_back(i);", "if (sources_[i].walk.unresolved) lit.push_back(i);"),
     ("d3-border-not-cut", "exact/complex.cpp", "    if (cell_) add_border();\n", ""),
     ("d16-contacts-forgotten", "exact/complex.cpp", "        sheets_[i].contacts.push_back(met[k]);\n", ""),
+    # The fast path, put to the suite with --kernel fast.
+    ("fast-contour-wrong-side", "fastpath/contour.cpp", "in_h_plus &= side <= 0;", "in_h_plus &= side >= 0;"),
+    ("fast-contour-convex-only", "fastpath/contour.cpp", "if (!in_h_plus || (left && right)) continue;", "if (!in_h_plus || left || right) continue;"),
+    ("fast-contour-one-plane-only", "fastpath/contour.cpp", "for (const int turn : {1, -1}) {", "for (const int turn : {1}) {"),
+    ("fast-contour-right-of-the-edge-only", "fastpath/contour.cpp", "    if (!supports[k].left.empty()) contour.push_back({id, plane, supports[k].left, other, holds_cell});\n", ""),
+    ("fast-anticone-none", "fastpath/apex.cpp", "  for (const auto& [i, j] : cell.edges) {", "  if (!cell.edges.empty()) return;\n  for (const auto& [i, j] : cell.edges) {"),
+    ("fast-anticone-turned-over", "fastpath/apex.cpp", "if (!above) planes.push_back(pool.plane(*x_, p, q));", "if (!above) planes.push_back(pool.plane(*x_, q, p));"),
+    ("fast-anticone-not-on-border", "fastpath/apex.cpp", "if (cell.interior_contains(*x_)) return;", "if (cell.contains(*x_)) return;"),
+    ("fast-apex-no-sector-at-corners", "fastpath/apex.cpp", "    exists = true;", "    exists = on_edge_;"),
+    ("fast-apex-no-sector-at-csvs", "fastpath/apex.cpp", "    exists = true;", "    exists = !on_edge_;"),
+    ("fast-apex-everything-superfluous-above", "fastpath/apex.cpp", "s.plane->side(*l.to) < 0 && star.free_between(l.beside, middle);", "s.plane->side(*l.to) < 0;"),
+    ("fast-apex-lit-edge-wrong-side", "fastpath/apex.cpp", "if (l.lit_end && s.plane->side(*l.lit_end) < 0) return false;", "if (l.lit_end && s.plane->side(*l.lit_end) > 0) return false;"),
+    ("fast-envelope-farthest-first", "fastpath/on_wedge.cpp", "    const int s = turn(b.u, b.w, x);  // left: on the centre's side\n    if (s != 0) return s > 0;", "    const int s = turn(b.u, b.w, x);\n    if (s != 0) return s < 0;"),
+    ("fast-envelope-ends-late", "fastpath/on_wedge.cpp", "return s != 0 ? s > 0 : x.end && !y.end;", "return s != 0 ? s > 0 : !x.end && y.end;"),
+    ("fast-envelope-before-near-bound", "fastpath/on_wedge.cpp", "  if (!sector->from_apex && !beyond_near(u, w)) return;\n", ""),
+    ("fast-envelope-no-radials", "fastpath/on_wedge.cpp", "  out.radials.push_back({t, kept(u), kept(w)});", "  if (u == w) out.radials.push_back({t, kept(u), kept(w)});"),
+    ("fast-envelope-no-crossings", "fastpath/on_wedge.cpp", "if (reached) out.meetings.push_back", "if (reached && at_vertex) out.meetings.push_back"),
+    ("fast-pieces-crossed-backwards", "fastpath/piece_set.cpp", "    return s >= 0;", "    return s <= 0;"),
+    ("fast-pieces-unbounded", "fastpath/piece_set.cpp", "    if (!left_of(*blocker.u, *blocker.w)) return Crossing::no;", "    if (blocker.u == blocker.w) return Crossing::no;"),
+    ("fast-pieces-box-of-one-end", "fastpath/piece_set.cpp", "hull(far_end(piece, piece.ray0), far_end(piece, piece.ray1))", "far_end(piece, piece.ray0)"),
+    ("fast-scene-graze-does-not-block", "fastpath/local_scene.cpp", "return touch ? Crossing::touch : Crossing::yes;", "return touch ? Crossing::no : Crossing::yes;"),
+    ("fast-scene-first-crossing", "fastpath/local_scene.cpp", "parameter.template operator()<NT>(*out.piece))) > 0;", "parameter.template operator()<NT>(*out.piece))) < 0;"),
+    ("fast-scene-blocks-inside-the-cell", "fastpath/local_scene.cpp", "    if (pieces[t].in_cell) continue;\n", ""),
+    ("fast-sources-no-vertices", "fastpath/sources.cpp", "    if (is_vertex[v]) found[v]", "    if (is_vertex[v] && scene_.points.empty()) found[v]"),
+    ("fast-sources-never-walk-again", "fastpath/sources.cpp", "if (s.walk.end == Walk::End::crossed) s.walk", "if (s.walk.end == Walk::End::crossed && s.seed > 0) s.walk"),
+    ("fast-search-one-round", "fastpath/search.cpp", "    while (round());", "    while (round() && false);"),
+    ("fast-search-no-cuts", "fastpath/search.cpp", "      new_cuts[m.id].push_back(c->x);\n", ""),
+    ("fast-search-no-csvs", "fastpath/search.cpp", "if (c->built[k]) continue;", "if (c->built[k] || c->on_edge) continue;"),
+    ("fast-search-csv-one-side", "fastpath/search.cpp", "    if (before) {\n", "    if (before && !after) {\n"),
+    ("fast-search-corner-wedges-forgotten", "fastpath/search.cpp", "      if (is_vertex[e.a] && s.part.lo == &scene.points[e.a]) contacts.add(contacts.corner(e.a), probe_along(e.b));\n", ""),
 ]

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""How many mutations of the reference does the conformance suite catch?
+"""How many mutations of the reference and of the fast path does the conformance suite catch?
 
 usage: run.py SOURCE WORK [--only NAME,...] [--out FILE]
        run.py --check SOURCE
 
 SOURCE is a checkout, WORK a folder for a copy of it with its own build (kept, so that a second run is quick). For each mutation of mutations.py:
-change the copy, build `clues`, and put the mutated reference to the suite through its own door (`clues conform --impl 'clues iut --kernel exact'`).
-Caught: an unsound answer, a crash or a time-out. Looser: a larger answer than that of the unchanged reference, and nothing worse. Survived: every answer
+change the copy, build `clues`, and put the mutated kernel to the suite through its own door (`clues conform --impl 'clues iut --kernel exact'`, or fast for a
+source of fastpath/). Caught: an unsound answer, a crash or a time-out. Looser: a larger answer than that of the unchanged kernel, and nothing worse. Survived: every answer
 is the same as without the mutation. A mutation that does not build, or whose text is not found, is an error: repair mutations.py. --check only
 looks for the texts: each has to be there once.
 """
@@ -30,11 +30,15 @@ def build(tree):
     return sh(["cmake", "--build", "build/mutation", "--target", "clues", "-j2"], tree, 1200)
 
 
-def judge(tree):
+def kernel_of(file):
+    return "fast" if file.startswith("fastpath/") else "exact"
+
+
+def judge(tree, kernel):
     """The grade of every case, or None when the suite could not be run to its end."""
     program, report = tree / "build/mutation/bin/clues", tree / "build/mutation/report.json"
     report.unlink(missing_ok=True)
-    sh([program, "conform", "--impl", f"{program} iut --kernel exact", "--suite", "vectors", "--time-limit", "10", "--jobs", "2", "--json", report],
+    sh([program, "conform", "--impl", f"{program} iut --kernel {kernel}", "--suite", "vectors", "--time-limit", "10", "--jobs", "2", "--json", report],
        tree, 1200)
     if not report.exists():
         return None
@@ -77,14 +81,17 @@ def main():
             sys.exit(done.stdout)
     if build(tree).returncode != 0:
         sys.exit("the unchanged tree does not build")
-    sound = judge(tree)
-    if sound is None or any(grade[0] == "unsound" for grade in sound.values()):
-        sys.exit("the unchanged reference does not pass the suite")
     names = [n for n in options.only.split(",") if n]
+    sounds = {}
+    for kernel in sorted({kernel_of(file) for name, file, _, _ in MUTATIONS if not names or name in names}):
+        sounds[kernel] = judge(tree, kernel)
+        if sounds[kernel] is None or any(grade[0] == "unsound" for grade in sounds[kernel].values()):
+            sys.exit(f"the unchanged kernel {kernel} does not pass the suite")
     rows = []
     for name, file, text, replacement in MUTATIONS:
         if names and name not in names:
             continue
+        sound = sounds[kernel_of(file)]
         path = source_of(tree, file)
         original = path.read_text()
         path.write_text(edited(file, original, text, replacement))
@@ -92,7 +99,7 @@ def main():
             if build(tree).returncode != 0:
                 verdict, seen = "does not build", []
             else:
-                grades = judge(tree)
+                grades = judge(tree, kernel_of(file))
                 seen = [] if grades is None else sorted(c for c in sound if grades.get(c) != sound[c])
                 unsound = [] if grades is None else [c for c in seen if grades.get(c, ("",))[0] != "conservative"]
                 verdict = "caught" if grades is None or unsound else "looser" if seen else "SURVIVED"
@@ -101,7 +108,7 @@ def main():
         rows.append((name, verdict, len(seen), seen[0] if seen else ""))
         print(f"{name:45} {verdict:15} {len(seen):4} {seen[0] if seen else ''}", flush=True)
     caught, looser = (sum(1 for r in rows if r[1] == verdict) for verdict in ("caught", "looser"))
-    summary = f"{caught} of {len(rows)} caught, {looser} more answer more than the unchanged reference"
+    summary = f"{caught} of {len(rows)} caught, {looser} more answer more than the unchanged kernel"
     print(summary)
     if options.out:
         lines = [f"| {n} | {v} | {k} | {c} |" for n, v, k, c in rows]

@@ -2,7 +2,7 @@
 
 #include "exact/sight/point_occlusion.h"
 #include "exact/sight/scene_query.h"
-#include "reference/visibility/map/side_faces.h"
+#include "reference/visibility/map/flat_sides.h"
 #include "reference/visibility/planar/flat_set.h"
 
 namespace clues::test {

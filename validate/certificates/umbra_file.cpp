@@ -9,6 +9,7 @@
 #include "scene/json_reader.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
+#include "scene/ply_text.h"
 #include "validate/certificates/words.h"
 
 namespace clues::validate {
@@ -192,23 +193,16 @@ std::string to_off_text(const UmbraRecord& record) {
 }
 
 std::string to_ply_text(const UmbraRecord& record) {
-  constexpr std::array<const char*, 3> colours{"150 150 150", "230 140 40", "90 140 210"};
+  constexpr std::array<std::array<std::uint32_t, 3>, 3> colours{{{150, 150, 150}, {230, 140, 40}, {90, 140, 210}}};
   const Indexed all = indexed(record.facets);
-  std::string text = fmt::format(
-      "ply\nformat ascii 1.0\ncomment grey: surface; orange: wedge; blue: enclosing box\n"
-      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-      "element face {}\nproperty list uchar int vertex_indices\n"
-      "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n",
-      all.points.size(), all.corners.size());
-  for (const RVector& p : all.points) {
-    const scene::Point x = rounded(p);
-    text += fmt::format("{} {} {}\n", x[0], x[1], x[2]);
-  }
+  scene::PlyText text(all.points.size(), all.corners.size(),
+                      {.comment = "grey: surface; orange: wedge; blue: enclosing box", .of_face = scene::ply_colour});
+  for (const RVector& p : all.points) text.vertex(rounded(p));
   for (std::size_t i = 0; i < all.corners.size(); ++i) {
-    const auto& [a, b, c] = all.corners[i];
-    text += fmt::format("3 {} {} {} {}\n", a, b, c, colours[static_cast<std::size_t>(record.kinds[i])]);
+    const auto& [red, green, blue] = colours[static_cast<std::size_t>(record.kinds[i])];
+    text.face({all.corners[i][0], all.corners[i][1], all.corners[i][2]}, {red, green, blue});
   }
-  return text;
+  return text.take();
 }
 
 }  // namespace clues::validate

@@ -11,6 +11,7 @@
 #include "reference/delta/fragments.h"
 #include "reference/visibility/map/sides.h"
 #include "scene/messages/error.h"
+#include "scene/ply_text.h"
 
 namespace clues::validate {
 namespace {
@@ -60,17 +61,12 @@ std::string to_obj_text(const FragmentsRecord& mesh) {
 }
 
 std::string to_ply_text(const FragmentsRecord& mesh) {
-  std::string text = fmt::format(
-      "ply\nformat ascii 1.0\ncomment visible fragments; coordinates are rounded to doubles\n"
-      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-      "element face {}\nproperty list uchar int vertex_indices\n"
-      "property uint triangle\nproperty uchar back\nend_header\n",
-      mesh.rounded.size(), mesh.fragments.size());
-  for (const scene::Point& p : mesh.rounded) text += fmt::format("{} {} {}\n", p[0], p[1], p[2]);
-  for (const FileFragment& f : mesh.fragments) {
-    text += fmt::format("3 {} {} {} {} {}\n", f.corners[0], f.corners[1], f.corners[2], f.triangle, f.front ? 0 : 1);
-  }
-  return text;
+  scene::PlyText text(mesh.rounded.size(), mesh.fragments.size(),
+                      {.comment = "visible fragments; coordinates are rounded to doubles",
+                       .of_face = "property uint triangle\nproperty uchar back\n"});
+  for (const scene::Point& p : mesh.rounded) text.vertex(p);
+  for (const FileFragment& f : mesh.fragments) text.face(f.corners, {f.triangle, f.front ? 0U : 1U});
+  return text.take();
 }
 
 std::string to_json_text(const FragmentsRecord& mesh) {

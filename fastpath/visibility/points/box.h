@@ -1,13 +1,11 @@
 #pragma once
 
 #include "fastpath/predicates/filter.h"
+#include "scene/mesh/bounds.h"
 
 namespace clues::fastpath {
 
-// A closed axis-aligned box, low <= high.
-struct Box {
-  Point low{}, high{};
-};
+using Box = scene::Bounds;
 
 // A double in each coordinate, inside the box.
 inline Point middle_of(const Box& b) {

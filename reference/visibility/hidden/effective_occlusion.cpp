@@ -11,7 +11,7 @@
 #include "exact/sight/scene_query.h"
 #include "reference/in_parallel.h"
 #include "reference/visibility/hidden/inside_corners.h"
-#include "reference/visibility/map/side_faces.h"
+#include "reference/visibility/map/flat_sides.h"
 #include "reference/visibility/map/sides.h"
 #include "reference/visibility/planar/flat_set.h"
 #include "scene/messages/error.h"

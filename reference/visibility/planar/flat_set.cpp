@@ -6,6 +6,7 @@
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arrangement_2.h>
 
+#include <array>
 #include <map>
 #include <set>
 #include <utility>
@@ -19,8 +20,28 @@ using exact::Point2;
 namespace {
 
 using Traits = CGAL::Arr_segment_traits_2<Kernel>;
-using Arrangement = CGAL::Arrangement_2<Traits, CGAL::Arr_face_extended_dcel<Traits, bool>>;
+using Arrangement = CGAL::Arrangement_2<Traits, CGAL::Arr_face_extended_dcel<Traits, unsigned>>;  // 0: not in the set
 using Curve = Traits::X_monotone_curve_2;
+
+// Of what is in none of two sets, in the one, in the other, in both: the label in their overlay. A table and no function of its own for each use, so that there is one
+// overlay to be compiled.
+using Rule = std::array<unsigned, 4>;
+
+class RuledFaces : public CGAL::Arr_default_overlay_traits<Arrangement> {
+ public:
+  explicit RuledFaces(const Rule& rule) : rule_(rule) {}
+  void create_face(Face_handle_A one, Face_handle_B other, Face_handle_R made) const override {
+    made->set_data(rule_[(one->data() != 0 ? 1U : 0U) + (other->data() != 0 ? 2U : 0U)]);
+  }
+
+ private:
+  Rule rule_;
+};
+
+void overlay(const Arrangement& one, const Arrangement& other, const Rule& rule, Arrangement& made) {
+  RuledFaces traits(rule);
+  CGAL::overlay(one, other, made, traits);
+}
 
 // Takes away borders with the same label on both sides, and corners in the middle of straight borders.
 void tidy(Arrangement& arrangement) {
@@ -93,11 +114,11 @@ FlatSet::FlatSet(const FT& twice_triangle, const std::vector<Face2>& faces) : Fl
   std::vector<Curve> curves;
   for (const auto& [a, b] : borders) curves.emplace_back(a, b);
   CGAL::insert_non_intersecting_curves(arrangement, curves.begin(), curves.end());
-  for (auto f = arrangement.faces_begin(); f != arrangement.faces_end(); ++f) f->set_data(false);
+  for (auto f = arrangement.faces_begin(); f != arrangement.faces_end(); ++f) f->set_data(0);
   std::map<Step, Arrangement::Halfedge_handle> steps;
   for (auto h = arrangement.halfedges_begin(); h != arrangement.halfedges_end(); ++h)
     steps.emplace(Step(h->source()->point(), h->target()->point()), h);
-  for (const Face2& face : faces) steps.at(Step(face[0][0], face[0][1]))->face()->set_data(true);
+  for (const Face2& face : faces) steps.at(Step(face[0][0], face[0][1]))->face()->set_data(1);
   take(std::move(made));
 }
 
@@ -106,16 +127,14 @@ std::vector<Face2> FlatSet::faces() const {
   if (!faces_) return out;
   const Arrangement& arrangement = faces_->arrangement;
   for (auto f = arrangement.faces_begin(); f != arrangement.faces_end(); ++f) {
-    if (f->data()) out.push_back(rings_of(f));
+    if (f->data() != 0) out.push_back(rings_of(f));
   }
   return out;
 }
 
-template <class Keep>
-FlatSet FlatSet::combine(const FlatSet& a, const FlatSet& b, const Keep&) {
+FlatSet FlatSet::combine(const FlatSet& a, const FlatSet& b, const std::array<unsigned, 4>& rule) {
   auto made = std::make_shared<Faces>();
-  CGAL::Arr_face_overlay_traits<Arrangement, Arrangement, Arrangement, Keep> traits;
-  CGAL::overlay(a.faces_->arrangement, b.faces_->arrangement, made->arrangement, traits);
+  overlay(a.faces_->arrangement, b.faces_->arrangement, rule, made->arrangement);
   FlatSet result(a.triangle_);
   result.take(std::move(made));
   return result;
@@ -127,13 +146,11 @@ std::vector<Face2> FlatSet::faces_cut_by(const std::vector<FlatSegment>& segment
   std::vector<Curve> curves;
   for (const FlatSegment& s : segments) curves.emplace_back(s.a, s.b);
   CGAL::insert(cuts, curves.begin(), curves.end());
-  for (auto f = cuts.faces_begin(); f != cuts.faces_end(); ++f) f->set_data(false);
-  auto keep = [](bool in, bool) { return in; };
-  CGAL::Arr_face_overlay_traits<Arrangement, Arrangement, Arrangement, decltype(keep)> traits;
-  CGAL::overlay(faces_->arrangement, cuts, cut, traits);
+  for (auto f = cuts.faces_begin(); f != cuts.faces_end(); ++f) f->set_data(0);
+  overlay(faces_->arrangement, cuts, {0, 1, 0, 1}, cut);
   std::vector<Face2> out;
   for (auto f = cut.faces_begin(); f != cut.faces_end(); ++f) {
-    if (f->data()) out.push_back(rings_of(f));
+    if (f->data() != 0) out.push_back(rings_of(f));
   }
   return out;
 }
@@ -141,11 +158,8 @@ std::vector<Face2> FlatSet::faces_cut_by(const std::vector<FlatSegment>& segment
 std::vector<FlatSegment> FlatSet::borders_of(const FlatSet& part) const {
   std::vector<FlatSegment> out;
   if (!faces_ || !part.faces_) return out;
-  using Labelled = CGAL::Arrangement_2<Traits, CGAL::Arr_face_extended_dcel<Traits, unsigned>>;
-  auto label = [](bool in, bool in_part) { return (in ? 1U : 0U) + (in_part ? 2U : 0U); };
-  CGAL::Arr_face_overlay_traits<Arrangement, Arrangement, Labelled, decltype(label)> traits;
-  Labelled both;
-  CGAL::overlay(faces_->arrangement, part.faces_->arrangement, both, traits);
+  Arrangement both;
+  overlay(faces_->arrangement, part.faces_->arrangement, {0, 1, 2, 3}, both);
   for (auto e = both.edges_begin(); e != both.edges_end(); ++e) {
     const unsigned one = e->face()->data(), other = e->twin()->face()->data();
     if ((one & other & 1U) != 0 && one != other) out.push_back({e->source()->point(), e->target()->point()});
@@ -156,19 +170,19 @@ std::vector<FlatSegment> FlatSet::borders_of(const FlatSet& part) const {
 FlatSet unite(const FlatSet& a, const FlatSet& b) {
   if (a.empty() || b.whole()) return b;
   if (b.empty() || a.whole()) return a;
-  return FlatSet::combine(a, b, [](bool x, bool y) { return x || y; });
+  return FlatSet::combine(a, b, {0, 1, 1, 1});
 }
 
 FlatSet intersect(const FlatSet& a, const FlatSet& b) {
   if (a.empty() || b.whole()) return a;
   if (b.empty() || a.whole()) return b;
-  return FlatSet::combine(a, b, [](bool x, bool y) { return x && y; });
+  return FlatSet::combine(a, b, {0, 0, 0, 1});
 }
 
 FlatSet subtract(const FlatSet& a, const FlatSet& b) {
   if (a.empty() || b.empty()) return a;
   if (b.whole()) return FlatSet(a.triangle_);
-  return FlatSet::combine(a, b, [](bool x, bool y) { return x && !y; });
+  return FlatSet::combine(a, b, {0, 1, 0, 0});
 }
 
 }  // namespace clues::reference

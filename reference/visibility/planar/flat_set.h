@@ -2,6 +2,7 @@
 // not count, neither in a result nor in emptiness.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -43,8 +44,8 @@ class FlatSet {
 
  private:
   struct Faces;  // the arrangement
-  template <class Keep>
-  static FlatSet combine(const FlatSet& a, const FlatSet& b, const Keep& keep);
+  // `rule`: 1 for what is kept of what is in none, in a, in b, in both.
+  static FlatSet combine(const FlatSet& a, const FlatSet& b, const std::array<unsigned, 4>& rule);
   void take(std::shared_ptr<Faces> faces);
 
   std::shared_ptr<const Faces> faces_;  // none: empty

@@ -5,8 +5,8 @@
 #include "exact/area.h"
 #include "exact/complex/cell_cut.h"
 #include "reference/in_parallel.h"
+#include "reference/visibility/map/flat_sides.h"
 #include "reference/visibility/map/omega.h"
-#include "reference/visibility/map/side_faces.h"
 #include "reference/visibility/map/sides.h"
 
 namespace clues::reference {

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "reference/in_parallel.h"
-#include "reference/visibility/map/side_faces.h"
+#include "reference/visibility/map/flat_sides.h"
 #include "reference/visibility/map/sides.h"
 #include "reference/visibility/refinement/bounds.h"
 

@@ -14,6 +14,7 @@
 #include "exact/sight/scene_query.h"
 #include "reference/visibility/first_order.h"
 #include "scene/messages/error.h"
+#include "tests/point_within.h"
 
 namespace clues::planted {
 namespace {
@@ -86,14 +87,7 @@ Ids hit_by_random_rays(const Request& request) {
   std::normal_distribution<double> component;
   std::vector<bool> seen(request.mesh.triangles.size(), false);
   for (int ray = 0; ray < 1000; ++ray) {
-    Point from{};
-    double sum = 0;
-    for (const auto& corner : request.cell) {
-      const double w = weight(random);
-      sum += w;
-      for (std::size_t i = 0; i < 3; ++i) from[i] += w * corner[i];
-    }
-    for (double& x : from) x /= sum;
+    const Point from = point_within(request.cell, [&] { return weight(random); });
     const Point direction{component(random), component(random), component(random)};
     std::uint32_t nearest = 0;
     double least = std::numeric_limits<double>::infinity();
