@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -54,7 +55,7 @@ std::string to_ply(const reference::Remesh& remesh, const Attributes& attributes
   const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   fmt::format_to(to,
                  "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
-                 "{}element face {}\nproperty list uchar uint vertex_indices\n{}{}end_header\n",
+                 "{}element face {}\nproperty list uchar int vertex_indices\n{}{}end_header\n",
                  remesh.mesh.points.size(), coloured ? colour : "", remesh.mesh.triangles.size(),
                  coloured ? "" : colour, textured ? "property list uchar double texcoord\n" : "");
   for (std::size_t v = 0; v < remesh.mesh.points.size(); ++v) {
@@ -110,6 +111,8 @@ class GltfWriter {
     while (json.size() % 4 != 0) json.push_back(' ');
     std::string out;
     const auto word = [&](std::size_t x) {
+      if (x > std::numeric_limits<std::uint32_t>::max())
+        throw scene::Error(scene::ErrorCode::unsupported, "--remesh: a .glb has at most 4 GiB; write another format");
       for (const char byte : std::bit_cast<std::array<char, 4>>(static_cast<std::uint32_t>(x))) out.push_back(byte);
     };
     out += "glTF";
@@ -133,6 +136,10 @@ class GltfWriter {
 
  private:
   static_assert(std::endian::native == std::endian::little);
+  [[noreturn]] static void refuse_size() {
+    throw scene::Error(scene::ErrorCode::unsupported,
+                       "--remesh: glTF has floats, and coordinates are too large for them; write another format");
+  }
   template <class Number>
   void put(Number x) {
     for (const char byte : std::bit_cast<std::array<char, sizeof(Number)>>(x)) bytes_.push_back(byte);
@@ -151,7 +158,11 @@ class GltfWriter {
   nlohmann::json& floats(std::size_t width, const Value& value_of) {
     const std::size_t begin = bytes_.size();
     for (const auto& vertex : vertices_) {
-      for (std::size_t i = 0; i < width; ++i) put(static_cast<float>(value_of(vertex, i)));
+      for (std::size_t i = 0; i < width; ++i) {
+        const double value = value_of(vertex, i);
+        if (!(std::abs(value) <= std::numeric_limits<float>::max())) refuse_size();
+        put(static_cast<float>(value));
+      }
     }
     return accessor(begin, 34962, 5126, vertices_.size(), width == 3 ? "VEC3" : "VEC2");
   }
@@ -164,9 +175,7 @@ class GltfWriter {
     for (std::size_t i = 0; i < 3; ++i) {
       double least = remesh_.mesh.points[0][i], most = least;
       for (const auto& p : remesh_.mesh.points) {
-        if (!std::isfinite(p[i]))
-          throw scene::Error(scene::ErrorCode::unsupported,
-                             "--remesh: glTF has floats, and coordinates are too large for them; write another format");
+        if (!std::isfinite(p[i])) refuse_size();
         least = std::min(least, p[i]);
         most = std::max(most, p[i]);
       }

@@ -57,6 +57,8 @@ class SceneQuery {
     return found;
   }
 
+  // Whether all pieces of the complex are occluders.
+  bool is_whole() const { return occluders_.size() == complex_->pieces.size(); }
   // Whether piece t meets the closed cell (D3).
   bool meets_cell(std::uint32_t piece) const { return meets_cell_[piece]; }
   const CGAL::Bbox_3& bounds() const { return bounds_; }  // of scene and cell

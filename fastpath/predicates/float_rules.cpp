@@ -1,11 +1,29 @@
 // The floating-point environment, tried out rather than asked for.
 #include "fastpath/predicates/float_rules.h"
 
+#include <array>
 #include <limits>
 
 #include "scene/messages/error.h"
 
 namespace clues::fastpath {
+
+namespace {
+
+// As a compiler's vectorizer sees it: g++ 12 leaves out pairs of conversions here (CMakeLists.txt).
+[[gnu::noinline]] std::array<double, 3> as_floats(std::array<double, 3> x) {
+  for (double& value : x) value = static_cast<float>(value);
+  return x;
+}
+
+bool conversions_are_kept() {
+  volatile double third = 1.0 / 3;
+  const std::array<double, 3> x = as_floats({third, third / 5, third / 7});
+  volatile float one = static_cast<float>(third);
+  return x[0] == one && x[0] != third && x[1] != third / 5 && x[2] != third / 7;
+}
+
+}  // namespace
 
 void require_float_rules() {
   volatile double one = 1, half_ulp = 0x1p-53, tiny = std::numeric_limits<double>::min();
@@ -23,6 +41,12 @@ void require_float_rules() {
         scene::ErrorCode::bad_argument,
         "the floating-point environment is not the default one (rounding to nearest, subnormal numbers kept, no "
         "fused products); restore it in this thread before calling clues/fastpath");
+  }
+  static const bool kept = conversions_are_kept();
+  if (!kept) {
+    throw scene::Error(
+        scene::ErrorCode::internal,
+        "clues/fastpath was compiled so that conversions to float get lost: use -fno-tree-slp-vectorize");
   }
 }
 

@@ -244,8 +244,8 @@ class BallForm {
 double ball_form(const Quadrangle& samples, const ExactViewpoint& v, double known) {
   std::array<Seat, 4> seats;
   for (std::size_t i = 0; i < 4; ++i) {
-    std::array<const DepthSample*, 3> others{};
-    std::copy_if(samples.begin(), samples.end(), others.begin(), [&](const auto* s) { return s != samples[i]; });
+    std::array<const DepthSample*, 3> others{};  // by number: a sample may be there twice
+    for (std::size_t j = 0; j < 3; ++j) others[j] = samples[j < i ? j : j + 1];
     const auto minor = exact::affine_determinant(others, v);
     const mpq_class sign = i % 2 == 0 ? -1 : 1;
     Seat& seat = seats[i];

@@ -58,8 +58,8 @@ double general_form(const Quadrangle& q, const ExactViewpoint& v, double known) 
   EnclosedVector gradient;
   MatrixSum matrix;
   for (std::size_t i = 0; i < 4; ++i) {
-    std::array<const DepthSample*, 3> others{};
-    std::copy_if(q.begin(), q.end(), others.begin(), [&](const DepthSample* sample) { return sample != q[i]; });
+    std::array<const DepthSample*, 3> others{};  // by number: a sample may be there twice
+    for (std::size_t j = 0; j < 3; ++j) others[j] = q[j < i ? j : j + 1];
     const auto minor = exact::affine_determinant(others, v);
     const mpq_class sign = i % 2 == 0 ? -1 : 1;
     const Enclosure factor = mpq_class(sign * minor.value);

@@ -7,7 +7,7 @@
 
 namespace clues::reference {
 
-// For the vertices and triangles of the remesh, in the form of the input's. A triangle has texture coordinates where all pieces at its corners have.
+// For the vertices and triangles of the remesh, in the form of the input's. A triangle has texture coordinates where a piece at each of its corners has.
 struct CarriedAttributes {
   scene::MeshAttributes attributes;
   std::uint64_t across_seams =

@@ -172,6 +172,7 @@ class PlyAttributes {
     }
     if (colours == 3) out_.colours.push_back(colour);
     if (places == 2) {
+      if (!by_vertex_) out_.texture.clear();  // of faces that came before
       out_.texture.push_back(at);
       by_vertex_ = true;
     }

@@ -195,6 +195,8 @@ TEST(Bake, OthersStoresAreNotTouched) {
   refused({"bake", "scene.off", "--cells", "leaves", "-o", "b.bake"}, "has no leaves");
   refused({"bake", "scene.off", "--cells", "auto:0", "-o", "b.bake"}, "both above 0");
   refused({"bake", "scene.off", "--cells", "auto:1e-9", "-o", "b.bake"}, "take larger ones");
+  folder.write("empty.off", "OFF\n0 0 0\n");
+  refused({"bake", "empty.off", "--cells", "auto:1", "-o", "b.bake"}, "no triangles");
   refused({"bake", "scene.off", "--cells", "missing.txt", "-o", "b.bake"}, "missing.txt");
   folder.write("cells.txt", "a box:0,0,0,1,1,1\nb box:0,0,0,1,1\n");
   refused({"bake", "scene.off", "--cells", "cells.txt", "-o", "b.bake"}, "cells.txt:2: ");

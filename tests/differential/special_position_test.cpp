@@ -92,5 +92,38 @@ TEST(SpecialPosition, IsWhereAllSightLinesAre) {
   EXPECT_GT(counts.found, 1000);
 }
 
+// What is left of the one above the plane touches it at two points only; between them it is the other's, too, and is crossed.
+TEST(SpecialPosition, IsNotWhereTrianglesOverlapAcrossThePlane) {
+  fuzz::Case scene;
+  scene.mesh.points = {{-20, 5, -2}, {20, 5, -2}, {0, 5, 2}, {-20, 5, 2}, {20, 5, 2}, {0, 5, -2}};
+  scene.mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+  scene.cell = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  const auto cell = exact::ConvexCell::from_doubles(scene.cell);
+  const auto complex = exact::build_complex(scene.mesh, &cell);
+  const exact::SceneQuery query(complex, cell);
+  const reference::SpecialPosition special(query, cell.facets()[0].plane);
+  EXPECT_TRUE(special.free_viewpoint(cell.vertices(), {0, 10, 0}, false).has_value());
+}
+
+// Of a triangle in the plane that two walls cut, the middle piece is not among the occluders.
+TEST(SpecialPosition, IsNotBehindWhatIsLeftOut) {
+  fuzz::Case scene;
+  scene.mesh.points = {{-8, 4, 0}, {8, 4, 0},  {0, 6, 0},  {-2, 3, -1}, {-2, 8, -1},
+                       {-2, 5, 3}, {2, 3, -1}, {2, 8, -1}, {2, 5, 3}};
+  scene.mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  scene.cell = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  const auto cell = exact::ConvexCell::from_doubles(scene.cell);
+  const auto complex = exact::build_complex(scene.mesh, &cell);
+  std::vector<bool> occluders;
+  for (const auto& piece : complex.pieces) {
+    FT x(0);
+    for (const auto i : piece.corners) x = x + complex.points[i].x();
+    occluders.push_back(CGAL::abs(x) > FT(5));
+  }
+  const exact::SceneQuery query(complex, cell, occluders);
+  const reference::SpecialPosition special(query, cell.facets()[0].plane);
+  EXPECT_TRUE(special.free_viewpoint(cell.vertices(), {0, 10, 0}, false).has_value());
+}
+
 }  // namespace
 }  // namespace clues::tests

@@ -54,6 +54,7 @@ SideLintReport lint_side_suite(const std::filesystem::path& folder, const SideLi
     }
     if (path.stem() != topic.topic)
       report.findings.push_back(path.string() + ": the topic is not the name of the file");
+    bool complete = true;  // else there is nothing to be written
     for (auto& test : topic.cases) {
       ++report.cases;
       const auto say = [&](const std::string& what) {
@@ -62,15 +63,21 @@ SideLintReport lint_side_suite(const std::filesystem::path& folder, const SideLi
       if (!ids.insert(test.id).second) say("the id is there twice");
       if (!matches_glob(test.id, options.glob)) continue;
       ++report.selected;
-      if (!Suite::has_expectation(test)) Suite::fill_in(test);
-      auto flaws = Suite::flaws_of(test);
-      if (!flaws.empty() && options.write && options.accept) {
-        Suite::fill_in(test);
-        flaws = Suite::flaws_of(test);
+      try {
+        if (!Suite::has_expectation(test)) Suite::fill_in(test);
+        auto flaws = Suite::flaws_of(test);
+        if (!flaws.empty() && options.write && options.accept) {
+          Suite::fill_in(test);
+          flaws = Suite::flaws_of(test);
+        }
+        for (const auto& flaw : flaws) say(flaw);
+        report.proved += flaws.empty() ? 1 : 0;
+      } catch (const scene::Error& error) {
+        say(error.what());
+        complete = false;
       }
-      for (const auto& flaw : flaws) say(flaw);
-      report.proved += flaws.empty() ? 1 : 0;
     }
+    if (!complete) continue;
     const auto canonical = Suite::to_json_text(topic);
     if (canonical == text) continue;
     if (options.write) {

@@ -18,17 +18,9 @@ std::array<IntervalBox, 3> to_intervals(const Corners& t) {
 
 }  // namespace
 
-OneLabel::OneLabel(const Walker& walker, const PieceSet& pieces, const std::vector<const Apex*>& left_out)
-    : walker_(walker), pieces_(pieces) {
+OneLabel::OneLabel(const Walker& walker, const PieceSet& pieces, const LeftOut& left_out)
+    : walker_(walker), pieces_(pieces), left_out_(left_out) {
   for (const ValidPiece& p : pieces.pieces()) piece_bounds_.push_back(bounds_of(p));
-  for (const Apex* apex : left_out) {
-    std::vector<HalfSpace>& facets = anticones_.emplace_back();
-    const Plane* last = nullptr;  // the sectors of one facet follow each other
-    for (const ApexSector& s : apex->sectors()) {
-      if (s.plane != last) facets.push_back({s.plane->normal_approximate(), apex->x()->approximate()});
-      last = s.plane;
-    }
-  }
 }
 
 OneLabel::PieceBounds OneLabel::bounds_of(const ValidPiece& piece) {
@@ -48,14 +40,6 @@ OneLabel::PieceBounds OneLabel::bounds_of(const ValidPiece& piece) {
   return out;
 }
 
-bool OneLabel::outside_of_left_out(std::span<const IntervalBox> hull) const {
-  return std::all_of(anticones_.begin(), anticones_.end(), [&](const std::vector<HalfSpace>& facets) {
-    return std::any_of(facets.begin(), facets.end(), [&](const HalfSpace& facet) {
-      return std::all_of(hull.begin(), hull.end(), [&](const IntervalBox& x) { return facet.at(x).sup() < 0; });
-    });
-  });
-}
-
 SetLabel OneLabel::of_uncut(std::span<const IntervalBox> hull, const ExactPoint& p) const {
   Pool pool;
   const Walker::Label label = walker_.label(&p, pool, kLabelSeed);
@@ -63,7 +47,7 @@ SetLabel OneLabel::of_uncut(std::span<const IntervalBox> hull, const ExactPoint&
   // With the point, which may be beside the set: each might be outside of an A(x) that lies between the two.
   std::vector<IntervalBox> together(hull.begin(), hull.end());
   together.push_back(p.approximate());
-  if (label == Walker::Label::hidden && outside_of_left_out(together)) return SetLabel::hidden;
+  if (label == Walker::Label::hidden && left_out_.surely_misses(together)) return SetLabel::hidden;
   ++unresolved_;
   return SetLabel::visible;
 }

@@ -14,6 +14,12 @@
 // The point that is asked may be beside M, with nothing between: then M stands for the hull of both. (Each of the two outside of A(x) is not enough: A(x) may lie between
 // them, found/place-across-a-csv.obj.)
 //
+// (3) A source is asked at a place beside it. If a missing wedge passes between the two, it may count as hidden though it is lit by W alone: then its own wedges are missing, and
+// need not be in any closed A(x). Or it counts as lit though it is dark, and a sector that would be there without its false light is missing. That is no concern where the source as a whole is in one A(x), nor where the
+// way from its point y to the place is outside of all of them, and so is the part of the edge from y to both sides until it enters one, and stays there until the end: the space beside
+// that has one label, as M. Any other source is counted among X itself (Search::leave_out_doubtful_sources), a part of an edge with a convex set that holds the A(y) of all its
+// points, until none is left.
+//
 // One point of M outside A(x) says nothing about the rest of M: that took triangle 2 from tests/differential/limit-hides-a-tip.obj. The test is against the facets of A(x): M is outside if all its corners are
 // strictly in front of one, in intervals. (Where A(x) lies in a plane, as for x in the plane of a flat cell, that plane is all that is asked.)
 #pragma once
@@ -23,17 +29,17 @@
 #include <span>
 #include <vector>
 
+#include "fastpath/visibility/labels/left_out.h"
 #include "fastpath/visibility/labels/set_label.h"
 #include "fastpath/visibility/labels/walker.h"
 #include "fastpath/visibility/points/box.h"
-#include "fastpath/visibility/wedges/apex.h"
 
 namespace clues::fastpath {
 
 class OneLabel {
  public:
   // Keeps references; `pieces` are complete. Needs RoundedUp in scope, here and below.
-  OneLabel(const Walker& walker, const PieceSet& pieces, const std::vector<const Apex*>& left_out);
+  OneLabel(const Walker& walker, const PieceSet& pieces, const LeftOut& left_out);
 
   // Of a closed box that no surface touches which light meets.
   SetLabel of_box(const Box& box) const;
@@ -53,11 +59,6 @@ class OneLabel {
   std::uint64_t unresolved() const { return unresolved_; }
 
  private:
-  // The side of a plane to which the normal points at the base, as enclosures.
-  struct HalfSpace {
-    IntervalBox normal, base;
-    Interval at(const IntervalBox& x) const { return dot(normal, x - base); }
-  };
   // A piece as a part of its plane.
   struct PieceBounds {
     HalfSpace plane;
@@ -67,13 +68,11 @@ class OneLabel {
   bool piece_touches(std::size_t piece, const IntervalBox& box) const;
   bool piece_touches(std::size_t piece, const std::array<IntervalBox, 3>& corner) const;
   bool piece_in_plane(std::size_t piece, const Corners& triangle) const;
-  bool outside_of_left_out(std::span<const IntervalBox> hull) const;
 
   const Walker& walker_;
   const PieceSet& pieces_;
+  const LeftOut& left_out_;
   std::vector<PieceBounds> piece_bounds_;
-  std::vector<std::vector<HalfSpace>>
-      anticones_;  // of the apexes left out: what is in A(x) is in all of its half spaces
   mutable std::atomic<std::uint64_t> unresolved_{0};
 };
 

@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "fastpath/visibility/labels/left_out.h"
 #include "fastpath/visibility/labels/walker.h"
 #include "fastpath/visibility/search/options.h"
-#include "fastpath/visibility/wedges/apex.h"
 #include "fastpath/visibility/wedges/piece_set.h"
 #include "fastpath/visibility/wedges/workers.h"
 
@@ -26,8 +26,8 @@ class Search {
 
   const PieceSet& pieces() const;
   const Walker& walker() const;
-  // Apexes at which a limit of D17 left out wedges; what that means for labels is in one_label.h.
-  const std::vector<const Apex*>& left_out() const;
+  // Where a limit of D17 left out wedges; what that means for labels is in one_label.h.
+  const LeftOut& left_out() const;
 
  private:
   class Work;

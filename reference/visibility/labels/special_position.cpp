@@ -1,7 +1,7 @@
 // The points v whose segments to p meet one of the sets change where the line from p goes through a corner of a set, or where the border of a set crosses that of the
 // polygon. Between two such places on an edge of the polygon one point answers for all, and for those of the polygon behind it: their segments go on from there.
 // A set is an input triangle in the plane, or an edge or a corner with which one stands on it; a sight line that meets that comes to edges and corners of pieces, and crosses nothing
-// cleanly. What goes through the plane is no such set.
+// cleanly. What goes through the plane is no such set. Of a part of a complex there is a set for each piece instead: what is missing of a triangle leaves gaps.
 #include "reference/visibility/labels/special_position.h"
 
 #include <CGAL/Projection_traits_xy_3.h>
@@ -45,14 +45,14 @@ std::vector<Point3> hull_in(const Plane3& plane, const std::vector<Point3>& poin
 SpecialPosition::SpecialPosition(const exact::SceneQuery& scene, const Plane3& plane)
     : normal_(plane.orthogonal_vector()) {
   const exact::Complex& complex = scene.complex();
-  struct Triangle {
-    bool above = false, below = false;  // pieces that touch the plane have corners there
+  struct Part {                         // of the scene: an input triangle, or a piece
+    bool above = false, below = false;  // what of it touches the plane has corners there
     std::uint32_t piece = 0;
     std::set<std::uint32_t> on;  // points
   };
-  std::map<std::uint32_t, Triangle> triangles;
-  for (const std::uint32_t t : scene.candidates(exact::PlaneBoxTest(plane))) {
-    Triangle& of = triangles[complex.pieces[t].origins.front().triangle];
+  std::map<std::uint32_t, Part> parts;
+  const auto add = [&](std::uint32_t name, std::uint32_t t) {
+    Part& of = parts[name];
     of.piece = t;
     for (const std::uint32_t i : complex.pieces[t].corners) {
       const auto side = plane.oriented_side(complex.points[i]);
@@ -60,8 +60,15 @@ SpecialPosition::SpecialPosition(const exact::SceneQuery& scene, const Plane3& p
       of.below |= side == CGAL::ON_NEGATIVE_SIDE;
       if (side == CGAL::ON_ORIENTED_BOUNDARY) of.on.insert(i);
     }
+  };
+  for (const std::uint32_t t : scene.candidates(exact::PlaneBoxTest(plane))) {
+    if (!scene.is_whole()) {
+      add(t, t);
+    } else {
+      for (const exact::Origin& origin : complex.pieces[t].origins) add(origin.triangle, t);
+    }
   }
-  for (const auto& [triangle, of] : triangles) {
+  for (const auto& [name, of] : parts) {
     if (of.on.empty() || (of.above && of.below)) continue;
     std::vector<Point3> points;
     for (const std::uint32_t i : of.on) points.push_back(complex.points[i]);

@@ -9,11 +9,14 @@
 
 namespace clues::reference {
 
-// What in a plane with V makes sight lines that run in it special: convex sets, of one input triangle each.
+// What in a plane with V makes sight lines that run in it special: convex sets, of one input triangle or piece each.
 class SpecialPosition {
  public:
   // `plane` holds V, which is flat or a segment. O(pieces that touch the plane).
   SpecialPosition(const exact::SceneQuery& scene, const exact::Plane3& plane);
+
+  // Whether there are so few sets that an answer costs less than hundreds of trials.
+  bool is_quick() const { return sets_.size() <= 64; }
 
   // On the border of a convex polygon or segment `viewpoints`, a part of V that p, a point of the plane, is not inside of: a point from which the sight line
   // to p, and so those from next to it, are not special for any of these reasons. None: then crossings(v, p, off_planes) is degenerate for each v of the

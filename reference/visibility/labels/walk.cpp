@@ -63,7 +63,9 @@ std::optional<Point3> Walker::generic_viewpoint(const std::vector<exact::Plane3>
     return std::nullopt;
   }
   for (const exact::Plane3& side : sides) part = exact::clipped(part, side);
-  const auto found = (own ? *own : *in_cell_plane_).free_viewpoint(part, p, off_planes);
+  const SpecialPosition& position = own ? *own : *in_cell_plane_;
+  if (!position.is_quick()) return std::nullopt;
+  const auto found = position.free_viewpoint(part, p, off_planes);
   special = !found;
   return found;
 }
@@ -247,7 +249,7 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
       }
       v = choose(mix(seed * 1000003 + static_cast<std::uint64_t>(depth) * 1009 + static_cast<std::uint64_t>(attempt)),
                  anchor, good);
-      if (generic) {
+      if (generic && attempt % 2 == 0) {
         const Point3 near = *generic + FT(std::ldexp(1, -attempt)) * (v - *generic);
         if (good(near)) v = exact::collapsed(near);
       }
