@@ -128,7 +128,8 @@ TEST(JudgeOfRemeshes, FindsFloatsThatAreNone) {
   };
   for (const auto& p : m.remesh.mesh.points) {
     for (const double x : p) {
-      if (x != 0) EXPECT_EQ(std::remainder(x, std::ldexp(1.0, std::ilogb(x) - 23)), 0) << x;
+      const double unit = x == 0 ? 1 : std::ldexp(1.0, std::ilogb(x) - 23);
+      EXPECT_EQ(std::remainder(x, unit), 0) << x;
     }
   }
   EXPECT_TRUE(judged());
