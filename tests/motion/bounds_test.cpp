@@ -277,6 +277,15 @@ TEST(DelaunayBound, NothingNearerViolates) {
   EXPECT_GT(4 * positive, cases * 2);
 }
 
+// Of a triangle with two sides: opposite each edge is its own third corner.
+TEST(DelaunayBound, TakesASampleThatIsThereTwice) {
+  const scene::DepthSample a{{1, 0, 2}}, b{{0, 1, 2}}, c{{-1, -1, 3}}, again = c;
+  const auto origin = exact::exact_viewpoint({0, 0, 0});
+  const double bound = reference::delaunay_bound(a, b, c, c, origin);
+  EXPECT_GE(bound, 0);
+  EXPECT_EQ(bound, reference::delaunay_bound(a, b, c, again, origin));
+}
+
 // What the second form is for: small quadrangles on a wall keep their proportions, and the first form's do not.
 TEST(DelaunayBound, KeepsItsProportionsWhenQuadranglesGetSmall) {
   const auto origin = exact::exact_viewpoint({0, 0, 0});
