@@ -63,13 +63,11 @@ class Search::Work {
     sources.start_round(cuts);
     counts.sources = std::max<std::uint64_t>(counts.sources, sources.of_edges().size());
     new_cuts.assign(scene.edges.size(), {});
-    for (std::vector<Job> waiting = light(0); !waiting.empty();) {
-      const std::size_t first = set.pieces().size();
-      set.add(build(next_batch(waiting)));
-      meet_edges(first);
-      const std::vector<Job> jobs = light(first);
-      waiting.insert(waiting.end(), jobs.begin(), jobs.end());
-    }
+    too_intricate.clear();
+    in_doubt = false;
+    spread();
+    in_doubt = true;
+    spread();
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     std::vector<ValidPiece> merged = build(merged_jobs());
     cut_coplanar(merged);
@@ -82,6 +80,17 @@ class Search::Work {
     set.clear();
     if (!changed) set.add(std::move(merged));
     return changed;
+  }
+
+  // Lights what is visible, and all that follows from it. In doubt: also what counts as visible.
+  void spread() {
+    for (std::vector<Job> waiting = light(set.pieces().size()); !waiting.empty();) {
+      const std::size_t first = set.pieces().size();
+      set.add(build(next_batch(waiting)));
+      meet_edges(first);
+      const std::vector<Job> jobs = light(first);
+      waiting.insert(waiting.end(), jobs.begin(), jobs.end());
+    }
   }
 
   // Takes what is built before the next look at what it lights: all, but for a dial.
@@ -116,8 +125,10 @@ class Search::Work {
 
   // The wedges that sources make which the pieces from number `first` on light: their own (D10, D11), and those at the contour vertices they light (D12).
   std::vector<Job> light(std::size_t first) {
-    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first);
-    const auto is_doubtful = [](const auto& source) { return source.walk.end == Walk::End::unresolved; };
+    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first, in_doubt);
+    const auto is_doubtful = [this](const auto& source) {
+      return in_doubt || source.walk.end == Walk::End::unresolved;
+    };
     for (const std::size_t i : newly_lit_vertices) {
       const Sources::OfVertex& v = sources.of_vertices()[i];
       contacts.add(contacts.corner(v.point), {Probe::Kind::sight, v.beside, {}, nullptr, 0, nullptr, is_doubtful(v)});
@@ -148,6 +159,11 @@ class Search::Work {
       return out;
     });
     contacts.find_sectors(lit);
+    // That their sectors exist is in doubt.
+    const auto known = std::stable_partition(lit.begin(), lit.end(), [](const Contact* c) { return !c->has_all_sectors; });
+    too_intricate.insert(too_intricate.end(), known, lit.end());
+    lit.erase(known, lit.end());
+    if (in_doubt) lit.insert(lit.end(), too_intricate.begin(), too_intricate.end());
     for (Contact* c : lit) {
       for (const std::uint32_t k : Contacts::existing_sectors(*c)) {
         if (c->built[k]) continue;
@@ -302,7 +318,7 @@ class Search::Work {
   void meet(const ValidPiece& piece, const Meeting& m, bool after, bool before) {
     const OnWedge& on = *piece.on;
     Contact* c = m.at_vertex ? contacts.corner(m.id) : contacts.csv(m.at);
-    Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr, false};
+    Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr, in_doubt};
     if (!m.at_vertex) {
       new_cuts[m.id].push_back(c->x);
       const int generation = piece.generation + 1;
@@ -471,6 +487,8 @@ class Search::Work {
   Sources sources;
   std::vector<std::vector<std::unique_ptr<OnWedge>>> edge_wedges;  // per contour edge and touching vertex
   std::vector<bool> is_contour;
+  bool in_doubt = false;                // what is lit now is lit because something counts as visible
+  std::vector<Contact*> too_intricate;  // lit in this round
   std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
   std::map<std::tuple<const OnWedge*, const ExactPoint*, std::uint32_t>, const ExactPoint*> coplanar_cuts;
   std::set<const Contact*> csvs_met;  // in this round

@@ -184,17 +184,14 @@ bool Sources::newly_visible(OfVertex& s, std::size_t first, Pool& pool) {
   return newly_visible(s.beside, s.walk, s.seed, 0, pool);
 }
 
-Sources::Numbers Sources::newly_lit(std::size_t first) {
+Sources::Numbers Sources::newly_lit(std::size_t first, bool in_doubt) {
   const std::size_t edges = of_edges_.size();
   std::vector<char> visible(edges + of_vertices_.size(), 0);
   workers_.for_each(visible.size(), [&](std::size_t i, Workers::Worker& worker) {
-    if (i < edges) {
-      OfEdge& s = of_edges_[i];
-      visible[i] = !s.lit && newly_visible(s, first, worker.pool) ? 1 : 0;
-    } else {
-      OfVertex& s = of_vertices_[i - edges];
-      visible[i] = !s.lit && newly_visible(s, first, worker.pool) ? 1 : 0;
-    }
+    const auto look = [&](auto& s) {
+      visible[i] = !s.lit && newly_visible(s, first, worker.pool) && (in_doubt || !is_in_doubt(s)) ? 1 : 0;
+    };
+    i < edges ? look(of_edges_[i]) : look(of_vertices_[i - edges]);
   });
   Numbers lit;
   for (std::size_t i = 0; i < visible.size(); ++i) {
@@ -206,13 +203,9 @@ Sources::Numbers Sources::newly_lit(std::size_t first) {
 }
 
 std::uint64_t Sources::unresolved() const {
-  // A wedge that only separates makes nothing visible, also where it should not exist.
-  const auto edges = std::count_if(of_edges_.begin(), of_edges_.end(), [&](const OfEdge& s) {
-    return s.walk.end == Walk::End::unresolved && !contours_[s.contour].holds_cell;
-  });
-  const auto vertices = std::count_if(of_vertices_.begin(), of_vertices_.end(), [](const OfVertex& s) {
-    return s.walk.end == Walk::End::unresolved && !s.separates;
-  });
+  const auto in_doubt = [this](const auto& s) { return is_in_doubt(s); };
+  const auto edges = std::count_if(of_edges_.begin(), of_edges_.end(), in_doubt);
+  const auto vertices = std::count_if(of_vertices_.begin(), of_vertices_.end(), in_doubt);
   return static_cast<std::uint64_t>(edges + vertices);
 }
 

@@ -52,14 +52,19 @@ class Sources {
 
   const std::vector<OfEdge>& of_edges() const { return of_edges_; }
   const std::vector<OfVertex>& of_vertices() const { return of_vertices_; }
-  // Those that become visible by the pieces from number `first` on, ascending; from here on they are lit.
+  // Those that become visible by the pieces from number `first` on, ascending; from here on they are lit. In doubt: also those that count as visible.
   struct Numbers {
     std::vector<std::size_t> of_edges, of_vertices;
   };
-  Numbers newly_lit(std::size_t first);
+  Numbers newly_lit(std::size_t first, bool in_doubt);
 
   std::uint64_t walks() const { return walks_; }
-  std::uint64_t unresolved() const;  // sources that count as visible without a proof
+  std::uint64_t unresolved() const;  // sources that count as visible without a proof: is_in_doubt
+  // A wedge that only separates (T10) makes nothing visible, also where it should not exist: no doubt comes of it.
+  bool is_in_doubt(const OfEdge& s) const {
+    return s.walk.end == Walk::End::unresolved && !contours_[s.contour].holds_cell;
+  }
+  static bool is_in_doubt(const OfVertex& s) { return s.walk.end == Walk::End::unresolved && !s.separates; }
 
  private:
   Walk walk(const ExactPoint* p, std::uint64_t seed, Pool& pool);

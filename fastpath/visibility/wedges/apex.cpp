@@ -268,7 +268,7 @@ bool Apex::exists(const ApexSector& s, const Picture<NT>& around) const {
     if (on_edge_ && !star.spreads(l.beside, inner, around.anticone, along)) continue;
     exists = true;
     // A point of the visible part of a crossed edge reaches whatever its face allows.
-    if (l.lit_end && s.plane->side(*l.lit_end) < 0) return false;
+    if (!l.doubtful && l.lit_end && s.plane->side(*l.lit_end) < 0) return false;
   }
   return exists;
 }

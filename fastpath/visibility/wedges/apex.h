@@ -29,7 +29,7 @@ struct Probe {
   const Plane* plane = nullptr;         // contour, csv
   int aside = 0;                        // csv: +1 counter-clockwise about the plane's normal, -1 clockwise
   const ExactPoint* lit_end = nullptr;  // csv on an edge: the edge's end in H-
-  // Visible only because nothing is known (a source without a walk to an end): walks from elsewhere may call the same space hidden. So it makes sectors, and leaves none out.
+  // Visible only if what nothing is known about is: walks from elsewhere may call the same space hidden. So it makes sectors, and leaves none out (search.h).
   bool doubtful = false;
   bool operator==(const Probe&) const = default;
 };

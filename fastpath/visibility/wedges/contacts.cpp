@@ -112,6 +112,7 @@ void Contacts::find_sectors(const std::vector<Contact*>& contacts) {
       if (!c.has_all_sectors) sectors = c.apex->existing(c.probes);
     } catch (const scene::Error& error) {
       if (error.code() != scene::ErrorCode::internal) throw;
+      c.has_all_sectors = true;
       ++fallbacks_;
     }
     c.known_sectors.emplace_back(c.probes, std::move(sectors));

@@ -67,26 +67,11 @@ class Search {
     new_cuts_.assign(complex_.edges.size(), {});
     sources_ = edge_sources(scene_, walker_, contours_, cuts_, std::move(sources_), statistics_.walks);
 
-    std::vector<std::size_t> lit;
-    for (std::size_t i = 0; i < sources_.size(); ++i) {
-      if (sources_[i].walk.ends_at_cell || sources_[i].walk.unresolved) lit.push_back(i);
-    }
-    for (VertexSource& s : vertex_sources_) {
-      s.lit = false;
-      if (s.walk.ends_at_cell || s.walk.unresolved) light_vertex(s);
-    }
-    std::vector<Job> waiting = light(lit);
-    while (!waiting.empty()) {
-      report();
-      const std::size_t first = wedges_.pieces().size();
-      wedges_.add(maker_.build(next_batch(waiting)));
-      for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
-      for (VertexSource& s : vertex_sources_) {
-        if (!s.lit && reached(s, first)) light_vertex(s);
-      }
-      const std::vector<Job> jobs = light(newly_lit(first));
-      waiting.insert(waiting.end(), jobs.begin(), jobs.end());
-    }
+    for (VertexSource& s : vertex_sources_) s.lit = false;
+    in_doubt_ = false;
+    spread();
+    in_doubt_ = true;
+    spread();
 
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     wedges_ = WedgeSet(scene_);
@@ -106,6 +91,34 @@ class Search {
     return changed;
   }
 
+  // Lights what is visible, and all that follows from it. In doubt: also what counts as visible.
+  void spread() {
+    std::vector<std::size_t> lit;
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      const Source& s = sources_[i];
+      if (!s.lit && (s.walk.ends_at_cell || (s.walk.unresolved && !waits(s)))) lit.push_back(i);
+    }
+    for (VertexSource& s : vertex_sources_) {
+      if (!s.lit && (s.walk.ends_at_cell || (s.walk.unresolved && !waits(s)))) light_vertex(s);
+    }
+    std::vector<Job> waiting = light(lit);
+    while (!waiting.empty()) {
+      report();
+      const std::size_t first = wedges_.pieces().size();
+      wedges_.add(maker_.build(next_batch(waiting)));
+      for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
+      for (VertexSource& s : vertex_sources_) {
+        if (!s.lit && reached(s, first)) light_vertex(s);
+      }
+      const std::vector<Job> jobs = light(newly_lit(first));
+      waiting.insert(waiting.end(), jobs.begin(), jobs.end());
+    }
+  }
+
+  // Whether a source that counts as visible for want of an answer is left for later. Not if its wedges only separate (T10): they show nothing.
+  bool waits(const Source& s) const { return !in_doubt_ && s.walk.unresolved && !contours_[s.contour].holds_cell; }
+  bool waits(const VertexSource& s) const { return !in_doubt_ && s.walk.unresolved && !s.separates; }
+
   // Whether the pieces from index `first` on make the source visible.
   bool reached(VertexSource& s, std::size_t first) {
     Meets label = walker_.visible(start_of(s), s.walk, wedges_, first);
@@ -115,7 +128,7 @@ class Search {
       label = walker_.visible(start_of(s), s.walk, wedges_, 0);
     }
     s.walk.unresolved |= label == Meets::degenerate;
-    return label != Meets::no;
+    return label != Meets::no && !waits(s);
   }
 
   // Takes what is built before the next look at what it lights: all, but for a dial.
@@ -132,7 +145,7 @@ class Search {
   void light_vertex(VertexSource& s) {
     s.lit = true;
     Apex* apex = corner(s.point);
-    s.probe.doubtful = s.walk.unresolved;
+    s.probe.doubtful = in_doubt_ || s.walk.unresolved;
     apex->add_probe(s.probe);
     touched_.insert(apex);
   }
@@ -154,6 +167,7 @@ class Search {
         s.walk = walker_.walk(start_of(s, contours_), ++s.seed);
         label[i] = walker_.visible(start_of(s, contours_), s.walk, wedges_, 0);
       }
+      if (waits(s)) label[i] = Meets::no;
     });
     std::vector<std::size_t> lit;
     for (std::size_t i = 0; i < label.size(); ++i) {
@@ -177,7 +191,7 @@ class Search {
         Apex* apex = corner(end);
         const Vector3 along = complex_.points[other] - x;
         Probe probe = apex->probe(along, CGAL::NULL_VECTOR, c.plane.orthogonal_vector());
-        probe.doubtful = s.walk.unresolved;
+        probe.doubtful = in_doubt_ || s.walk.unresolved;
         apex->add_probe(probe);
         touched_.insert(apex);
       }
@@ -251,6 +265,7 @@ class Search {
     const OnWedge& on = *piece.on_wedge;
     const auto add = [&](const Vector3& aside) {
       Probe probe = apex->probe(back, aside, n);
+      probe.doubtful = in_doubt_;
       if (apex->on_edge()) {
         const Vector3 along = complex_.points[complex_.edges[c.id].b] - complex_.points[complex_.edges[c.id].a];
         probe.lit_edge = CGAL::is_positive(n * along) ? along : -along;
@@ -352,6 +367,7 @@ class Search {
   std::vector<Source> sources_;
   std::vector<VertexSource> vertex_sources_;
   WedgeSet wedges_;
+  bool in_doubt_ = false;  // what is lit now is lit because something counts as visible
   std::map<std::pair<std::uint32_t, Point3>, std::unique_ptr<Apex>, CsvLess> csvs_;
   std::map<std::uint32_t, std::unique_ptr<Apex>> corners_;
   std::set<Apex*> touched_;

@@ -116,9 +116,9 @@ std::vector<std::size_t> Apex::new_sectors() {
       exists |= spreads_here;
       // Visible space strictly in H+ that surely reaches the points just off `middle` in H+ too. A point of the visible part of a
       // crossed edge reaches whatever its own face allows.
-      bounds_nothing |=
-          (p.lit_edge != CGAL::NULL_VECTOR && spreads_here && CGAL::is_negative(n * p.lit_edge)) ||
-          (!p.doubtful && CGAL::is_negative(n * p.beside.limit) && star_.free_between(p.beside, s.middle));
+      if (p.doubtful) continue;
+      bounds_nothing |= (p.lit_edge != CGAL::NULL_VECTOR && spreads_here && CGAL::is_negative(n * p.lit_edge)) ||
+                        (CGAL::is_negative(n * p.beside.limit) && star_.free_between(p.beside, s.middle));
     }
     if (!exists) continue;
     if (bounds_nothing) continue;

@@ -24,7 +24,7 @@ struct Probe {
   Beside beside;
   exact::Vector3 actual;
   exact::Vector3 lit_edge = CGAL::NULL_VECTOR;  // at a CSV: the direction of the visible part of the crossed edge
-  // Visible only because its source's walk does not end: walks from elsewhere may call the same space hidden. So it makes sectors, and leaves none out.
+  // Visible only if what nothing is known about is: walks from elsewhere may call the same space hidden. So it makes sectors, and leaves none out (fixpoint.h).
   bool doubtful = false;
 };
 
