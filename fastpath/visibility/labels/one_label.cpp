@@ -42,7 +42,7 @@ OneLabel::PieceBounds OneLabel::bounds_of(const ValidPiece& piece) {
 
 SetLabel OneLabel::of_uncut(std::span<const IntervalBox> hull, const ExactPoint& p) const {
   Pool pool;
-  const Walker::Label label = walker_.label(&p, pool, kLabelSeed);
+  const Walker::Label label = walker_.label(&p, left_out_, pool, kLabelSeed);
   if (label == Walker::Label::visible) return SetLabel::visible;
   // With the point, which may be beside the set: each might be outside of an A(x) that lies between the two.
   std::vector<IntervalBox> together(hull.begin(), hull.end());

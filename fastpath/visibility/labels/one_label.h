@@ -6,7 +6,8 @@
 // surface that light meets and no piece of W cut M, and let M be disjoint from the closed A(x) of every x in X. If the walk from one point of M calls it hidden, no point of M is in Omega.
 // Proof. A(x) is x and a convex cone; so y in A(x) gives y - x + (cone of y - V) in the cone of x - V: A(y) lies in A(x), and the same holds for the closed ones.
 // (1) What a wedge with an apex or on an edge at y could show lies in the closed A(y): a leg of a walk that crosses the wedge at q runs on in A(q), so does every later leg, whose
-// m is on the one before; and q is in the closed A(y).
+// m is on the one before; and q is in the closed A(y). So a walk from a point outside is right as far as it follows sight lines. Where it does not (from the place beside m to p, a rounding
+// off the line; from the bottom of a groove, or a corner) no piece of W is in the way, but a missing one may be: a walk counts only if the ways there keep out of every A(x).
 // (2) Whatever is in W of the unlimited search and not in W comes from X: its source y, a vertex or a part of an edge, or one of its probes, was lit by a wedge of X, or of another such source.
 // By (1), going back, y is in the closed A(x) for some x in X, and so is all that its wedges could show. That is where the walks by W can be wrong, and only there.
 // So the point of M that was asked is hidden. Were another point of M in Omega, a missing wedge would cross M between the two; it lies in a closed A(x), and M keeps out of it.
@@ -17,7 +18,7 @@
 // (3) A source is asked at a place beside it. If a missing wedge passes between the two, it may count as hidden though it is lit by W alone: then its own wedges are missing, and
 // need not be in any closed A(x). Or it counts as lit though it is dark, and a sector that would be there without its false light is missing. That is no concern where the source as a whole is in one A(x), nor where the
 // way from its point y to the place is outside of all of them, and so is the part of the edge from y to both sides until it enters one, and stays there until the end: the space beside
-// that has one label, as M. Any other source is counted among X itself (Search::leave_out_doubtful_sources), a part of an edge with a convex set that holds the A(y) of all its
+// that has one label, as M; and its walk counts, as above. Any other source is counted among X itself (Search::leave_out_doubtful_sources), a part of an edge with a convex set that holds the A(y) of all its
 // points, until none is left.
 //
 // One point of M outside A(x) says nothing about the rest of M: that took triangle 2 from tests/differential/limit-hides-a-tip.obj. The test is against the facets of A(x): M is outside if all its corners are

@@ -22,6 +22,13 @@ constexpr auto kNothing = [](const Plane&) { return false; };
 
 }  // namespace
 
+bool keeps_out(const Walk& walk, const LeftOut& left_out, std::size_t i) {
+  return std::all_of(walk.legs.begin(), walk.legs.end(), [&](const Leg& leg) {
+    const ExactPoint* from = leg.aside_from();
+    return !from || left_out.surely_misses(i, from->approximate(), leg.p->approximate());
+  });
+}
+
 Walker::Walker(const LocalScene& scene, const PieceSet& pieces, std::int64_t longest)
     : scene_(&scene), pieces_(&pieces), longest_(longest == exact::Dials::kOwn ? kLongestWalk : longest) {
   const RoundedUp rounded_up;
@@ -191,12 +198,16 @@ Crossing Walker::visible(const Walk& walk, std::size_t first) const {
   return result;
 }
 
-Walker::Label Walker::label(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
+Walker::Label Walker::label(const ExactPoint* p, const LeftOut& left_out, Pool& pool, std::uint64_t seed) const {
   for (std::uint64_t attempt = 0; attempt < 12; ++attempt) {
     const Walk made = walk(p, pool, seed + attempt * 7919);
     if (made.end == Walk::End::unresolved) continue;
     const Crossing c = visible(made, 0);
-    if (c != Crossing::touch) return c == Crossing::yes ? Label::visible : Label::hidden;
+    if (c == Crossing::yes) return Label::visible;
+    if (c == Crossing::touch) continue;
+    bool counts = true;
+    for (std::size_t i = 0; counts && i < left_out.size(); ++i) counts = keeps_out(made, left_out, i);
+    if (counts) return Label::hidden;
   }
   return Label::unresolved;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "exact/dials.h"
+#include "fastpath/visibility/labels/left_out.h"
 #include "fastpath/visibility/wedges/piece_set.h"
 
 namespace clues::fastpath {
@@ -22,6 +23,9 @@ struct Leg {
   int side = 1;              // of the piece, that p is on: 1 front, -1 back
   bool from_edge = false;    // m is on an edge of the piece, the bottom of a groove in which all is hidden
   bool from_corner = false;  // m is a corner of the piece, and all next to it is hidden (corner.h)
+
+  // From where to p the walk goes beside a sight line, or along none (one_label.h, 1); null: nowhere.
+  const ExactPoint* aside_from() const { return next ? next : from_edge || from_corner ? m : nullptr; }
 };
 
 struct Walk {
@@ -30,6 +34,9 @@ struct Walk {
   End end = End::surface;
   std::vector<Leg> legs;  // from p towards the cell
 };
+
+// Whether a walk surely keeps out of number `i` of what was left out, where it follows no sight line. Needs RoundedUp in scope.
+bool keeps_out(const Walk& walk, const LeftOut& left_out, std::size_t i);
 
 class Walker {
  public:
@@ -44,8 +51,8 @@ class Walker {
   Crossing leg_crossed(const Leg& leg, std::size_t first) const;
   // The label at the start of a walk by the pieces from number `first` on; touch: make another walk.
   Crossing visible(const Walk& walk, std::size_t first) const;
-  // Walks until a walk is in general position.
-  Label label(const ExactPoint* p, Pool& pool, std::uint64_t seed) const;
+  // Walks until a walk is in general position, and keeps out of what was left out where it follows no sight line. Needs RoundedUp in scope.
+  Label label(const ExactPoint* p, const LeftOut& left_out, Pool& pool, std::uint64_t seed) const;
 
   // A point of int V for candidate number i.
   const ExactPoint* viewpoint(std::uint64_t i) const { return viewpoints_[i % viewpoints_.size()]; }

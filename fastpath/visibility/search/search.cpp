@@ -392,6 +392,7 @@ class Search::Work {
   // A source with a place (one_label.h, 3): a part of an edge from lo to hi with a point y of it, or a vertex, which is all three.
   struct Placed {
     const ExactPoint *lo = nullptr, *hi = nullptr, *y = nullptr, *beside = nullptr;
+    const Walk* walk = nullptr;
     const ContourEdge* contour = nullptr;  // none: a vertex
     std::uint32_t vertex = 0;
     std::size_t looked_at = 0;  // how many of what is left out
@@ -400,18 +401,21 @@ class Search::Work {
   std::vector<Placed> placed_sources() const {
     std::vector<Placed> found;
     for (const Sources::OfEdge& s : sources.of_edges()) {
-      if (s.beside) found.push_back({s.part.lo, s.part.hi, s.part.y, s.beside, &contours[s.contour], 0, 0, false});
+      if (s.beside)
+        found.push_back({s.part.lo, s.part.hi, s.part.y, s.beside, &s.walk, &contours[s.contour], 0, 0, false});
     }
     for (const Sources::OfVertex& s : sources.of_vertices()) {
       const ExactPoint* x = &scene.points[s.point];
-      if (s.walk.end != Walk::End::unresolved) found.push_back({x, x, x, s.beside, nullptr, s.point, 0, false});
+      if (s.walk.end != Walk::End::unresolved)
+        found.push_back({x, x, x, s.beside, &s.walk, nullptr, s.point, 0, false});
     }
     return found;
   }
 
   enum class Doubt { none, settled, left_out };
   Doubt doubt_of(const Placed& s, std::size_t i) const {
-    const bool place_misses = left_out.surely_misses(i, s.y->approximate(), s.beside->approximate());
+    const bool place_misses = left_out.surely_misses(i, s.y->approximate(), s.beside->approximate()) &&
+                              keeps_out(*s.walk, left_out, i);
     if (place_misses && left_out.surely_misses(i, s.lo->approximate(), s.hi->approximate())) return Doubt::none;
     const bool holds_lo = left_out.holds(i, *s.lo), holds_hi = left_out.holds(i, *s.hi);
     if (holds_lo && holds_hi) return Doubt::settled;

@@ -270,6 +270,12 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   }
 }
 
+bool Walk::may_run_through(const LeftOut& left_out) const {
+  return std::any_of(legs.begin(), legs.end(), [&](const Leg& leg) {
+    return (leg.from_edge || leg.from_corner) && left_out.may_reach({leg.m, leg.p});
+  });
+}
+
 Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const {
   if (walk.ends_at_cell || walk.unresolved) return Meets::yes;
   Meets result = Meets::no;
@@ -339,11 +345,16 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
   return result;
 }
 
-Walker::Label Walker::label(const Start& start, const WedgeSet& wedges, std::uint64_t seed) const {
+Walker::Label Walker::label(const Start& start, const WedgeSet& wedges, const LeftOut& left_out,
+                            std::uint64_t seed) const {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const Walk made = walk(start, seed + static_cast<std::uint64_t>(attempt) * 7919);
     const Meets m = visible(start, made, wedges, 0);
-    if (m != Meets::degenerate) return {m == Meets::yes, made.unresolved};
+    if (m == Meets::yes) return {true, made.unresolved};
+    if (m == Meets::no) {
+      const bool in_doubt = made.may_run_through(left_out);
+      return {in_doubt, in_doubt};
+    }
   }
   throw scene::Error(scene::ErrorCode::internal, "walk: no walk in general position with the wedges");
 }

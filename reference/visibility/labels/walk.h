@@ -32,6 +32,7 @@
 #include "exact/dials.h"
 #include "exact/sight/scene_query.h"
 #include "reference/visibility/labels/special_position.h"
+#include "reference/visibility/wedges/anticone.h"
 #include "reference/visibility/wedges/contour.h"
 #include "reference/visibility/wedges/wedge_set.h"
 
@@ -46,6 +47,9 @@ struct Leg {
 };
 
 struct Walk {
+  // Whether an anti-cone may reach the leg that is no part of a sight line, if it has one.
+  bool may_run_through(const LeftOut& left_out) const;
+
   bool ends_at_cell = false;
   bool unresolved = false;  // never ends: the label is visible, as a counted fallback
   bool special = false;   // for want of a sight line in general position to where it starts; another start may have one
@@ -81,10 +85,10 @@ class Walker {
 
   struct Label {
     bool visible = false;
-    bool fallback = false;  // visible only because the walk was unresolved
+    bool fallback = false;  // visible only because the walk was unresolved, or says nothing (LeftOut)
   };
   // Walks with one seed after another until a walk is in general position with all the wedges.
-  Label label(const Start& start, const WedgeSet& wedges, std::uint64_t seed) const;
+  Label label(const Start& start, const WedgeSet& wedges, const LeftOut& left_out, std::uint64_t seed) const;
 
  private:
   using Good = std::function<bool(const exact::Point3&)>;

@@ -218,13 +218,13 @@ class SideMapper {
       const Start start{r.sample, SurfaceSide{r.piece, r.front}, nullptr};
       ++out.walks;
       try {
-        const Walker::Label label = walker_.label(start, fixpoint_.wedges, kRegionSeed + which);
+        const Walker::Label label = walker_.label(start, fixpoint_.wedges, fixpoint_.left_out, kRegionSeed + which);
         if (label.fallback && which < kSamples) continue;  // another point of the region may be easier to decide
         r.visible = label.visible;
         out.fallbacks += label.fallback;
         if (options_.check_two_walks) {
           ++out.walks;
-          const Walker::Label second = walker_.label(start, fixpoint_.wedges, kSecondSeed + which);
+          const Walker::Label second = walker_.label(start, fixpoint_.wedges, fixpoint_.left_out, kSecondSeed + which);
           out.disagreements += !label.fallback && !second.fallback && second.visible != label.visible;
         }
       } catch (const scene::Error&) {

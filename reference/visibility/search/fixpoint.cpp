@@ -48,9 +48,10 @@ class Search {
       ++statistics_.rounds;
       changed = round();
     }
-    count();
     Fixpoint out{std::move(wedges_), {}, {}, {}};
     for (const Apex* apex : left_out_) out.left_out.add(apex->x(), scene_.cell());
+    if (!out.left_out.empty()) leave_out_doubtful_sources(out.left_out);
+    count(out);
     find_lit(out);
     return out;
   }
@@ -303,20 +304,50 @@ class Search {
     return slot.get();
   }
 
+  // Hidden sources whose walk says nothing (anticone.h), until none is left that an anti-cone does not hold anyway.
+  void leave_out_doubtful_sources(LeftOut& left_out) const {
+    std::vector<const Source*> parts;
+    std::vector<const VertexSource*> vertices;
+    const auto is_open = [](const Walk& w) { return !w.legs.empty() && (w.legs.back().from_edge || w.legs.back().from_corner); };
+    for (const Source& s : sources_) {
+      if (!s.lit && is_open(s.walk)) parts.push_back(&s);
+    }
+    for (const VertexSource& s : vertex_sources_) {
+      if (!s.lit && is_open(s.walk)) vertices.push_back(&s);
+    }
+    for (bool more = true; more;) {
+      more = false;
+      std::erase_if(parts, [&](const Source* s) {
+        if (!s->walk.may_run_through(left_out)) return false;
+        if (left_out.holds({s->lo, s->hi})) return true;
+        left_out.add(s->lo, s->hi, contours_[s->contour].plane, scene_.cell());
+        more = true;
+        return true;
+      });
+      std::erase_if(vertices, [&](const VertexSource* s) {
+        if (!s->walk.may_run_through(left_out)) return false;
+        if (left_out.holds({s->x})) return true;
+        left_out.add(s->x, scene_.cell());
+        more = true;
+        return true;
+      });
+    }
+  }
+
   // --- reporting --------------------------------------------------------------------------------------------------------------
 
   void report() const {
     if (options_.progress) options_.progress("wedges", statistics_.rounds, wedges_.pieces().size());
   }
 
-  void count() {
+  void count(const Fixpoint& out) {
     statistics_.wedges_built += maker_.wedges_on_edges();
     const auto built = [this](Apex& apex) {
       for (const ApexSector& s : apex.sectors()) statistics_.wedges_built += s.on_wedge != nullptr;
     };
     for (const auto& [key, apex] : csvs_) built(*apex);
     for (const auto& [key, apex] : corners_) built(*apex);
-    for (const ValidPiece& p : wedges_.pieces()) {
+    for (const ValidPiece& p : out.wedges.pieces()) {
       statistics_.sv_me += p.wedge.kind == WedgeKind::sv_me;
       statistics_.se_me += p.wedge.kind == WedgeKind::se_me;
       statistics_.se_mv += p.wedge.kind == WedgeKind::se_mv;
@@ -327,7 +358,7 @@ class Search {
       statistics_.csv +=
           std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
     for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
-    statistics_.conservative_fallbacks += left_out_.size();
+    statistics_.conservative_fallbacks += out.left_out.size();
     // A wedge that only separates makes nothing visible, also where it should not exist.
     for (const Source& s : sources_)
       statistics_.conservative_fallbacks += s.walk.unresolved && !contours_[s.contour].holds_cell;

@@ -161,7 +161,7 @@ class DarknessQuery {
   std::optional<bool> label(const Point3& p) {
     ++shaft_tests_;
     try {
-      return walker_.label({p, std::nullopt, nullptr}, fixpoint_.wedges, kDarkSeed).visible;
+      return walker_.label({p, std::nullopt, nullptr}, fixpoint_.wedges, fixpoint_.left_out, kDarkSeed).visible;
     } catch (const scene::Error&) {
       return std::nullopt;
     }

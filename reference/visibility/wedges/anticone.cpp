@@ -2,6 +2,7 @@
 #include "reference/visibility/wedges/anticone.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace clues::reference {
 
@@ -89,6 +90,25 @@ std::vector<AnticoneFacet> anticone_facets(const Point3& x, const exact::ConvexC
 void LeftOut::add(const Point3& x, const exact::ConvexCell& cell) {
   std::vector<exact::Plane3>& planes = anticones_.emplace_back();
   for (const AnticoneFacet& f : anticone_facets(x, cell)) planes.push_back(f.plane);
+}
+
+// Let n x >= c hold at both ends, and n s <= c for all s in V: then it holds for each point between the ends, and for what is in its anti-cone.
+void LeftOut::add(const Point3& lo, const Point3& hi, const exact::Plane3& supporting, const exact::ConvexCell& cell) {
+  std::vector<exact::Plane3>& planes = anticones_.emplace_back(1, supporting);
+  for (const auto& [x, other] : {std::pair(lo, hi), std::pair(hi, lo)}) {
+    for (const AnticoneFacet& f : anticone_facets(x, cell)) {
+      if (f.plane.oriented_side(other) != CGAL::ON_NEGATIVE_SIDE) planes.push_back(f.plane);
+    }
+  }
+}
+
+bool LeftOut::holds(const std::vector<Point3>& corners) const {
+  return std::any_of(anticones_.begin(), anticones_.end(), [&](const std::vector<exact::Plane3>& facets) {
+    return std::all_of(facets.begin(), facets.end(), [&](const exact::Plane3& h) {
+      return std::none_of(corners.begin(), corners.end(),
+                          [&](const Point3& q) { return h.oriented_side(q) == CGAL::ON_NEGATIVE_SIDE; });
+    });
+  });
 }
 
 bool LeftOut::may_reach(const std::vector<Point3>& corners) const {

@@ -24,14 +24,22 @@ std::vector<AnticoneFacet> anticone_facets(const exact::Point3& x, const exact::
 
 // D17: the anti-cones of the apexes whose wedges a limit left out. What those wedges could show, and all that follows from it, lies in the closed anti-cones: if y is in A(x), A(y) is. So a
 // label that a walk finds is right for a whole figure only if no anti-cone reaches the figure; one sample outside says nothing about the rest.
+//
+// A walk from a point outside keeps outside: where a leg, a part of a sight line, crosses a wedge that is not there, all that is behind it on the line is in the anti-cone. Only the last leg
+// of a walk that ends in a groove or a corner (walk.h) is no part of a sight line. Where that may run through an anti-cone the walk says nothing, and a hidden source with such a walk, whose
+// own wedges may be missing without being in an anti-cone, is left out as well.
 class LeftOut {
  public:
   void add(const exact::Point3& x, const exact::ConvexCell& cell);
-  void clear() { anticones_.clear(); }
+  // The anti-cones of all points between lo and hi, a part of a contour edge: what holds them all. All of V is on the negative side of `supporting`, a plane through the edge.
+  void add(const exact::Point3& lo, const exact::Point3& hi, const exact::Plane3& supporting,
+           const exact::ConvexCell& cell);
   std::size_t size() const { return anticones_.size(); }
   bool empty() const { return anticones_.empty(); }
   // Whether one may reach the hull of these points: false only if each has a facet's plane that keeps it out. O(apexes * facets * corners).
   bool may_reach(const std::vector<exact::Point3>& corners) const;
+  // Whether one of them holds all these points.
+  bool holds(const std::vector<exact::Point3>& corners) const;
 
  private:
   std::vector<std::vector<exact::Plane3>> anticones_;  // by their facets
