@@ -8,6 +8,7 @@
 
 #include "reference/multires/stars/combination.h"
 #include "scene/messages/error.h"
+#include "scene/multires/image_triangles.h"
 
 namespace clues::reference {
 namespace {
@@ -168,46 +169,24 @@ std::vector<Patch> shared_out(const Patch& patch, const std::vector<std::array<C
   return out;
 }
 
-// Which base triangle a piece lies in.
-class BaseTriangles {
- public:
-  explicit BaseTriangles(const scene::Hierarchy& h) : h_(h) {
-    for (std::uint32_t t = 0; t < h.base.size(); ++t) {
-      auto sorted = h.base[t];
-      std::sort(sorted.begin(), sorted.end());
-      numbers_.emplace(sorted, t);
-    }
-  }
-  std::uint32_t of(const scene::OverlayTriangle& piece) const {
-    std::vector<std::uint32_t> corners;
-    for (const std::uint32_t p : piece.corners) {
-      const auto& image = h_.points[p].image;
-      corners.insert(corners.end(), image.corner.begin(),
-                     image.corner.begin() + static_cast<std::ptrdiff_t>(image.size()));
-    }
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    const auto found = corners.size() == 3 ? numbers_.find({corners[0], corners[1], corners[2]}) : numbers_.end();
-    if (found == numbers_.end())
-      throw scene::Error(scene::ErrorCode::bad_argument, "remesh: the hierarchy is not a verified one");
-    return found->second;
-  }
-
- private:
-  const scene::Hierarchy& h_;
-  std::map<scene::Triangle, std::uint32_t> numbers_;
-};
+std::uint32_t base_triangle(const scene::ImageTriangles& base, const scene::Hierarchy& h,
+                            const scene::OverlayTriangle& piece) {
+  const std::uint32_t t = base.of(piece, h.points);
+  if (t == scene::no_vertex)
+    throw scene::Error(scene::ErrorCode::bad_argument, "remesh: the hierarchy is not a verified one");
+  return t;
+}
 
 }  // namespace
 
 scene::Hierarchy with_coarse_parameters(const scene::Hierarchy& hierarchy) {
   constexpr std::int64_t step = std::int64_t{1} << 30;
   scene::Hierarchy h = hierarchy;
-  const BaseTriangles base(h);
+  const scene::ImageTriangles base(h.base);
   std::vector<std::vector<std::uint32_t>> around(h.points.size());
   std::vector<std::uint32_t> triangle;
   for (std::uint32_t i = 0; i < h.pieces.size(); ++i) {
-    triangle.push_back(base.of(h.pieces[i]));
+    triangle.push_back(base_triangle(base, h, h.pieces[i]));
     for (const std::uint32_t p : h.pieces[i].corners) around[p].push_back(i);
   }
   for (std::uint32_t p = 0; p < h.points.size(); ++p) {
@@ -236,7 +215,7 @@ scene::Hierarchy with_coarse_parameters(const scene::Hierarchy& hierarchy) {
 }
 
 std::vector<Patch> base_patches(const scene::Hierarchy& h) {
-  const BaseTriangles base(h);
+  const scene::ImageTriangles base(h.base);
   std::vector<Patch> out(h.base.size());
   for (std::uint32_t t = 0; t < h.base.size(); ++t) {
     out[t].base = t;
@@ -245,7 +224,7 @@ std::vector<Patch> base_patches(const scene::Hierarchy& h) {
   }
   std::vector<std::map<std::uint32_t, std::uint32_t>> local(h.base.size());
   for (const auto& piece : h.pieces) {
-    const std::uint32_t t = base.of(piece);
+    const std::uint32_t t = base_triangle(base, h, piece);
     Patch& patch = out[t];
     StarPiece copy{{}, piece.input, false};
     for (std::size_t k = 0; k < 3; ++k) {
