@@ -10,6 +10,9 @@ namespace clues::scene {
 
 using MotionPoint = std::array<double, 3>;  // world coordinates, taken exactly
 
+// How far from the origin a viewpoint may be, in each coordinate.
+inline constexpr double farthest_viewpoint = 0x1p90;
+
 // A vertex of the mesh. A `point` sample stands at `at`. A `direction` (sky, or a vertex of the icosahedral base) stands at infinity: it is
 // seen in direction `at` from everywhere, which needs no unit length.
 struct DepthSample {
