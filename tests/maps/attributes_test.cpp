@@ -15,6 +15,7 @@
 #include "scene/files/temporary_folder.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
+#include "tests/maps/hierarchy_over.h"
 
 namespace clues {
 namespace {
@@ -98,11 +99,9 @@ TEST(Attributes, OfAFileThatChangedMeanwhileAreRefused) {
 }
 
 reference::Remesh remeshed(const scene::TriangleMesh& mesh, int level) {
-  reference::HierarchyOptions options;
-  options.base_triangles = 12;
   reference::RemeshOptions how;
   how.level = level;
-  return reference::remeshed(reference::build_hierarchy(mesh, options), how);
+  return reference::remeshed(test::hierarchy_over(mesh, 12), how);
 }
 
 // What is linear on the input stays the same function of the place: colour and texture are the coordinates.
