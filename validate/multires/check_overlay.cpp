@@ -109,7 +109,7 @@ void check_point(const std::string& check, std::uint32_t number, const char* whe
 
 }  // namespace
 
-void check_common_triangulation(const CommonTriangulation& c, HierarchyReport& report) {
+std::vector<std::uint32_t> check_common_triangulation(const CommonTriangulation& c, HierarchyReport& report) {
   const Carriers input(c.first), base(c.second);
   const auto wrong = [&](const std::string& what) { report.find(c.cover_check, what); };
   for (std::uint32_t p = 0; p < c.points.size(); ++p) {
@@ -119,6 +119,7 @@ void check_common_triangulation(const CommonTriangulation& c, HierarchyReport& r
   const mpz_class one = mpz_class(scene::whole_weight) * mpz_class(scene::whole_weight);
   std::vector<mpz_class> covered(c.first.size()), covered_base(c.second.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
+  std::vector<std::uint32_t> spanned;
   for (std::uint32_t i = 0; i < c.pieces.size(); ++i) {
     const auto& piece = c.pieces[i];
     std::array<const CarrierPoint*, 3> source{}, image{};
@@ -131,6 +132,7 @@ void check_common_triangulation(const CommonTriangulation& c, HierarchyReport& r
       }
     }
     const auto in = common_triangle(input, source), on = common_triangle(base, image);
+    spanned.push_back(on.value_or(scene::no_vertex));
     if (!in || *in != piece.input) {
       wrong(fmt::format("piece {} does not lie in triangle {} of {}", i, piece.input, c.first_name));
       continue;
@@ -161,6 +163,7 @@ void check_common_triangulation(const CommonTriangulation& c, HierarchyReport& r
   };
   sums(covered, c.first_name);
   sums(covered_base, c.second_name);
+  return spanned;
 }
 
 void check_overlay(const scene::Hierarchy& h, HierarchyReport& report) {
