@@ -16,8 +16,9 @@ inline constexpr std::string_view ply_colour = "property uchar red\nproperty uch
 
 struct PlyLayout {
   std::string_view comment{};  // one line; empty: none
-  std::string_view of_vertex{},
-      of_face{};        // what there is besides coordinates and corners: lines "property TYPE NAME\n"
+  // What there is besides coordinates and corners: lines "property TYPE NAME\n".
+  std::string_view of_vertex{};
+  std::string_view of_face{};
   bool floats = false;  // seven digits: enough for pictures
 };
 

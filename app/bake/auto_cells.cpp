@@ -53,13 +53,16 @@ AutoCells auto_cells(const scene::FlaggedMesh& scene, double size, double height
   using Index = std::array<std::int64_t, 3>;  // slowest axis first, so that they come out in order
   std::set<Index> marked;
   const auto box_of = [&](double value) { return static_cast<std::int64_t>(std::floor(value / size)); };
-  std::vector<Point> used;
-  for (const auto& corners : scene.mesh.triangles)
-    for (const auto c : corners) used.push_back(scene.mesh.points[c]);
-  if (used.empty())
+  const auto& triangles = scene.mesh.triangles;
+  if (triangles.empty())
     throw scene::Error(scene::ErrorCode::bad_argument,
                        fmt::format("--cells auto:{}: the scene has no triangles to walk on", size));
-  const auto [low, high] = scene::bounds_of(used);
+  const Point& any = scene.mesh.points[triangles[0][0]];
+  scene::Bounds around{any, any};
+  for (const auto& corners : triangles) {
+    for (const auto c : corners) around = scene::hull_of(around, {scene.mesh.points[c], scene.mesh.points[c]});
+  }
+  const auto& [low, high] = around;
   double boxes = 1;
   for (std::size_t i = 0; i < 3; ++i) boxes *= std::floor(high[i] / size) - std::floor(low[i] / size) + 1;
   if (!(boxes <= most_boxes))

@@ -176,9 +176,6 @@ int run_maps(const MapsRequest& request) {
   const auto census = reference::checked_surface(mesh, request.mesh);
   scene::MeshAttributes attributes;
   if (request.uniform || request.adaptive) attributes = scene::read_attributes(request.mesh, mesh);
-  if ((!attributes.colours.empty() && attributes.colours.size() != mesh.points.size()) ||
-      (!attributes.texture_corners.empty() && attributes.texture_corners.size() != mesh.triangles.size()))
-    throw scene::Error(scene::ErrorCode::bad_argument, fmt::format("{}: changed while it was read", request.mesh));
   reference::HierarchyOptions options;
   options.base_triangles = request.base;
   add_features(request.features, mesh, options);

@@ -4,47 +4,21 @@
 
 #include <algorithm>
 #include <iterator>
-#include <map>
 
 #include "app/maps/patch_colours.h"
 #include "scene/mesh_io.h"
+#include "scene/multires/image_triangles.h"
 #include "scene/ply_text.h"
 
 namespace clues::app {
-namespace {
-
-// Of an int from 0 to 255.
-std::uint32_t channel(int value) { return static_cast<std::uint32_t>(value); }
-
-// The base triangle that a piece lies in; no_vertex for a file that was not verified.
-std::uint32_t base_of(const std::map<scene::Triangle, std::uint32_t>& base, const scene::Hierarchy& h,
-                      const scene::OverlayTriangle& piece) {
-  std::vector<std::uint32_t> corners;
-  for (const std::uint32_t p : piece.corners) {
-    const auto& image = h.points[p].image;
-    corners.insert(corners.end(), image.corner.begin(),
-                   image.corner.begin() + static_cast<std::ptrdiff_t>(image.size()));
-  }
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  const auto found = corners.size() == 3 ? base.find({corners[0], corners[1], corners[2]}) : base.end();
-  return found == base.end() ? scene::no_vertex : found->second;
-}
-
-}  // namespace
 
 std::string patches_to_ply(const scene::Hierarchy& h) {
-  std::map<scene::Triangle, std::uint32_t> base;
-  for (std::uint32_t t = 0; t < h.base.size(); ++t) {
-    auto corners = h.base[t];
-    std::sort(corners.begin(), corners.end());
-    base.emplace(corners, t);
-  }
+  const scene::ImageTriangles base(h.base);
   scene::PlyText out(h.points.size(), h.pieces.size(), {.of_face = scene::ply_colour});
   for (const auto& p : h.points) out.vertex(reference::position_estimate(p.source, h.input));
   for (const auto& piece : h.pieces) {
-    const auto [r, g, b] = patch_colour(base_of(base, h, piece));
-    out.face({piece.corners[0], piece.corners[1], piece.corners[2]}, {channel(r), channel(g), channel(b)});
+    const auto [r, g, b] = patch_colour(base.of(piece, h.points));
+    out.face({piece.corners[0], piece.corners[1], piece.corners[2]}, {r, g, b});
   }
   return out.take();
 }
@@ -116,10 +90,10 @@ std::string checker_to_ply(const reference::Remesh& remesh, const scene::Triangl
   for (const auto& p : proof.points) out.vertex(reference::position_estimate(p.source, input));
   for (std::size_t t = 0; t < remesh.base.size(); ++t) {
     auto colour = patch_colour(remesh.base[t]);
-    for (int& value : colour) value = remesh.turned[t] ? value / 4 : 128 + value / 2;
+    for (std::uint32_t& value : colour) value = remesh.turned[t] ? value / 4 : 128 + value / 2;
     for (std::size_t i = remesh.first_piece[t]; i < remesh.first_piece[t + 1]; ++i) {
       const auto& c = proof.pieces[i].corners;
-      out.face({c[0], c[1], c[2]}, {channel(colour[0]), channel(colour[1]), channel(colour[2])});
+      out.face({c[0], c[1], c[2]}, {colour[0], colour[1], colour[2]});
     }
   }
   return out.take();

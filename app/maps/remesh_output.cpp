@@ -12,8 +12,10 @@
 
 #include "app/maps/patch_colours.h"
 #include "app/view/base64.h"
+#include "scene/mesh/bounds.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
+#include "scene/ply_text.h"
 
 namespace clues::app {
 namespace {
@@ -52,12 +54,11 @@ std::string to_ply(const reference::Remesh& remesh, const Attributes& attributes
   const bool coloured = !attributes.colours.empty(), textured = !attributes.texture_corners.empty();
   fmt::memory_buffer out;
   auto to = std::back_inserter(out);
-  const std::string colour = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   fmt::format_to(to,
                  "ply\nformat ascii 1.0\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
                  "{}element face {}\nproperty list uchar int vertex_indices\n{}{}end_header\n",
-                 remesh.mesh.points.size(), coloured ? colour : "", remesh.mesh.triangles.size(),
-                 coloured ? "" : colour, textured ? "property list uchar double texcoord\n" : "");
+                 remesh.mesh.points.size(), coloured ? scene::ply_colour : "", remesh.mesh.triangles.size(),
+                 coloured ? "" : scene::ply_colour, textured ? "property list uchar double texcoord\n" : "");
   for (std::size_t v = 0; v < remesh.mesh.points.size(); ++v) {
     const auto& p = remesh.mesh.points[v];
     fmt::format_to(to, "{} {} {}", p[0], p[1], p[2]);
@@ -171,17 +172,7 @@ class GltfWriter {
                  {"scene", 0},
                  {"scenes", {{{"nodes", {0}}}}},
                  {"nodes", {{{"mesh", 0}}}}};
-    nlohmann::json low = nlohmann::json::array(), high = low;
-    for (std::size_t i = 0; i < 3; ++i) {
-      double least = remesh_.mesh.points[0][i], most = least;
-      for (const auto& p : remesh_.mesh.points) {
-        if (!std::isfinite(p[i])) refuse_size();
-        least = std::min(least, p[i]);
-        most = std::max(most, p[i]);
-      }
-      low.push_back(least);
-      high.push_back(most);
-    }
+    const auto [low, high] = scene::bounds_of(remesh_.mesh.points);
     auto& places = floats(3, [&](const scene::Edge& v, std::size_t i) { return remesh_.mesh.points[v[0]][i]; });
     places["min"] = low;
     places["max"] = high;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "exact/cell/cell_plane.h"
 #include "scene/messages/error.h"
 
 namespace clues::exact {
@@ -136,8 +137,7 @@ ConvexCell StandardRange::scaled(const ConvexCell& cell, int exponent) {
   if (exponent == 0) return cell;
   std::vector<Point3> points;
   if (cell.dimension() == 2) {
-    for (const int corner : cell.facets().front().corners)
-      points.push_back(scaled(cell.vertices()[static_cast<std::size_t>(corner)], exponent));
+    for (const Point3& s : corners_of(cell, cell.facets().front())) points.push_back(scaled(s, exponent));
   } else {
     for (const Point3& s : cell.vertices()) points.push_back(scaled(s, exponent));
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "exact/cell/cell_plane.h"
 #include "exact/cell/direction_cone.h"
 #include "exact/sight/planar_occlusion.h"
 #include "exact/sight/sight_segment.h"
@@ -25,12 +26,6 @@ std::optional<Point3> interior_point_on_side(const ConvexCell& cell, const std::
   Point3 v = cell.center();
   while (!allowed(side, v)) v = CGAL::midpoint(v, *at);
   return v;
-}
-
-std::vector<Point3> corners_of(const ConvexCell& cell, const CellFacet& facet) {
-  std::vector<Point3> corners;
-  for (const int i : facet.corners) corners.push_back(cell.vertices()[static_cast<std::size_t>(i)]);
-  return corners;
 }
 
 class ConeSearch {

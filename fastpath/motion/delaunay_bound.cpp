@@ -61,10 +61,8 @@ struct Change {
   double second_up = 0, second_error = 0;  // b; error of B as a matrix
   bool points = false, moves = false;
   double turn = 0, difference = 0, curvature = 0, chord = 0, clear = 0;  // |D|, |L|, c, |e|, h (rounded down)
-  double
-      li = 0,
-      lk =
-          0;  // lengths of points, rounded down; with one point only li, and lk is the length of the direction, rounded up
+  // Lengths of points, rounded down; with one point only li, and lk is the length of the direction, rounded up.
+  double li = 0, lk = 0;
 
   // r(s); infinite where the viewpoint may reach a sample.
   double rest(double s) const {

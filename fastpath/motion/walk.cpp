@@ -1,6 +1,8 @@
 // A frame: what is due, the repair, the flips, new samples, new bounds.
 #include "fastpath/motion/walk.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,13 +20,14 @@ double sum_down(double a, double b) { return std::isfinite(b) ? std::nextafter(a
 void require_viewpoint(const MotionPoint& at) {
   for (const double x : at) {
     if (!std::isfinite(x)) throw scene::Error(scene::ErrorCode::non_finite, "motion: a viewpoint is not finite");
-    if (std::fabs(x) > 0x1p90) throw scene::Error(scene::ErrorCode::bad_argument, "motion: a viewpoint is beyond 2^90");
+    if (std::fabs(x) > scene::farthest_viewpoint)
+      throw scene::Error(scene::ErrorCode::bad_argument, "motion: a viewpoint is beyond 2^90");
   }
 }
 
 const WalkOptions& checked(const WalkOptions& options) {
   if (options.samples > kMostSamples)
-    throw scene::Error(scene::ErrorCode::bad_argument, "motion: at most 16777216 samples");
+    throw scene::Error(scene::ErrorCode::bad_argument, fmt::format("motion: at most {} samples", kMostSamples));
   if (options.thresholds.delaunay && options.bounds == WalkOptions::Bounds::sketch_unsound) {
     throw scene::Error(scene::ErrorCode::bad_argument, "motion: the sketch has no bound for the Delaunay condition");
   }

@@ -55,7 +55,8 @@ struct Pair {
   // r(s), for s less than the lengths of points.
   Enclosure rest(const Enclosure& s) const {
     if (!moves) return 0;
-    const Enclosure third = Enclosure(1) / (Enclosure(3) * root(Enclosure(3))), cube = s * s * s;
+    static const Enclosure third = Enclosure(1) / (Enclosure(3) * root(Enclosure(3)));
+    const Enclosure cube = s * s * s;
     if (!points) return Enclosure(2) * third * lk * cube / square(li - s);
     Enclosure p = third * cube * (Enclosure(1) / square(li - s) + Enclosure(1) / square(lk - s));
     if (sgn((clear - s).low) > 0) {

@@ -58,11 +58,6 @@ bool holds(const std::array<DiskPoint, 3>& corners, const FlatPoint& point, Wide
   return true;
 }
 
-bool lies_in(const scene::Triangle& triangle, const CarrierPoint& point) {
-  return std::all_of(point.corner.begin(), point.corner.begin() + static_cast<std::ptrdiff_t>(point.size()),
-                     [&](std::uint32_t v) { return v == triangle[0] || v == triangle[1] || v == triangle[2]; });
-}
-
 }  // namespace
 
 std::optional<CarrierPoint> weights_in(const scene::Triangle& triangle, const std::array<DiskPoint, 3>& corners,
@@ -169,18 +164,7 @@ bool Overlay::carry(std::uint32_t vertex, const StarShape& shape, const FlatStar
   count_ -= old_count;
   for (const auto& pieces : by_triangle) {
     auto& out = pieces_.emplace_back();
-    for (const StarPiece& piece : pieces) {
-      scene::OverlayTriangle global{{}, piece.input};
-      for (std::size_t k = 0; k < 3; ++k) {
-        StarPoint& point = star.points[piece.corners[k]];
-        if (point.number == scene::no_vertex) {
-          point.number = static_cast<std::uint32_t>(points_.size());
-          points_.push_back(point.at);
-        }
-        global.corners[k] = point.number;
-      }
-      out.push_back(global);
-    }
+    for (const StarPiece& piece : pieces) out.push_back(numbered(piece, star, points_));
     count_ += pieces.size();
   }
   return true;

@@ -8,6 +8,7 @@
 
 #include "reference/multires/stars/combination.h"
 #include "scene/messages/error.h"
+#include "scene/multires/image_triangles.h"
 
 namespace clues::reference {
 namespace {
@@ -45,7 +46,7 @@ std::uint32_t point_at(const Patch& patch, const CarrierPoint& image) {
 void insert(Patch& patch, const CarrierPoint& image) {
   if (point_at(patch, image) != scene::no_vertex) return;
   auto& points = patch.pieces.points;
-  auto& pieces = patch.pieces.pieces;
+  const auto& pieces = patch.pieces.pieces;
   const auto fresh = static_cast<std::uint32_t>(points.size());
   StarPoint point;
   point.at.image = image;
@@ -54,39 +55,23 @@ void insert(Patch& patch, const CarrierPoint& image) {
   bool made = false;
   for (std::size_t i = 0; i < count; ++i) {
     const StarPiece piece = pieces[i];
-    std::array<Wide, 3> part{};
+    std::array<mpz_class, 3> part;
     bool inside = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      part[k] = exact::area_in(patch.triangle, points[piece.corners[(k + 1) % 3]].at.image,
-                               points[piece.corners[(k + 2) % 3]].at.image, image);
-      inside = inside && part[k] >= 0;
+    for (std::size_t k = 0; k < 3 && inside; ++k) {
+      const Wide area = exact::area_in(patch.triangle, points[piece.corners[(k + 1) % 3]].at.image,
+                                       points[piece.corners[(k + 2) % 3]].at.image, image);
+      inside = area >= 0;
+      if (inside) part[k] = to_integer(area);
     }
     if (!inside) continue;
     if (!made) {
-      std::vector<std::pair<const CarrierPoint*, mpz_class>> parts;
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (part[k] > 0) parts.emplace_back(&points[piece.corners[k]].at.source, to_integer(part[k]));
-      }
-      const auto source = combined(parts);
+      const auto source = source_in(piece, part, patch.pieces);
       if (!source) too_fine(patch);
       point.at.source = *source;
       points.push_back(point);
       made = true;
     }
-    // In place of each corner in turn, but those from which nothing would be left.
-    bool first = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (part[k] == 0) continue;
-      StarPiece next = piece;
-      next.corners[k] = fresh;
-      next.cut = true;
-      if (first) {
-        pieces[i] = next;
-      } else {
-        pieces.push_back(next);
-      }
-      first = false;
-    }
+    cut_from(fresh, i, part, patch.pieces);
   }
   if (!made) throw scene::Error(scene::ErrorCode::internal, "remesh: a point of a patch that no piece holds");
 }
@@ -124,11 +109,6 @@ void merge_from(std::size_t first, StarPieces& star) {
   star.pieces = std::move(left);
 }
 
-bool lies_on(const scene::Triangle& t, const CarrierPoint& p) {
-  return std::all_of(p.corner.begin(), p.corner.begin() + static_cast<std::ptrdiff_t>(p.size()),
-                     [&](std::uint32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
-}
-
 void cut(Patch& patch, const CarrierPoint& a, const CarrierPoint& b) {
   // cut_along() writes images over the ends of the line; here they are parameters. In steps of 2^(level + 2) on the line they are on the grid exactly: the
   // weights of its ends differ by multiples of 2^(59 - level).
@@ -162,7 +142,7 @@ std::vector<Patch> shared_out(const Patch& patch, const std::vector<std::array<C
     std::array<const scene::OverlayVertex*, 3> at{};
     for (std::size_t k = 0; k < 3; ++k) {
       at[k] = &patch.pieces.points[piece.corners[k]].at;
-      if (!lies_on(hierarchy.input.triangles[piece.input], at[k]->source)) too_fine(patch);
+      if (!lies_in(hierarchy.input.triangles[piece.input], at[k]->source)) too_fine(patch);
     }
     if (exact::orientation_in(patch.triangle, at[0]->image, at[1]->image, at[2]->image) <= 0 ||
         exact::orientation_in(hierarchy.input.triangles[piece.input], at[0]->source, at[1]->source, at[2]->source) <=
@@ -182,56 +162,31 @@ std::vector<Patch> shared_out(const Patch& patch, const std::vector<std::array<C
     if (part == parts.size()) too_fine(patch);
     StarPiece copy = piece;
     for (auto& v : copy.corners) {
-      const auto [place, fresh] =
-          numbers[part].try_emplace(v, static_cast<std::uint32_t>(out[part].pieces.points.size()));
-      if (fresh) out[part].pieces.points.push_back(patch.pieces.points[v]);
-      v = place->second;
+      v = local_number(v, numbers[part], out[part].pieces.points, [&] { return patch.pieces.points[v]; });
     }
     out[part].pieces.pieces.push_back(copy);
   }
   return out;
 }
 
-// Which base triangle a piece lies in.
-class BaseTriangles {
- public:
-  explicit BaseTriangles(const scene::Hierarchy& h) : h_(h) {
-    for (std::uint32_t t = 0; t < h.base.size(); ++t) {
-      auto sorted = h.base[t];
-      std::sort(sorted.begin(), sorted.end());
-      numbers_.emplace(sorted, t);
-    }
-  }
-  std::uint32_t of(const scene::OverlayTriangle& piece) const {
-    std::vector<std::uint32_t> corners;
-    for (const std::uint32_t p : piece.corners) {
-      const auto& image = h_.points[p].image;
-      corners.insert(corners.end(), image.corner.begin(),
-                     image.corner.begin() + static_cast<std::ptrdiff_t>(image.size()));
-    }
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    const auto found = corners.size() == 3 ? numbers_.find({corners[0], corners[1], corners[2]}) : numbers_.end();
-    if (found == numbers_.end())
-      throw scene::Error(scene::ErrorCode::bad_argument, "remesh: the hierarchy is not a verified one");
-    return found->second;
-  }
-
- private:
-  const scene::Hierarchy& h_;
-  std::map<scene::Triangle, std::uint32_t> numbers_;
-};
+std::uint32_t base_triangle(const scene::ImageTriangles& base, const scene::Hierarchy& h,
+                            const scene::OverlayTriangle& piece) {
+  const std::uint32_t t = base.of(piece, h.points);
+  if (t == scene::no_vertex)
+    throw scene::Error(scene::ErrorCode::bad_argument, "remesh: the hierarchy is not a verified one");
+  return t;
+}
 
 }  // namespace
 
 scene::Hierarchy with_coarse_parameters(const scene::Hierarchy& hierarchy) {
   constexpr std::int64_t step = std::int64_t{1} << 30;
   scene::Hierarchy h = hierarchy;
-  const BaseTriangles base(h);
+  const scene::ImageTriangles base(h.base);
   std::vector<std::vector<std::uint32_t>> around(h.points.size());
   std::vector<std::uint32_t> triangle;
   for (std::uint32_t i = 0; i < h.pieces.size(); ++i) {
-    triangle.push_back(base.of(h.pieces[i]));
+    triangle.push_back(base_triangle(base, h, h.pieces[i]));
     for (const std::uint32_t p : h.pieces[i].corners) around[p].push_back(i);
   }
   for (std::uint32_t p = 0; p < h.points.size(); ++p) {
@@ -260,7 +215,7 @@ scene::Hierarchy with_coarse_parameters(const scene::Hierarchy& hierarchy) {
 }
 
 std::vector<Patch> base_patches(const scene::Hierarchy& h) {
-  const BaseTriangles base(h);
+  const scene::ImageTriangles base(h.base);
   std::vector<Patch> out(h.base.size());
   for (std::uint32_t t = 0; t < h.base.size(); ++t) {
     out[t].base = t;
@@ -269,14 +224,14 @@ std::vector<Patch> base_patches(const scene::Hierarchy& h) {
   }
   std::vector<std::map<std::uint32_t, std::uint32_t>> local(h.base.size());
   for (const auto& piece : h.pieces) {
-    const std::uint32_t t = base.of(piece);
+    const std::uint32_t t = base_triangle(base, h, piece);
     Patch& patch = out[t];
     StarPiece copy{{}, piece.input, false};
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t p = piece.corners[k];
-      const auto [place, fresh] = local[t].try_emplace(p, static_cast<std::uint32_t>(patch.pieces.points.size()));
-      if (fresh) patch.pieces.points.push_back({p, false, h.points[p], flat_of(patch.triangle, h.points[p].image)});
-      copy.corners[k] = place->second;
+      copy.corners[k] = local_number(p, local[t], patch.pieces.points, [&] {
+        return StarPoint{p, false, h.points[p], flat_of(patch.triangle, h.points[p].image)};
+      });
     }
     patch.pieces.pieces.push_back(copy);
   }

@@ -143,8 +143,7 @@ class Smoother {
         StarPiece local{{}, piece.input, false};
         for (std::size_t k = 0; k < 3; ++k) {
           const std::uint32_t p = piece.corners[k];
-          const auto [where, fresh] = place.try_emplace(p, static_cast<std::uint32_t>(star.points.size()));
-          if (fresh) {
+          local.corners[k] = local_number(p, place, star.points, [&] {
             const auto& at = points_[p];
             FlatPoint in_disk;
             for (std::size_t c = 0; c < at.image.size(); ++c) {
@@ -154,9 +153,8 @@ class Smoother {
               in_disk.x += Wide{q[0]} * at.image.weight[c];
               in_disk.y += Wide{q[1]} * at.image.weight[c];
             }
-            star.points.push_back({p, at.source.size() == 1, at, in_disk});
-          }
-          local.corners[k] = where->second;
+            return StarPoint{p, at.source.size() == 1, at, in_disk};
+          });
         }
         star.pieces.push_back(local);
       }
@@ -188,30 +186,13 @@ class Smoother {
         return true;
       }
       if (!made) {
-        std::vector<std::pair<const CarrierPoint*, mpz_class>> parts;
-        for (std::size_t k = 0; k < 3; ++k) {
-          if (part[k] > 0) parts.emplace_back(&star.points[piece.corners[k]].at.source, part[k]);
-        }
-        const auto source = combined(parts);
+        const auto source = source_in(piece, part, star);
         if (!source) return false;
         point.at.source = *source;
         star.points.push_back(point);
         made = true;
       }
-      // In place of each corner in turn, but those from which nothing would be left.
-      bool first = true;
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (part[k] == 0) continue;
-        StarPiece next = piece;
-        next.corners[k] = fresh;
-        next.cut = true;
-        if (first) {
-          star.pieces[i] = next;
-        } else {
-          star.pieces.push_back(next);
-        }
-        first = false;
-      }
+      cut_from(fresh, i, part, star);
     }
     return made;
   }
@@ -232,10 +213,6 @@ class Smoother {
     }
     return std::nullopt;
   }
-  static bool lies_in(const scene::Triangle& t, const CarrierPoint& p) {
-    return std::all_of(p.corner.begin(), p.corner.begin() + static_cast<std::ptrdiff_t>(p.size()),
-                       [&](std::uint32_t v) { return v == t[0] || v == t[1] || v == t[2]; });
-  }
 
   // Nothing can fail any more.
   void take_over(std::uint32_t v, std::uint32_t moved, const Ring& ring, StarPieces& star,
@@ -250,18 +227,7 @@ class Smoother {
     for (std::size_t t = 0; t < by_triangle.size(); ++t) {
       auto& out = pieces_[ring.triangles[t]];
       out.clear();
-      for (const StarPiece& piece : by_triangle[t]) {
-        scene::OverlayTriangle global{{}, piece.input};
-        for (std::size_t k = 0; k < 3; ++k) {
-          StarPoint& point = star.points[piece.corners[k]];
-          if (point.number == scene::no_vertex) {
-            point.number = static_cast<std::uint32_t>(points_.size());
-            points_.push_back(point.at);
-          }
-          global.corners[k] = point.number;
-        }
-        out.push_back(global);
-      }
+      for (const StarPiece& piece : by_triangle[t]) out.push_back(numbered(piece, star, points_));
     }
   }
   static CarrierPoint with_number(const CarrierPoint& p, std::uint32_t old, std::uint32_t now) {
@@ -294,9 +260,9 @@ class Smoother {
         StarPiece copy{{}, piece.input, false};
         for (std::size_t k = 0; k < 3; ++k) {
           std::uint32_t& p = piece.corners[k];
-          const auto [place, fresh] = local.try_emplace(p, static_cast<std::uint32_t>(patch.pieces.points.size()));
-          if (fresh) patch.pieces.points.push_back({p, false, points_[p], {}});
-          copy.corners[k] = place->second;
+          copy.corners[k] = local_number(p, local, patch.pieces.points, [&] {
+            return StarPoint{p, false, points_[p], {}};
+          });
           if (numbers[p] == scene::no_vertex) {
             numbers[p] = static_cast<std::uint32_t>(proof.points.size());
             proof.points.push_back(points_[p]);

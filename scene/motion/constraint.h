@@ -13,6 +13,8 @@ struct ConstraintPlace {
   MotionConstraint constraint = MotionConstraint::facing;
   std::uint32_t triangle = 0;
   std::uint8_t corner = 0;
+
+  bool operator==(const ConstraintPlace&) const = default;
 };
 
 inline const char* name_of(MotionConstraint constraint) {

@@ -36,7 +36,7 @@ std::vector<double> numbers_of(const std::string& spec, std::string_view text) {
     const ParsedNumber parsed = parse_number(word);
     if (parsed.kind == NumberKind::non_finite) fail_spec(spec, fmt::format("{} is not finite", excerpt(word)));
     if (parsed.kind == NumberKind::not_a_number) fail_spec(spec, fmt::format("{} is no number", excerpt(word)));
-    if (std::fabs(parsed.value) > 0x1p90) fail_spec(spec, fmt::format("{} is beyond 2^90", excerpt(word)));
+    if (std::fabs(parsed.value) > farthest_viewpoint) fail_spec(spec, fmt::format("{} is beyond 2^90", excerpt(word)));
     numbers.push_back(parsed.value);
   }
   return numbers;
@@ -124,7 +124,7 @@ std::vector<MotionPoint> from_file(const std::string& file, std::optional<std::u
     MotionPoint p{};
     for (std::size_t i = 0; i < 3; ++i) {
       p[i] = number_at(tokens[i], "coordinate", lines.place());
-      if (std::fabs(p[i]) > 0x1p90) {
+      if (std::fabs(p[i]) > farthest_viewpoint) {
         fail_at(lines.place(), ErrorCode::bad_argument, "the viewpoint is further than 2^90 from the origin; move it");
       }
     }
@@ -156,7 +156,7 @@ std::vector<MotionPoint> read_view_path(const std::string& spec, std::optional<s
   for (const MotionPoint& p : path) {
     for (const double x : p) {
       if (!std::isfinite(x)) fail_spec(spec, "a viewpoint is not finite");
-      if (std::fabs(x) > 0x1p90) fail_spec(spec, "a viewpoint is further than 2^90 from the origin");
+      if (std::fabs(x) > farthest_viewpoint) fail_spec(spec, "a viewpoint is further than 2^90 from the origin");
     }
   }
   return path;

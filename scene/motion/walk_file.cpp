@@ -21,13 +21,6 @@ constexpr std::array<std::uint32_t, 3> free_place{no_sample, no_sample, no_sampl
 constexpr std::uint64_t most_places = std::uint64_t{1} << 26;  // of samples, and of triangles: beyond is a damaged file
 constexpr std::uint64_t most_triangles_of_a_sample = 64;       // a sphere has two
 
-bool same(const DepthSample& a, const DepthSample& b) {
-  return a.at == b.at && a.is_direction == b.is_direction && a.is_base == b.is_base;
-}
-bool same(const MotionThresholds& a, const MotionThresholds& b) {
-  return a.kappa == b.kappa && a.sigma == b.sigma && a.delaunay == b.delaunay;
-}
-
 // whole_number, with the place.
 std::uint64_t number_in(const Json& value, const std::string& where, const char* what, std::uint64_t most) {
   try {
@@ -79,7 +72,7 @@ std::string WalkWriter::header() { return fmt::format("{{\"format\": \"{}\"}}\n"
 std::string WalkWriter::frame(const DepthMesh& mesh, const MotionPoint& viewpoint, const MotionThresholds& thresholds) {
   std::string samples, triangles;
   for (std::size_t i = 0; i < mesh.samples.size(); ++i) {
-    if (i < last_.samples.size() && same(mesh.samples[i], last_.samples[i])) continue;
+    if (i < last_.samples.size() && mesh.samples[i] == last_.samples[i]) continue;
     const auto text = to_text(mesh.samples[i]);  // [x, ...
     samples.append(samples.empty() ? "[" : ", [").append(fmt::format("{}, {}", i, text.substr(1)));
   }
@@ -92,7 +85,7 @@ std::string WalkWriter::frame(const DepthMesh& mesh, const MotionPoint& viewpoin
   std::string line = fmt::format("{{\"sizes\": [{}, {}]", mesh.samples.size(), mesh.triangles.size());
   if (!samples.empty()) line.append(", \"samples\": [").append(samples).append("]");
   if (!triangles.empty()) line.append(", \"triangles\": [").append(triangles).append("]");
-  if (first_ || !same(thresholds, last_thresholds_)) line.append(", \"thresholds\": ").append(to_text(thresholds));
+  if (first_ || thresholds != last_thresholds_) line.append(", \"thresholds\": ").append(to_text(thresholds));
   line.append(", \"viewpoint\": ").append(to_text(viewpoint)).append("}\n");
   last_ = mesh;
   last_thresholds_ = thresholds;

@@ -20,6 +20,12 @@ namespace {
 
 constexpr Triangle no_texture{no_vertex, no_vertex, no_vertex};
 
+// The mesh was read before, and somebody may have written the file since: its vertices are those of the mesh, or it is refused.
+void require_one_per_vertex(std::size_t count, const TriangleMesh& mesh, const std::string& file) {
+  if (count != mesh.points.size())
+    throw Error(ErrorCode::bad_argument, fmt::format("{}: changed while it was read", file));
+}
+
 // The corners of a face to its triangles, which are those of the mesh with its number: a fan from the first corner.
 class Corners {
  public:
@@ -85,6 +91,7 @@ MeshAttributes of_obj(std::string_view bytes, const std::string& file, const Tri
     }
   }
   if (!coloured) out.colours.clear();
+  if (!out.colours.empty()) require_one_per_vertex(out.colours.size(), mesh, file);
   out.texture_corners = corners.take();
   for (const auto& t : out.texture_corners) {
     for (const std::uint32_t v : t) {
@@ -122,9 +129,9 @@ double full(PlyType type) {
 class PlyAttributes {
  public:
   PlyAttributes(const PlyHeader& header, std::string_view bytes, const std::string& file, const TriangleMesh& mesh)
-      : header_(header), body_(make_ply_body(header, bytes, file)), corners_(mesh) {}
+      : header_(header), file_(file), mesh_(mesh), body_(make_ply_body(header, bytes, file)), corners_(mesh) {}
 
-  MeshAttributes read(const TriangleMesh& mesh) {
+  MeshAttributes read() {
     for (const PlyElement& element : header_.elements) {
       const bool strips = std::any_of(header_.elements.begin(), header_.elements.end(),
                                       [](const auto& e) { return e.name == "tristrips"; });
@@ -138,8 +145,10 @@ class PlyAttributes {
         body_->end_item();
       }
     }
+    if (!out_.colours.empty()) require_one_per_vertex(out_.colours.size(), mesh_, file_);
     if (by_vertex_) {
-      out_.texture_corners = mesh.triangles;
+      require_one_per_vertex(out_.texture.size(), mesh_, file_);
+      out_.texture_corners = mesh_.triangles;
     } else {
       out_.texture_corners = corners_.take();
     }
@@ -196,6 +205,8 @@ class PlyAttributes {
   }
 
   const PlyHeader& header_;
+  const std::string& file_;
+  const TriangleMesh& mesh_;
   std::unique_ptr<PlyBody> body_;
   Corners corners_;
   MeshAttributes out_;
@@ -210,7 +221,7 @@ MeshAttributes read_attributes(const std::filesystem::path& path, const Triangle
   if (extension != ".ply") return {};
   const std::string bytes = read_file_bytes(path);
   const auto header = read_ply_header(bytes, file);
-  return PlyAttributes(header, bytes, file, mesh).read(mesh);
+  return PlyAttributes(header, bytes, file, mesh).read();
 }
 
 }  // namespace clues::scene

@@ -19,7 +19,7 @@ struct MeshAttributes {
 
 // Of a file that read_mesh() read as `mesh`. OBJ: vt, and v x y z red green blue, where all vertices have colours. PLY: red, green, blue of vertices;
 // s and t (or u and v, or texture_u and texture_v) of vertices, or a list texcoord of faces. Other formats: none. Throws Error non_finite,
-// index_out_of_range, malformed with file and line. O(size of the file).
+// index_out_of_range, malformed with file and line, bad_argument if the file has another number of vertices by now. O(size of the file).
 MeshAttributes read_attributes(const std::filesystem::path& path, const TriangleMesh& mesh);
 
 }  // namespace clues::scene

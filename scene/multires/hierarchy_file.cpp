@@ -53,8 +53,7 @@ std::string to_text(const Hierarchy& h) {
   auto to = std::back_inserter(out);
   fmt::format_to(to, "{}\nvertices {}\n", first_line, h.input.points.size());
   for (const auto& p : h.input.points) fmt::format_to(to, "{} {} {}\n", p[0], p[1], p[2]);
-  fmt::format_to(to, "triangles {}\n", h.input.triangles.size());
-  for (const auto& t : h.input.triangles) fmt::format_to(to, "{} {} {}\n", t[0], t[1], t[2]);
+  write_triangles(out, "triangles", h.input.triangles);
   fmt::format_to(to, "features {}\n", h.features.size());
   for (const auto& e : h.features) fmt::format_to(to, "{} {}\n", e[0], e[1]);
   fmt::format_to(to, "fixed {}\n", h.fixed.size());
@@ -68,15 +67,8 @@ std::string to_text(const Hierarchy& h) {
       fmt::format_to(to, "{} {}\n", k.vertex, reason_names[static_cast<std::size_t>(k.reason)]);
     }
   }
-  fmt::format_to(to, "base {}\n", h.base.size());
-  for (const auto& t : h.base) fmt::format_to(to, "{} {} {}\n", t[0], t[1], t[2]);
-  fmt::format_to(to, "points {}\n", h.points.size());
-  for (const auto& p : h.points) {
-    write_point(out, p.source);
-    out.push_back(' ');
-    write_point(out, p.image);
-    out.push_back('\n');
-  }
+  write_triangles(out, "base", h.base);
+  write_points(out, h.points);
   fmt::format_to(to, "pieces {}\n", h.pieces.size());
   for (const auto& p : h.pieces) fmt::format_to(to, "{} {} {} {}\n", p.corners[0], p.corners[1], p.corners[2], p.input);
   return fmt::to_string(out);

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scene/formats/line_reader.h"
 #include "scene/formats/number.h"
@@ -110,6 +111,22 @@ inline void write_point(fmt::memory_buffer& out, const CarrierPoint& point) {
   fmt::format_to(std::back_inserter(out), "{}", point.size());
   for (std::size_t k = 0; k < point.size(); ++k) {
     fmt::format_to(std::back_inserter(out), " {} {}", point.corner[k], point.weight[k]);
+  }
+}
+
+// The lists that ListReader::list() reads with triangle(), and with point() twice.
+inline void write_triangles(fmt::memory_buffer& out, std::string_view name, const std::vector<Triangle>& triangles) {
+  auto to = std::back_inserter(out);
+  fmt::format_to(to, "{} {}\n", name, triangles.size());
+  for (const auto& t : triangles) fmt::format_to(to, "{} {} {}\n", t[0], t[1], t[2]);
+}
+inline void write_points(fmt::memory_buffer& out, const std::vector<OverlayVertex>& points) {
+  fmt::format_to(std::back_inserter(out), "points {}\n", points.size());
+  for (const auto& p : points) {
+    write_point(out, p.source);
+    out.push_back(' ');
+    write_point(out, p.image);
+    out.push_back('\n');
   }
 }
 

@@ -32,15 +32,8 @@ std::string to_text(const RemeshProof& proof) {
     write_point(out, p);
     out.push_back('\n');
   }
-  fmt::format_to(to, "triangles {}\n", proof.triangles.size());
-  for (const auto& t : proof.triangles) fmt::format_to(to, "{} {} {}\n", t[0], t[1], t[2]);
-  fmt::format_to(to, "points {}\n", proof.points.size());
-  for (const auto& p : proof.points) {
-    write_point(out, p.source);
-    out.push_back(' ');
-    write_point(out, p.image);
-    out.push_back('\n');
-  }
+  write_triangles(out, "triangles", proof.triangles);
+  write_points(out, proof.points);
   fmt::format_to(to, "pieces {}\n", proof.pieces.size());
   for (std::size_t k = 0; k < proof.pieces.size(); ++k) {
     const auto& piece = proof.pieces[k];

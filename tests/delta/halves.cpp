@@ -1,5 +1,6 @@
 #include "tests/delta/halves.h"
 
+#include "exact/cell/cell_plane.h"
 #include "exact/cell/direction_cone.h"
 #include "tests/reference/support.h"
 
@@ -12,9 +13,7 @@ std::vector<exact::ConvexCell> halves_of(const exact::ConvexCell& cell) {
   for (const exact::Plane3& side : {cut, cut.opposite()}) {
     std::vector<exact::Point3> points;
     for (const auto& facet : cell.facets()) {
-      std::vector<exact::Point3> polygon;
-      for (const int c : facet.corners) polygon.push_back(cell.vertices()[static_cast<std::size_t>(c)]);
-      for (const auto& p : exact::clipped(polygon, side)) points.push_back(exact::collapsed(p));
+      for (const auto& p : exact::clipped(exact::corners_of(cell, facet), side)) points.push_back(exact::collapsed(p));
     }
     out.emplace_back(points);
   }

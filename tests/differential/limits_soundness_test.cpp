@@ -1,11 +1,9 @@
 // D7 under the limits of D17: whatever is left out, nothing visible is missing and no hidden region is seen. Both kernels, lists and regions, first order and refined; against the exact visible
-// set, point occlusion and sight lines. The decision by a single sample, which the fast path had, is planted and caught.
+// set, point occlusion and sight lines. The decision by a single sample, which the fast path had, is planted in tests/planted/one_sample_of_a_side_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
-#include <set>
 
 #include "fastpath/queries/bvh.h"
 #include "fastpath/visibility/first_order.h"

@@ -76,7 +76,8 @@ class ReferencePart : public fastpath::PartialMap {
   SetLabel label_at(const fastpath::Box& box, const std::vector<Point3>& corners) const {
     if (bug_ == PartBug::dark_everywhere) return SetLabel::hidden;
     const Point3 p = exact::to_exact(fastpath::middle_of(box));
-    if (walker_.label({.p = p, .surface = std::nullopt}, fixpoint_.wedges, fixpoint_.left_out, 1).visible) return SetLabel::visible;
+    if (walker_.label({.p = p, .surface = std::nullopt}, fixpoint_.wedges, fixpoint_.left_out, 1).visible)
+      return SetLabel::visible;
     return fixpoint_.left_out.may_reach(corners) ? SetLabel::visible : SetLabel::hidden;
   }
   bool wedge_may_touch(const fastpath::Box& box) const { return touches(to_bbox(box), box_of(box)); }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "exact/cell/cell_plane.h"
 #include "exact/complex/complex.h"
 #include "fuzz/generators/random.h"
 #include "tests/differential/touching_series.h"
@@ -29,11 +30,8 @@ class Place {
         random_(fuzz::Random(scene.seed).next() ^ scene.index) {}
 
   void judge(Counts& counts) {
-    std::vector<Point3> viewpoints = cell_.vertices();
-    if (cell_.dimension() == 2) {
-      viewpoints.clear();
-      for (const int i : cell_.facets()[0].corners) viewpoints.push_back(cell_.vertices()[static_cast<std::size_t>(i)]);
-    }
+    const std::vector<Point3> viewpoints =
+        cell_.dimension() == 2 ? exact::corners_of(cell_, cell_.facets()[0]) : cell_.vertices();
     for (int i = 0; i < 8; ++i) {
       const Point3 p = beside();
       if (cell_.contains(p) || CGAL::collinear(viewpoints[0], viewpoints[1], p)) continue;

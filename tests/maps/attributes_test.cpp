@@ -1,9 +1,12 @@
 // Texture coordinates and colours: read as files have them, and carried by the map.
 #include "scene/multires/attributes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "fuzz/multires/surfaces.h"
 #include "reference/multires/carried.h"
@@ -12,6 +15,7 @@
 #include "scene/files/temporary_folder.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
+#include "tests/maps/hierarchy_over.h"
 
 namespace clues {
 namespace {
@@ -67,12 +71,37 @@ TEST(Attributes, ThatAreWrongAreRefused) {
   EXPECT_THROW(read("a.obj", mesh + "vt nan 0\nf 1/1 2/1 3/1\n"), scene::Error);
 }
 
+// Somebody writes the file between the two readings: corners must not name vertices that are gone.
+TEST(Attributes, OfAFileThatChangedMeanwhileAreRefused) {
+  const auto ply = [](int vertices, const std::string& properties, const std::string& values) {
+    std::string text = fmt::format("ply\nformat ascii 1.0\nelement vertex {}\n", vertices);
+    text += "property float x\nproperty float y\nproperty float z\n" + properties;
+    text += "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    for (int i = 0; i < vertices; ++i) text += fmt::format("{} {} 0 {}\n", i, i * i, values);
+    return text + "3 0 1 2\n";
+  };
+  const scene::TemporaryFolder folder;
+  const auto path = folder.path() / "a.ply";
+  for (const auto& [properties, values] :
+       {std::pair<std::string, std::string>("property float s\nproperty float t\n", ".5 .25"),
+        std::pair<std::string, std::string>("property uchar red\nproperty uchar green\nproperty uchar blue\n",
+                                            "1 2 3")}) {
+    scene::write_file_atomically(path, ply(3, properties, values));
+    const auto mesh = scene::read_mesh(path);
+    EXPECT_NO_THROW(scene::read_attributes(path, mesh));
+    scene::write_file_atomically(path, ply(2, properties, values));
+    EXPECT_THROW(scene::read_attributes(path, mesh), scene::Error) << properties;
+  }
+  scene::write_file_atomically(folder.path() / "a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1 0 0 0 1\nf 1 2 3\n");
+  const auto mesh = scene::read_mesh(folder.path() / "a.obj");
+  scene::write_file_atomically(folder.path() / "a.obj", "v 0 0 0 1 0 0\n");
+  EXPECT_THROW(scene::read_attributes(folder.path() / "a.obj", mesh), scene::Error);
+}
+
 reference::Remesh remeshed(const scene::TriangleMesh& mesh, int level) {
-  reference::HierarchyOptions options;
-  options.base_triangles = 12;
   reference::RemeshOptions how;
   how.level = level;
-  return reference::remeshed(reference::build_hierarchy(mesh, options), how);
+  return reference::remeshed(test::hierarchy_over(mesh, 12), how);
 }
 
 // What is linear on the input stays the same function of the place: colour and texture are the coordinates.

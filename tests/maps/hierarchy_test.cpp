@@ -11,18 +11,12 @@
 #include "reference/multires/stars/features.h"
 #include "scene/messages/error.h"
 #include "scene/multires/hierarchy_file.h"
+#include "tests/maps/hierarchy_over.h"
 #include "tests/seed.h"
 #include "validate/multires/check_hierarchy.h"
 
 namespace clues {
 namespace {
-
-scene::Hierarchy built(const scene::TriangleMesh& mesh, std::uint64_t base,
-                       const reference::HierarchyOptions& more = {}) {
-  auto options = more;
-  options.base_triangles = base;
-  return reference::build_hierarchy(mesh, options);
-}
 
 void expect_verified(const scene::Hierarchy& h, const std::string& name) {
   const auto report = validate::check_hierarchy(h);
@@ -30,28 +24,28 @@ void expect_verified(const scene::Hierarchy& h, const std::string& name) {
 }
 
 TEST(Hierarchy, OfSmallestSurfacesStays) {
-  EXPECT_TRUE(built(fuzz::fan(1, false), 0).levels.empty());
-  auto octahedron = built(fuzz::ball(1), 0);
+  EXPECT_TRUE(test::hierarchy_over(fuzz::fan(1, false), 0).levels.empty());
+  auto octahedron = test::hierarchy_over(fuzz::ball(1), 0);
   expect_verified(octahedron, "octahedron");
   EXPECT_EQ(octahedron.base.size(), 4U);
-  expect_verified(built(octahedron.input, 8), "octahedron as it is");
+  expect_verified(test::hierarchy_over(octahedron.input, 8), "octahedron as it is");
 }
 
 TEST(Hierarchy, OfKnownShapesReachesItsBase) {
-  const auto sphere = built(fuzz::ball(12), 0);
+  const auto sphere = test::hierarchy_over(fuzz::ball(12), 0);
   expect_verified(sphere, "ball");
   EXPECT_EQ(sphere.base.size(), 4U);
   for (int genus = 0; genus < 4; ++genus) {
-    const auto h = built(fuzz::frame(genus, 3), 60);
+    const auto h = test::hierarchy_over(fuzz::frame(genus, 3), 60);
     expect_verified(h, "frame");
     EXPECT_LE(h.base.size(), 60U) << genus;
   }
-  const auto disc = built(fuzz::sheet(20), 0);
+  const auto disc = test::hierarchy_over(fuzz::sheet(20), 0);
   expect_verified(disc, "sheet");
   EXPECT_EQ(disc.base.size(), 1U);
   for (int n = 3; n < 14; ++n) {
-    expect_verified(built(fuzz::fan(n, true), 0), "closed fan");
-    expect_verified(built(fuzz::fan(n, false), 0), "open fan");
+    expect_verified(test::hierarchy_over(fuzz::fan(n, true), 0), "closed fan");
+    expect_verified(test::hierarchy_over(fuzz::fan(n, false), 0), "open fan");
   }
 }
 
@@ -59,7 +53,7 @@ TEST(Hierarchy, OfKnownShapesReachesItsBase) {
 TEST(Hierarchy, OfASurfaceInOnePoint) {
   auto mesh = fuzz::ball(6);
   for (auto& p : mesh.points) p = {1e300, -1e300, 5e-324};
-  const auto h = built(mesh, 20);
+  const auto h = test::hierarchy_over(mesh, 20);
   expect_verified(h, "point");
   EXPECT_LE(h.base.size(), 20U);
 }
@@ -70,7 +64,7 @@ TEST(Hierarchy, OfHugeAndTinyCoordinatesIsTheSame) {
     for (auto& p : mesh.points) {
       for (double& x : p) x *= factor;
     }
-    return built(mesh, 20).base;
+    return test::hierarchy_over(mesh, 20).base;
   };
   EXPECT_EQ(base(1), base(0x1p1000));
   EXPECT_EQ(base(1), base(0x1p-900));
@@ -82,7 +76,7 @@ TEST(Hierarchy, KeepsFeatures) {
   options.features = reference::sharp_edges(mesh, 0.5);
   const std::size_t sharp = options.features.size();
   EXPECT_GT(sharp, 100U);
-  const auto h = built(mesh, 0, options);
+  const auto h = test::hierarchy_over(mesh, 0, options);
   expect_verified(h, "features");
   EXPECT_EQ(h.features.size(), sharp);
   EXPECT_EQ(h.fixed.size(), 16U);  // the corners of the frame
@@ -121,8 +115,8 @@ TEST(Features, AreDecidedExactly) {
 
 TEST(Hierarchy, IsTheSameTwiceAndInItsFile) {
   const auto mesh = fuzz::frame(2, 3);
-  const auto text = scene::to_text(built(mesh, 50));
-  EXPECT_EQ(text, scene::to_text(built(mesh, 50)));
+  const auto text = scene::to_text(test::hierarchy_over(mesh, 50));
+  EXPECT_EQ(text, scene::to_text(test::hierarchy_over(mesh, 50)));
   EXPECT_EQ(text, scene::to_text(scene::parse_hierarchy(text, "it")));
 }
 
@@ -132,7 +126,7 @@ void random_surfaces(std::uint64_t seed, std::uint64_t count) {
     const auto test = fuzz::surface_case(seed, k);
     reference::HierarchyOptions options;
     if (k % 3 == 0) options.features = reference::sharp_edges(test.mesh, 0.5);
-    const auto h = built(test.mesh, k % 7, options);
+    const auto h = test::hierarchy_over(test.mesh, k % 7, options);
     const auto report = validate::check_hierarchy(h);
     ASSERT_TRUE(report.sound()) << "seed " << seed << ", case " << k << "\n" << validate::to_text(report);
     levels += h.levels.size();
@@ -147,7 +141,7 @@ void random_surfaces(std::uint64_t seed, std::uint64_t count) {
 // Found by the long form: the judge asked for weights in a triangle that a point misses by less than 2^-60.
 TEST(Hierarchy, OfAPointNextToANewEdge) {
   const auto test = fuzz::surface_case(20261122, 2203);
-  expect_verified(built(test.mesh, 2203 % 7), "case 2203");
+  expect_verified(test::hierarchy_over(test.mesh, 2203 % 7), "case 2203");
 }
 
 TEST(Hierarchy, OfRandomSurfacesIsVerified) { random_surfaces(kSeed, 300); }

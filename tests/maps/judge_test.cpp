@@ -12,6 +12,7 @@
 #include "reference/multires/stars/features.h"
 #include "scene/messages/error.h"
 #include "scene/multires/hierarchy_file.h"
+#include "tests/maps/hierarchy_over.h"
 #include "validate/multires/check_hierarchy.h"
 #include "validate/multires/check_plain_map.h"
 
@@ -20,11 +21,7 @@ namespace {
 
 using testing::HasSubstr;
 
-scene::Hierarchy good() {
-  reference::HierarchyOptions options;
-  options.base_triangles = 24;
-  return reference::build_hierarchy(fuzz::ball(5), options);
-}
+scene::Hierarchy good() { return test::hierarchy_over(fuzz::ball(5), 24); }
 
 // All findings of the hierarchy with the defect.
 std::string verdict(const scene::Hierarchy& h) {

@@ -9,6 +9,7 @@
 #include "reference/multires/hierarchy.h"
 #include "reference/multires/remesh.h"
 #include "scene/messages/error.h"
+#include "tests/maps/hierarchy_over.h"
 #include "tests/seed.h"
 #include "validate/multires/check_remesh.h"
 #include "validate/multires/triangle_distance.h"
@@ -23,9 +24,7 @@ struct Made {
   reference::Remesh remesh;
 };
 Made made(const scene::TriangleMesh& mesh, std::uint64_t base, const reference::RemeshOptions& options) {
-  reference::HierarchyOptions hierarchy;
-  hierarchy.base_triangles = base;
-  Made out{reference::build_hierarchy(mesh, hierarchy), {}};
+  Made out{test::hierarchy_over(mesh, base), {}};
   out.remesh = reference::remeshed(out.hierarchy, options);
   return out;
 }

@@ -8,18 +8,13 @@
 
 #include "fuzz/multires/surfaces.h"
 #include "reference/multires/hierarchy.h"
+#include "tests/maps/hierarchy_over.h"
 #include "validate/multires/level_topology.h"
 
 namespace clues {
 namespace {
 
 using scene::Point;
-
-scene::Hierarchy over(const scene::TriangleMesh& mesh, std::uint64_t base) {
-  reference::HierarchyOptions options;
-  options.base_triangles = base;
-  return reference::build_hierarchy(mesh, options);
-}
 
 double length(const Point& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
 Point mix(const Point& a, const Point& b, double t) {
@@ -70,7 +65,7 @@ double measured(const scene::TriangleMesh& a, const scene::TriangleMesh& b) {
 
 TEST(Remesh, IsTheBaseDomainCutInFour) {
   const auto mesh = fuzz::frame(1, 2);
-  const auto h = over(mesh, 40);
+  const auto h = test::hierarchy_over(mesh, 40);
   for (int level = 0; level < 3; ++level) {
     reference::RemeshOptions options;
     options.level = level;
@@ -87,17 +82,17 @@ TEST(Remesh, IsTheBaseDomainCutInFour) {
 
 TEST(Remesh, OfItselfHasNoError) {
   const auto mesh = fuzz::ball(3);
-  const auto remesh = reference::remeshed(over(mesh, 1000), {});
+  const auto remesh = reference::remeshed(test::hierarchy_over(mesh, 1000), {});
   EXPECT_EQ(remesh.mesh.points.size(), mesh.points.size());
   EXPECT_LT(remesh.error(), 1e-6);
   reference::RemeshOptions two;
   two.level = 2;
-  EXPECT_LT(reference::remeshed(over(mesh, 1000), two).error(), 1e-6);
+  EXPECT_LT(reference::remeshed(test::hierarchy_over(mesh, 1000), two).error(), 1e-6);
 }
 
 TEST(Remesh, IsAsNearAsItSays) {
   for (const auto& mesh : {fuzz::ball(6), fuzz::frame(1, 3), fuzz::sheet(8)}) {
-    const auto h = over(mesh, 40);
+    const auto h = test::hierarchy_over(mesh, 40);
     for (int level = 0; level < 3; ++level) {
       reference::RemeshOptions options;
       options.level = level;
@@ -110,7 +105,7 @@ TEST(Remesh, IsAsNearAsItSays) {
 }
 
 TEST(Remesh, ReachesWhatIsAskedAndIsClosed) {
-  const auto h = over(fuzz::ball(10), 20);
+  const auto h = test::hierarchy_over(fuzz::ball(10), 20);
   std::size_t before = 0;
   for (const double error : {0.5, 0.2, 0.05}) {
     reference::RemeshOptions options;

@@ -7,6 +7,7 @@
 #include "reference/multires/hierarchy.h"
 #include "reference/multires/stars/features.h"
 #include "scene/messages/error.h"
+#include "tests/maps/hierarchy_over.h"
 #include "tests/seed.h"
 #include "validate/multires/check_remesh.h"
 
@@ -21,13 +22,6 @@ std::string verdict(const scene::Hierarchy& h, const reference::Remesh& remesh) 
   return out;
 }
 
-scene::Hierarchy hierarchy_over(const scene::TriangleMesh& mesh, std::uint64_t base, double cosine = -2) {
-  reference::HierarchyOptions options;
-  options.base_triangles = base;
-  if (cosine > -2) options.features = reference::sharp_edges(mesh, cosine);
-  return reference::build_hierarchy(mesh, options);
-}
-
 reference::Remesh uniform(const scene::Hierarchy& h, int level) {
   reference::RemeshOptions options;
   options.level = level;
@@ -36,7 +30,7 @@ reference::Remesh uniform(const scene::Hierarchy& h, int level) {
 
 TEST(Smoothing, LessensAnglesAndIsJudgedRight) {
   for (const auto& mesh : {fuzz::ball(8), fuzz::frame(1, 3), fuzz::sheet(8)}) {
-    const auto h = hierarchy_over(mesh, 40);
+    const auto h = test::hierarchy_over(mesh, 40);
     auto remesh = uniform(h, 2);
     const auto before = reference::neighbour_angles_estimate(remesh.mesh);
     const auto triangles = remesh.mesh.triangles;
@@ -53,7 +47,9 @@ TEST(Smoothing, LessensAnglesAndIsJudgedRight) {
 
 TEST(Smoothing, KeepsFeaturesAndTheBoundary) {
   const auto mesh = fuzz::frame(1, 3);
-  const auto h = hierarchy_over(mesh, 40, 0.5);
+  reference::HierarchyOptions options;
+  options.features = reference::sharp_edges(mesh, 0.5);
+  const auto h = test::hierarchy_over(mesh, 40, options);
   const std::set<scene::Edge> features(h.features.begin(), h.features.end());
   ASSERT_FALSE(features.empty());
   auto remesh = uniform(h, 2);
@@ -65,7 +61,7 @@ TEST(Smoothing, KeepsFeaturesAndTheBoundary) {
     EXPECT_EQ(at, remesh.sources[v]) << v;
   }
   EXPECT_EQ(verdict(h, remesh), "");
-  const auto sheet = hierarchy_over(fuzz::sheet(6), 8);
+  const auto sheet = test::hierarchy_over(fuzz::sheet(6), 8);
   auto flat = uniform(sheet, 2);
   const double error = flat.error();
   reference::smooth(flat, sheet, {});
@@ -76,7 +72,7 @@ TEST(Smoothing, KeepsFeaturesAndTheBoundary) {
 void judge_random_surfaces(std::uint64_t seed, std::uint64_t count) {
   std::uint64_t judged = 0, moves = 0;
   for (std::uint64_t k = 0; k < count; ++k) {
-    const auto h = hierarchy_over(fuzz::surface_case(seed, k).mesh, 20);
+    const auto h = test::hierarchy_over(fuzz::surface_case(seed, k).mesh, 20);
     try {
       auto remesh = uniform(h, 1 + static_cast<int>(k % 2));
       reference::SmoothingOptions options;

@@ -38,13 +38,6 @@ class MotionFiles : public testing::Test {
   int files_ = 0;
 };
 
-bool same(const scene::DepthMesh& a, const scene::DepthMesh& b) {
-  return a.triangles == b.triangles && a.samples.size() == b.samples.size() &&
-         std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), [](const auto& x, const auto& y) {
-           return x.at == y.at && x.is_direction == y.is_direction && x.is_base == y.is_base;
-         });
-}
-
 validate::WalkReport checked(const scene::DepthMesh& mesh, const scene::MotionPoint& viewpoint,
                              const scene::MotionThresholds& thresholds) {
   validate::WalkReport report;
@@ -55,7 +48,7 @@ validate::WalkReport checked(const scene::DepthMesh& mesh, const scene::MotionPo
 TEST_F(MotionFiles, MeshesAndBoundsComeBackAsTheyWere) {
   auto mesh = fuzz::globe(3, 0.7, 4, true);
   mesh.samples[0].at = {0.1, 1e-310, -1e300};
-  EXPECT_TRUE(same(mesh, scene::read_depth_mesh(file(scene::to_json_text(mesh)))));
+  EXPECT_TRUE(mesh == scene::read_depth_mesh(file(scene::to_json_text(mesh))));
   scene::MotionBounds bounds{
       scene::MotionPoint{0.1, 0.2, 0.3}, {1.5, 1e-17, true}, {0, 0.1, 5e-324, std::numeric_limits<double>::infinity()}};
   const auto again = scene::read_motion_bounds(file(scene::to_json_text(bounds)));
@@ -85,14 +78,14 @@ TEST_F(MotionFiles, WalksComeBackAsTheyWereAndSayOnlyWhatChanged) {
   scene::WalkReader reader(file(text));
   scene::WalkFrame frame;
   ASSERT_TRUE(reader.next(frame));
-  EXPECT_TRUE(same(frame.mesh, mesh));
+  EXPECT_TRUE(frame.mesh == mesh);
   ASSERT_TRUE(reader.next(frame));
   second.triangles.erase(second.triangles.begin() + 7);
-  EXPECT_TRUE(same(frame.mesh, second));
+  EXPECT_TRUE(frame.mesh == second);
   EXPECT_EQ(frame.viewpoint[0], 0.25);
   EXPECT_EQ(frame.thresholds.kappa, 20);
   ASSERT_TRUE(reader.next(frame));
-  EXPECT_TRUE(same(frame.mesh, third));
+  EXPECT_TRUE(frame.mesh == third);
   EXPECT_EQ(frame.thresholds.kappa, 10);
   EXPECT_TRUE(frame.thresholds.delaunay);
   EXPECT_FALSE(reader.next(frame));

@@ -376,7 +376,8 @@ TEST(Hazard, B31OneVertexDoesNotSpeakForItsMesh) {
   reference::Statistics unused;
   const auto wedges = reference::find_wedges(query, {}, unused).wedges;
   const reference::Walker walker(query);
-  EXPECT_FALSE(walker.label({Point3(0, 0, 3.9375), std::nullopt, nullptr}, wedges, {}, 1).visible);  // beside that vertex
+  EXPECT_FALSE(
+      walker.label({Point3(0, 0, 3.9375), std::nullopt, nullptr}, wedges, {}, 1).visible);  // beside that vertex
   EXPECT_TRUE(is_visible(map, behind, kFront, {8.5, 0.0625, 4}));
   EXPECT_FALSE(is_visible(map, behind, kFront, {0.25, 0.0078125, 4}));
   expect_right(s.mesh(), cell);

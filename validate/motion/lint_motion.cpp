@@ -43,12 +43,6 @@ std::vector<ConstraintPlace> violated_at(const MotionVector& test) {
   return out;
 }
 
-bool same(const std::vector<ConstraintPlace>& a, const std::vector<ConstraintPlace>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) {
-    return x.constraint == y.constraint && x.triangle == y.triangle && x.corner == y.corner;
-  });
-}
-
 BoundJudgement judged(const MotionVector& test, std::size_t triangle, double claim) {
   std::vector<double> claims(test.mesh.triangles.size(), 0);
   claims[triangle] = claim;
@@ -96,9 +90,8 @@ std::vector<std::string> flaws_of_exact(const MotionVector& test) {
 std::vector<std::string> flaws_of(const MotionVector& test) {
   std::vector<std::string> out = flaws_of_exact(test);
   const auto by_reference = reference::violations(test.mesh, test.thresholds, exact::exact_viewpoint(test.viewpoint));
-  if (!same(by_reference, violated_at(test)))
-    out.push_back("violated: the reference and the judge contradict each other");
-  if (!same(by_reference, test.violated)) out.push_back("violated: not what is violated at the viewpoint");
+  if (by_reference != violated_at(test)) out.push_back("violated: the reference and the judge contradict each other");
+  if (by_reference != test.violated) out.push_back("violated: not what is violated at the viewpoint");
   const auto bounds = reference_bounds(test);
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     if (!(bounds[i] <= test.sound[i])) {

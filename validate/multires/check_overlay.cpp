@@ -89,34 +89,37 @@ mpz_class part_of(const Triangle& t, const std::array<const CarrierPoint*, 3>& p
   return a * d - b * c;
 }
 
-void check_point(const std::string& check, const std::string& place, const Carriers& surface, const CarrierPoint& point,
-                 HierarchyReport& report) {
+// Its place is said only where something is wrong: there are many points.
+void check_point(const std::string& check, std::uint32_t number, const char* where, const Carriers& surface,
+                 const CarrierPoint& point, HierarchyReport& report) {
+  const auto wrong = [&](const std::string& what) {
+    report.find(check, fmt::format("point {}, {}: {}", number, where, what));
+  };
   mpz_class sum = 0;
   for (std::size_t k = 0; k < point.size(); ++k) {
     sum += mpz_class(point.weight[k]);
-    if (point.weight[k] <= 0)
-      report.find(check, fmt::format("{}: the weight {} is not positive", place, point.weight[k]));
+    if (point.weight[k] <= 0) wrong(fmt::format("the weight {} is not positive", point.weight[k]));
   }
   if (sum != mpz_class(scene::whole_weight)) {
     const mpz_class off = sum - mpz_class(scene::whole_weight);
-    report.find(check, fmt::format("{}: its weights sum to 1 {} {} * 2^-60", place, off > 0 ? "+" : "-",
-                                   mpz_class(abs(off)).get_str()));
+    wrong(fmt::format("its weights sum to 1 {} {} * 2^-60", off > 0 ? "+" : "-", mpz_class(abs(off)).get_str()));
   }
-  if (!surface.carries(point)) report.find(check, fmt::format("{}: there is no simplex with these corners", place));
+  if (!surface.carries(point)) wrong("there is no simplex with these corners");
 }
 
 }  // namespace
 
-void check_common_triangulation(const CommonTriangulation& c, HierarchyReport& report) {
+std::vector<std::uint32_t> check_common_triangulation(const CommonTriangulation& c, HierarchyReport& report) {
   const Carriers input(c.first), base(c.second);
   const auto wrong = [&](const std::string& what) { report.find(c.cover_check, what); };
   for (std::uint32_t p = 0; p < c.points.size(); ++p) {
-    check_point(c.weight_check, fmt::format("point {}, source", p), input, c.points[p].source, report);
-    check_point(c.weight_check, fmt::format("point {}, image", p), base, c.points[p].image, report);
+    check_point(c.weight_check, p, "source", input, c.points[p].source, report);
+    check_point(c.weight_check, p, "image", base, c.points[p].image, report);
   }
   const mpz_class one = mpz_class(scene::whole_weight) * mpz_class(scene::whole_weight);
   std::vector<mpz_class> covered(c.first.size()), covered_base(c.second.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
+  std::vector<std::uint32_t> spanned;
   for (std::uint32_t i = 0; i < c.pieces.size(); ++i) {
     const auto& piece = c.pieces[i];
     std::array<const CarrierPoint*, 3> source{}, image{};
@@ -129,6 +132,7 @@ void check_common_triangulation(const CommonTriangulation& c, HierarchyReport& r
       }
     }
     const auto in = common_triangle(input, source), on = common_triangle(base, image);
+    spanned.push_back(on.value_or(scene::no_vertex));
     if (!in || *in != piece.input) {
       wrong(fmt::format("piece {} does not lie in triangle {} of {}", i, piece.input, c.first_name));
       continue;
@@ -159,6 +163,7 @@ void check_common_triangulation(const CommonTriangulation& c, HierarchyReport& r
   };
   sums(covered, c.first_name);
   sums(covered_base, c.second_name);
+  return spanned;
 }
 
 void check_overlay(const scene::Hierarchy& h, HierarchyReport& report) {

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
+#include <vector>
 
 #include "validate/multires/common_triangulation.h"
 #include "validate/multires/level_topology.h"
@@ -14,21 +12,13 @@
 namespace clues::validate {
 namespace {
 
-using scene::CarrierPoint;
-using scene::Triangle;
 using scene::TriangleMesh;
 
 class RemeshJudge {
  public:
   RemeshJudge(const scene::Hierarchy& h, const TriangleMesh& remesh, const scene::RemeshProof& proof,
               HierarchyReport& report)
-      : h_(h), remesh_(remesh), proof_(proof), report_(report) {
-    for (std::uint32_t t = 0; t < remesh.triangles.size(); ++t) {
-      auto corners = remesh.triangles[t];
-      std::sort(corners.begin(), corners.end());
-      numbers_.emplace(corners, t);
-    }
-  }
+      : h_(h), remesh_(remesh), proof_(proof), report_(report) {}
 
   // Points and pieces whose weights cannot be used for distances: those are left alone then.
   void check_maps() {
@@ -42,7 +32,7 @@ class RemeshJudge {
     for (std::uint32_t t = 0; t < remesh_.triangles.size(); ++t) parts.push_back({remesh_.triangles[t], t});
     check_common_triangulation(
         {remesh_.triangles, h_.base, vertices, parts, "the remesh", "the base domain", "E7", "E7"}, report_);
-    check_common_triangulation(
+    remesh_triangles_ = check_common_triangulation(
         {h_.input.triangles, remesh_.triangles, proof_.points, proof_.pieces, "the input", "the remesh", "E7", "E7"},
         report_);
     sound_ = before == report_.counts;
@@ -71,7 +61,7 @@ class RemeshJudge {
     if (!sound_) return wrong("distances were not looked at, for what is wrong with the pieces");
     for (std::uint32_t i = 0; i < proof_.pieces.size(); ++i) {
       const auto& piece = proof_.pieces[i];
-      const auto on = corners_of(remesh_, remesh_triangle(piece)), near = corners_of(h_.input, proof_.near[i]);
+      const auto on = corners_of(remesh_, remesh_triangles_[i]), near = corners_of(h_.input, proof_.near[i]);
       for (const std::uint32_t p : piece.corners) {
         const auto& point = proof_.points[p];
         if (std::isfinite(proof_.to_remesh) && !is_within({point.source, h_.input}, on, proof_.to_remesh))
@@ -98,24 +88,11 @@ class RemeshJudge {
     }
   }
 
-  // Of a piece of which all is right there is one.
-  std::uint32_t remesh_triangle(const scene::OverlayTriangle& piece) const {
-    std::vector<std::uint32_t> corners;
-    for (const std::uint32_t p : piece.corners) {
-      const auto& image = proof_.points[p].image;
-      corners.insert(corners.end(), image.corner.begin(),
-                     image.corner.begin() + static_cast<std::ptrdiff_t>(image.size()));
-    }
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    return numbers_.at({corners[0], corners[1], corners[2]});
-  }
-
   const scene::Hierarchy& h_;
   const TriangleMesh& remesh_;
   const scene::RemeshProof& proof_;
   HierarchyReport& report_;
-  std::map<Triangle, std::uint32_t> numbers_;
+  std::vector<std::uint32_t> remesh_triangles_;  // of each piece
   bool sound_ = false;
 };
 

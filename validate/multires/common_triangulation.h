@@ -17,6 +17,7 @@ struct CommonTriangulation {
   std::string weight_check, cover_check;  // what findings are filed under
 };
 
-void check_common_triangulation(const CommonTriangulation& parts, HierarchyReport& report);
+// Of each piece the triangle of the second surface that its corners span; no_vertex: none, which is among what is found.
+std::vector<std::uint32_t> check_common_triangulation(const CommonTriangulation& parts, HierarchyReport& report);
 
 }  // namespace clues::validate

@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
-#include "scene/messages/error.h"
+#include "validate/vectors/side_topic.h"
 
 namespace clues::validate {
 namespace {
@@ -21,32 +20,9 @@ constexpr std::array vertex_words{"removable", "fixed", "high", "link", "flat"};
 constexpr std::array verdict_words{"proved", "refuted", "undecided"};
 constexpr std::array check_words{"E1", "E2", "E3", "E4", "E5", "E6"};
 
-[[noreturn]] void refuse(const std::string& where, const std::string& what) {
-  throw scene::Error(scene::ErrorCode::malformed, where + ": " + what);
-}
-
-void check_keys(const Json& object, const std::vector<std::string>& required, const std::vector<std::string>& optional,
-                const std::string& where) {
-  if (!object.is_object()) refuse(where, scene::json_excerpt(object) + " is no object");
-  for (const auto& key : required) {
-    if (!object.contains(key)) refuse(where, fmt::format("the field \"{}\" is missing", key));
-  }
-  for (const auto& item : object.items()) {
-    const auto known = [&](const std::vector<std::string>& keys) {
-      return std::find(keys.begin(), keys.end(), item.key()) != keys.end();
-    };
-    if (!known(required) && !known(optional)) refuse(where, "there is no field \"" + item.key() + "\" in this format");
-  }
-}
-
 const Json& list_in(const Json& object, const char* key, const std::string& where) {
   if (!object[key].is_array()) refuse(where, fmt::format("\"{}\" must be a list", key));
   return object[key];
-}
-
-std::string text_in(const Json& value, const std::string& where) {
-  if (!value.is_string() || value.get<std::string>().empty()) refuse(where, "must be a text that is not empty");
-  return value.get<std::string>();
 }
 
 template <std::size_t n>
@@ -149,11 +125,8 @@ MultiresVector case_in(const Json& value, const std::string& file, bool drafts) 
   MultiresVector out;
   out.file = file;
   out.source = value;
-  if (!value.is_object() || !value.contains("id")) refuse(file, "a case without \"id\"");
-  out.id = text_in(value["id"], file + ": id");
-  const std::string where = file + ": case '" + out.id + "'";
-  if (out.id.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") != std::string::npos)
-    refuse(where, "an id is made of a-z, 0-9 and -");
+  out.id = case_id_in(value, file);
+  const std::string where = place_of_case(file, out.id);
   if (!value.contains("kind")) refuse(where, "the field \"kind\" is missing");
   const std::string kind = word_in(value["kind"], kind_words, where + ": kind");
   std::vector<std::string> required{"id", "comment", "kind"}, optional{"expect"};
@@ -166,10 +139,8 @@ MultiresVector case_in(const Json& value, const std::string& file, bool drafts) 
     required.insert(required.end(), {"input", "base", "map"});
   }
   check_keys(value, required, optional, where);
-  out.comment = text_in(value["comment"], where + ": comment");
-  if (out.comment.size() < 20) refuse(where, "a comment has at least 20 characters");
-  if (!value.contains("expect") && !drafts)
-    refuse(where, "the field \"expect\" is missing (`clues lint --write` fills it in)");
+  out.comment = comment_in(value, where);
+  if (!value.contains("expect") && !drafts) refuse_draft(where);
   const Json* expect = value.contains("expect") ? &value["expect"] : nullptr;
   const std::string at = where + ": expect";
   if (kind == "surface") {
@@ -244,21 +215,11 @@ std::string case_to_text(const MultiresVector& test) {
 
 }  // namespace
 
-bool is_multires_suite(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(folder / "schema.json", ignored)) return false;
-  const auto schema = scene::read_json_file(folder / "schema.json");
-  return schema.is_object() && schema.value("title", "") == multires_format;
-}
+bool is_multires_suite(const std::filesystem::path& folder) { return is_suite_of(folder, multires_format); }
 
 MultiresTopic parse_multires_topic(std::string_view text, const std::string& file, bool drafts) {
-  const auto root = scene::parse_json(text, file);
-  check_keys(root, {"format", "topic", "cases"}, {}, file);
-  if (root["format"] != multires_format) refuse(file, fmt::format("\"format\" must be \"{}\"", multires_format));
-  MultiresTopic out{file, text_in(root["topic"], file + ": topic"), {}};
-  if (!root["cases"].is_array() || root["cases"].empty()) refuse(file, "\"cases\" must be a list with cases");
-  for (const auto& value : root["cases"]) out.cases.push_back(case_in(value, file, drafts));
-  return out;
+  return topic_in<MultiresTopic>(text, file, multires_format,
+                                 [&](const Json& value) { return case_in(value, file, drafts); });
 }
 
 MultiresTopic read_multires_topic(const std::filesystem::path& path, bool drafts) {
@@ -266,10 +227,9 @@ MultiresTopic read_multires_topic(const std::filesystem::path& path, bool drafts
 }
 
 std::string to_json_text(const MultiresTopic& topic) {
-  std::string out = fmt::format("{{\n  \"format\": \"{}\",\n  \"topic\": {},\n  \"cases\": [\n", multires_format,
-                                Json(topic.topic).dump());
-  for (std::size_t i = 0; i < topic.cases.size(); ++i) out += (i == 0 ? "" : ",\n") + case_to_text(topic.cases[i]);
-  return out + "\n  ]\n}\n";
+  std::vector<std::string> cases;
+  for (const MultiresVector& test : topic.cases) cases.push_back(case_to_text(test));
+  return topic_to_text(multires_format, topic.topic, cases);
 }
 
 }  // namespace clues::validate

@@ -18,7 +18,9 @@ using Exact = std::array<mpq_class, 3>;
 constexpr double u = 0x1p-53;
 
 mpq_class weight_of(const WeightedPoint& point, std::size_t k) {
-  return mpq_class(mpz_class(point.at.weight[k]), mpz_class(scene::whole_weight));
+  mpq_class weight(mpz_class(point.at.weight[k]), mpz_class(scene::whole_weight));
+  weight.canonicalize();
+  return weight;
 }
 
 Exact exact(const WeightedPoint& point) {

@@ -19,25 +19,7 @@ namespace {
 // proof failed are looked at before the map is made anew: as many as this, or as the map has, times two. (Of a scene behind a hole in K all proofs may fail.)
 constexpr std::size_t kRays = 4096, kTimes = 6, kFailures = 512, kFailuresPerMapped = 2;
 
-Box box_of(std::span<const Point> points) {
-  Box box{points[0], points[0]};
-  for (const Point& p : points) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      box.low[i] = std::min(box.low[i], p[i]);
-      box.high[i] = std::max(box.high[i], p[i]);
-    }
-  }
-  return box;
-}
-
 CGAL::Bbox_3 to_bbox(const Box& b) { return {b.low[0], b.low[1], b.low[2], b.high[0], b.high[1], b.high[2]}; }
-
-bool overlap(const Box& a, const Box& b) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (a.high[i] < b.low[i] || b.high[i] < a.low[i]) return false;
-  }
-  return true;
-}
 
 // Child `lane` of a node in the coordinates of the scene, rounded outward: the local box contains the exact triangles in exact local coordinates;
 // dividing by a power of two is exact (or overflows to infinity, which is outward), the sum is rounded once.
@@ -59,7 +41,7 @@ class LitTriangles {
     std::vector<CGAL::Bbox_3> boxes;
     for (const std::uint32_t id : ids) {
       corners_.push_back(bvh.corners(id));
-      boxes.push_back(to_bbox(box_of(corners_.back())));
+      boxes.push_back(to_bbox(scene::bounds_of(corners_.back())));
     }
     tree_ = exact::BoxTree(std::move(boxes));
   }
@@ -75,7 +57,7 @@ class LitTriangles {
   enum class Meets : std::uint8_t { nothing, in_plane, across };
   Meets may_meet_inside(const Corners& t) const {
     Meets meets = Meets::nothing;
-    for (const std::uint32_t i : near(box_of(t))) {
+    for (const std::uint32_t i : near(scene::bounds_of(t))) {
       if (!may_meet_inside_conservative(t, corners_[i])) continue;
       if (!in_plane_of(t, corners_[i])) return Meets::across;
       meets = Meets::in_plane;
@@ -157,7 +139,7 @@ bool Darkness::dark_inside(const Corners& t) const {
 // The place: in a box that holds a point of the inside, with the middle on the side asked about, which nothing touches that is not in the plane.
 bool Darkness::dark_beside(const Corners& t, int side) const {
   const Point n = cross_of(minus(t[1], t[0]), minus(t[2], t[0]));
-  const Box all = box_of(t);
+  const Box all = scene::bounds_of(t);
   double extent = 0, largest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     extent = std::max(extent, all.high[i] - all.low[i]);
@@ -286,20 +268,20 @@ void Closer::add_all() {
 
 // D3: what meets the cell is visible. All whose boxes do: too many does no harm.
 void Closer::add_triangles_by_the_cell() {
-  const Box cell = box_of(cell_.vertices());
+  const Box cell = scene::bounds_of(cell_.vertices());
   std::vector<std::uint32_t> nodes{0};
   while (!nodes.empty() && !bvh_.nodes().empty()) {
     const BoxLanes& node = bvh_.nodes()[nodes.back()];
     nodes.pop_back();
     for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane) {
       const std::uint32_t child = node.child[lane];
-      if (child == BoxLanes::kEmpty || !overlap(cell, child_box(bvh_.frame(), node, lane))) continue;
+      if (child == BoxLanes::kEmpty || !touch(cell, child_box(bvh_.frame(), node, lane))) continue;
       if ((child & BoxLanes::kLeaf) == 0) {
         nodes.push_back(child);
         continue;
       }
       for (const std::uint32_t t : bvh_.blocks()[child & ~BoxLanes::kLeaf].id) {
-        if (overlap(cell, box_of(bvh_.corners(t)))) add(t);
+        if (touch(cell, scene::bounds_of(bvh_.corners(t)))) add(t);
       }
     }
   }

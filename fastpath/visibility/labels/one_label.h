@@ -18,7 +18,7 @@
 // (3) A source is asked at a place beside it. If a missing wedge passes between the two, it may count as hidden though it is lit by W alone: then its own wedges are missing, and
 // need not be in any closed A(x). Or it counts as lit though it is dark, and a sector that would be there without its false light is missing. That is no concern where the source as a whole is in one A(x), nor where the
 // way from its point y to the place is outside of all of them, and so is the part of the edge from y to both sides until it enters one, and stays there until the end: the space beside
-// that has one label, as M; and its walk counts, as above. Any other source is counted among X itself (Search::leave_out_doubtful_sources), a part of an edge with a convex set that holds the A(y) of all its
+// has one label, as M; and its walk counts, as above. Any other source is counted among X itself (search/doubtful_sources.h), a part of an edge with a convex set that holds the A(y) of all its
 // points, until none is left.
 //
 // One point of M outside A(x) says nothing about the rest of M: that took triangle 2 from tests/differential/limit-hides-a-tip.obj. The test is against the facets of A(x): M is outside if all its corners are

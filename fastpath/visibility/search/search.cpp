@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "fastpath/visibility/scene/surface_vertices.h"
+#include "fastpath/visibility/search/doubtful_sources.h"
 #include "fastpath/visibility/search/sources.h"
 #include "fastpath/visibility/wedges/contacts.h"
 
@@ -29,7 +30,8 @@ class Search::Work {
         sources(s, is_vertex, contours, set, walker, contacts, workers),
         edge_wedges(contours.size()),
         is_contour(s.edges.size(), false),
-        cuts(s.edges.size()) {}
+        cuts(s.edges.size()),
+        doubtful_sources(s, contours, sources, contacts, left_out) {}
 
   void run() {
     for (std::size_t i = 0; i < contours.size(); ++i) {
@@ -38,7 +40,7 @@ class Search::Work {
     }
     do ++counts.rounds;
     while (round());
-    leave_out_doubtful_sources();
+    doubtful_sources.leave_out();
     count();
   }
 
@@ -160,7 +162,8 @@ class Search::Work {
     });
     contacts.find_sectors(lit);
     // That their sectors exist is in doubt.
-    const auto known = std::stable_partition(lit.begin(), lit.end(), [](const Contact* c) { return !c->has_all_sectors; });
+    const auto known =
+        std::stable_partition(lit.begin(), lit.end(), [](const Contact* c) { return !c->has_all_sectors; });
     too_intricate.insert(too_intricate.end(), known, lit.end());
     lit.erase(known, lit.end());
     if (in_doubt) lit.insert(lit.end(), too_intricate.begin(), too_intricate.end());
@@ -387,88 +390,6 @@ class Search::Work {
     return ExactPoint(a.exact() + Rational(at_a / (at_a - at_b)) * (b.exact() - a.exact()));
   }
 
-  // --- limits -------------------------------------------------------------------------------------------------------------------
-
-  // A source with a place (one_label.h, 3): a part of an edge from lo to hi with a point y of it, or a vertex, which is all three.
-  struct Placed {
-    const ExactPoint *lo = nullptr, *hi = nullptr, *y = nullptr, *beside = nullptr;
-    const Walk* walk = nullptr;
-    const ContourEdge* contour = nullptr;  // none: a vertex
-    std::uint32_t vertex = 0;
-    std::size_t looked_at = 0;  // how many of what is left out
-    bool settled = false;       // no matter what else is left out
-  };
-  std::vector<Placed> placed_sources() const {
-    std::vector<Placed> found;
-    for (const Sources::OfEdge& s : sources.of_edges()) {
-      if (s.beside)
-        found.push_back({s.part.lo, s.part.hi, s.part.y, s.beside, &s.walk, &contours[s.contour], 0, 0, false});
-    }
-    for (const Sources::OfVertex& s : sources.of_vertices()) {
-      const ExactPoint* x = &scene.points[s.point];
-      if (s.walk.end != Walk::End::unresolved)
-        found.push_back({x, x, x, s.beside, &s.walk, nullptr, s.point, 0, false});
-    }
-    return found;
-  }
-
-  enum class Doubt { none, settled, left_out };
-  Doubt doubt_of(const Placed& s, std::size_t i) const {
-    const bool place_misses = left_out.surely_misses(i, s.y->approximate(), s.beside->approximate()) &&
-                              keeps_out(*s.walk, left_out, i);
-    if (place_misses && left_out.surely_misses(i, s.lo->approximate(), s.hi->approximate())) return Doubt::none;
-    const bool holds_lo = left_out.holds(i, *s.lo), holds_hi = left_out.holds(i, *s.hi);
-    if (holds_lo && holds_hi) return Doubt::settled;
-    return place_misses && (holds_lo || holds_hi) ? Doubt::none : Doubt::left_out;
-  }
-
-  // A(x) of an end of a part of an edge; what is made for it lives as long as this.
-  const Apex& apex_at(const ContourEdge& c, const ExactPoint* x) {
-    const LocalEdge& e = scene.edges[c.edge];
-    for (const std::uint32_t v : {e.a, e.b}) {
-      if (x == &scene.points[v]) return contacts.apex_of(v, left_out_pool);
-    }
-    return *left_out_apexes.emplace_back(std::make_unique<Apex>(scene, left_out_pool, true, c.edge, x));
-  }
-
-  // The A(y) of all y of a part of a contour edge lie behind the supporting plane through it, and behind the facets of A at one end that the other end is behind.
-  LeftOut::Around around_source(const Placed& s) {
-    if (!s.contour) return LeftOut::around(contacts.apex_of(s.vertex, left_out_pool));
-    const Plane& h = *s.contour->plane;
-    const auto has_cell_on = [&](int side) {
-      return std::any_of(scene.cell.vertices.begin(), scene.cell.vertices.end(),
-                         [&](const ExactPoint& v) { return h.side(v) == side; });
-    };
-    LeftOut::Around around;
-    for (const int side : {1, -1}) {
-      if (!has_cell_on(side)) around.push_back({&h, side, s.lo});
-    }
-    for (const auto& [x, other] : {std::pair(s.lo, s.hi), std::pair(s.hi, s.lo)}) {
-      for (const LeftOut::Side& facet : LeftOut::around(apex_at(*s.contour, x))) {
-        if (facet.plane->side(*other) >= 0) around.push_back(facet);
-      }
-    }
-    return around;
-  }
-
-  // Until there is none that what was added last concerns. O(sources * what is left out in the end).
-  void leave_out_doubtful_sources() {
-    if (left_out.empty()) return;
-    std::vector<Placed> placed = placed_sources();
-    for (bool more = true; more;) {
-      more = false;
-      for (Placed& s : placed) {
-        for (; !s.settled && s.looked_at < left_out.size(); ++s.looked_at) {
-          const Doubt doubt = doubt_of(s, s.looked_at);
-          s.settled = doubt != Doubt::none;
-          if (doubt != Doubt::left_out) continue;
-          left_out.add(around_source(s));
-          more = true;
-        }
-      }
-    }
-  }
-
   void count() {
     contacts.for_all([&](const Contact& c) {
       counts.apexes += c.apex ? 1 : 0;
@@ -498,8 +419,7 @@ class Search::Work {
   std::set<const Contact*> csvs_met;  // in this round
   std::set<const Contact*> left_out_contacts;
   LeftOut left_out;
-  Pool left_out_pool;
-  std::vector<std::unique_ptr<Apex>> left_out_apexes;
+  DoubtfulSources doubtful_sources;
 };
 
 Search::Search(const LocalScene& scene, const IntervalBox& bounds, const LocalMapOptions& options,

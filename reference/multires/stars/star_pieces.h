@@ -1,6 +1,10 @@
-// The pieces of one star while it is flattened (D33): their points by numbers of their own, laid out in the disk.
+// The pieces of one star while it is flattened (D33), or of one patch (D34): their points by numbers of their own, laid out flat.
 #pragma once
 
+#include <gmpxx.h>
+
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "exact/multires/grid.h"
@@ -24,6 +28,27 @@ struct StarPieces {
   std::vector<StarPoint> points;
   std::vector<StarPiece> pieces;
 };
+
+// Whether a point lies in a closed triangle, by the vertices that carry it.
+bool lies_in(const scene::Triangle& triangle, const scene::CarrierPoint& point);
+
+// The number of a point among `points`, where make() puts it when it is met for the first time.
+template <typename Make>
+std::uint32_t local_number(std::uint32_t point, std::map<std::uint32_t, std::uint32_t>& numbers,
+                           std::vector<StarPoint>& points, const Make& make) {
+  const auto [place, fresh] = numbers.try_emplace(point, static_cast<std::uint32_t>(points.size()));
+  if (fresh) points.push_back(make());
+  return place->second;
+}
+
+// The piece by numbers in the overlay, to whose points those introduced here are added.
+scene::OverlayTriangle numbered(const StarPiece& piece, StarPieces& star, std::vector<scene::OverlayVertex>& points);
+
+// A point in a closed piece, by the areas opposite to the corners of that. Its place in the input; none: the grid has none.
+std::optional<scene::CarrierPoint> source_in(const StarPiece& piece, const std::array<mpz_class, 3>& part,
+                                             const StarPieces& star);
+// Cuts piece number `i` from the point to its corners: `point` in place of each corner in turn, but of those from which nothing would be left.
+void cut_from(std::uint32_t point, std::size_t i, const std::array<mpz_class, 3>& part, StarPieces& star);
 
 // A new edge across the disk, between two ring vertices.
 struct Diagonal {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "exact/cell/cell_plane.h"
 #include "exact/cell/direction_cone.h"
 
 namespace clues::reference {
@@ -87,8 +88,7 @@ std::vector<RenderState> render_states(const VisibilityMap& map) {
   }
   for (const std::size_t i : drawn) {
     const exact::ConvexCell around(map.regions[i].rings[0]);  // its own convex hull, a polygon
-    std::vector<Point3> outline;
-    for (const int c : around.facets()[0].corners) outline.push_back(around.vertices()[static_cast<std::size_t>(c)]);
+    const std::vector<Point3> outline = exact::corners_of(around, around.facets()[0]);
     const CGAL::Bbox_3 box = box_of(outline);
     states[i].no_z_write = shafts[i].has_value() && std::all_of(drawn.begin(), drawn.end(), [&](std::size_t k) {
                              if (k == i) return true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact/cell/cell_plane.h"
 #include "exact/cell/direction_cone.h"
 #include "exact/complex/simple_point.h"
 #include "reference/visibility/labels/special_position.h"
@@ -55,8 +56,7 @@ std::optional<Point3> Walker::generic_viewpoint(const std::vector<exact::Plane3>
   std::vector<Point3> part = cell.vertices();
   std::optional<SpecialPosition> own;
   if (cell.dimension() == 2 && cell.facets()[0].plane.has_on(p)) {
-    part.clear();
-    for (const int i : cell.facets()[0].corners) part.push_back(cell.vertices()[static_cast<std::size_t>(i)]);
+    part = exact::corners_of(cell, cell.facets()[0]);
   } else if (cell.dimension() == 1 && !CGAL::collinear(part[0], part[1], p)) {
     own.emplace(*scene_, exact::Plane3(part[0], part[1], p));
   } else {

@@ -20,7 +20,8 @@ Walker::Label SpaceLabels::operator()(const Point3& p, const std::vector<Point3>
            covers(piece, p) != Meets::no;
   };
   if (std::any_of(wedges_.pieces().begin(), wedges_.pieces().end(), holds)) return {true, false};
-  const Walker::Label label = walker_.label({p, std::nullopt, nullptr}, wedges_, omega_->fixpoint().left_out, kSpaceSeed);
+  const Walker::Label label =
+      walker_.label({p, std::nullopt, nullptr}, wedges_, omega_->fixpoint().left_out, kSpaceSeed);
   if (label.visible) return label;
   const bool limited = omega_->fixpoint().left_out.may_reach(corners);
   return {limited, limited};

@@ -308,7 +308,9 @@ class Search {
   void leave_out_doubtful_sources(LeftOut& left_out) const {
     std::vector<const Source*> parts;
     std::vector<const VertexSource*> vertices;
-    const auto is_open = [](const Walk& w) { return !w.legs.empty() && (w.legs.back().from_edge || w.legs.back().from_corner); };
+    const auto is_open = [](const Walk& w) {
+      return !w.legs.empty() && (w.legs.back().from_edge || w.legs.back().from_corner);
+    };
     for (const Source& s : sources_) {
       if (!s.lit && is_open(s.walk)) parts.push_back(&s);
     }
