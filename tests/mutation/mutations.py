@@ -48,7 +48,7 @@ MUTATIONS = [
     ("star-free-between-always", "reference/local_star.cpp", "    if (in_arc(a, b, arc.normal, CGAL::is_zero(at0)", "    if (false && in_arc(a, b, arc.normal, CGAL::is_zero(at0)"),
     ("star-spreads-never", "reference/local_star.cpp", "  if (turn(inner) == way) return true;", "  if (turn(inner) == way) return false;"),
     ("d3-contact-is-not-visible", "reference/visibility_map.cpp", "    if (!scene.meets_cell(t)) continue;", "    continue;"),
-    ("fixpoint-nothing-lit-outright", "reference/fixpoint.cpp", "if (sources_[i].walk.ends_at_cell || sources_[i].walk.unresolved) lit.push_back(i);", "if (sources_[i].walk.unresolved) lit.push_back(i);"),
+    ("fixpoint-nothing-lit-outright", "reference/fixpoint.cpp", "if (!s.lit && (s.walk.ends_at_cell || (s.walk.unresolved && !waits(s)))) lit.push_back(i);", "if (!s.lit && s.walk.unresolved && !waits(s)) lit.push_back(i);"),
     ("d3-border-not-cut", "exact/complex.cpp", "    if (cell_) add_border();\n", ""),
     ("d16-contacts-forgotten", "exact/complex.cpp", "        sheets_[i].contacts.push_back(met[k]);\n", ""),
     # The fast path, put to the suite with --kernel fast.
@@ -62,7 +62,7 @@ MUTATIONS = [
     ("fast-apex-no-sector-at-corners", "fastpath/apex.cpp", "    exists = true;", "    exists = on_edge_;"),
     ("fast-apex-no-sector-at-csvs", "fastpath/apex.cpp", "    exists = true;", "    exists = !on_edge_;"),
     ("fast-apex-everything-superfluous-above", "fastpath/apex.cpp", "s.plane->side(*l.to) < 0 && star.free_between(l.beside, middle);", "s.plane->side(*l.to) < 0;"),
-    ("fast-apex-lit-edge-wrong-side", "fastpath/apex.cpp", "if (l.lit_end && s.plane->side(*l.lit_end) < 0) return false;", "if (l.lit_end && s.plane->side(*l.lit_end) > 0) return false;"),
+    ("fast-apex-lit-edge-wrong-side", "fastpath/apex.cpp", "if (!l.doubtful && l.lit_end && s.plane->side(*l.lit_end) < 0) return false;", "if (!l.doubtful && l.lit_end && s.plane->side(*l.lit_end) > 0) return false;"),
     ("fast-envelope-farthest-first", "fastpath/on_wedge.cpp", "    const int s = turn(b.u, b.w, x);  // left: on the centre's side\n    if (s != 0) return s > 0;", "    const int s = turn(b.u, b.w, x);\n    if (s != 0) return s < 0;"),
     ("fast-envelope-ends-late", "fastpath/on_wedge.cpp", "return s != 0 ? s > 0 : x.end && !y.end;", "return s != 0 ? s > 0 : !x.end && y.end;"),
     ("fast-envelope-before-near-bound", "fastpath/on_wedge.cpp", "  if (!sector->from_apex && !beyond_near(u, w)) return;\n", ""),
