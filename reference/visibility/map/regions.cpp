@@ -225,7 +225,8 @@ class SideMapper {
         if (options_.check_two_walks) {
           ++out.walks;
           const Walker::Label second = walker_.label(start, fixpoint_.wedges, fixpoint_.left_out, kSecondSeed + which);
-          out.disagreements += !label.fallback && !second.fallback && second.visible != label.visible;
+          out.disagreements +=
+              !fixpoint_.in_doubt && !label.fallback && !second.fallback && second.visible != label.visible;
         }
       } catch (const scene::Error&) {
         if (which < kSamples) continue;  // the sample itself lies in special position: take another

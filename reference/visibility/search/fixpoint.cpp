@@ -48,7 +48,7 @@ class Search {
       ++statistics_.rounds;
       changed = round();
     }
-    Fixpoint out{std::move(wedges_), {}, {}, {}};
+    Fixpoint out{std::move(wedges_), {}, counts_as_visible(), {}, {}};
     for (const Apex* apex : left_out_) out.left_out.add(apex->x(), scene_.cell());
     if (!out.left_out.empty()) leave_out_doubtful_sources(out.left_out);
     count(out);
@@ -116,9 +116,20 @@ class Search {
     }
   }
 
-  // Whether a source that counts as visible for want of an answer is left for later. Not if its wedges only separate (T10): they show nothing.
-  bool waits(const Source& s) const { return !in_doubt_ && s.walk.unresolved && !contours_[s.contour].holds_cell; }
-  bool waits(const VertexSource& s) const { return !in_doubt_ && s.walk.unresolved && !s.separates; }
+  // A wedge that only separates (T10) makes nothing visible, also where it should not exist.
+  bool separates(const Source& s) const { return contours_[s.contour].holds_cell; }
+  static bool separates(const VertexSource& s) { return s.separates; }
+  // Whether a source that counts as visible for want of an answer is left for later.
+  template <class Any>
+  bool waits(const Any& s) const {
+    return !in_doubt_ && s.walk.unresolved && !separates(s);
+  }
+
+  bool counts_as_visible() const {
+    const auto counts = [this](const auto& s) { return s.walk.unresolved && !separates(s); };
+    return std::any_of(sources_.begin(), sources_.end(), counts) ||
+           std::any_of(vertex_sources_.begin(), vertex_sources_.end(), counts);
+  }
 
   // Whether the pieces from index `first` on make the source visible.
   bool reached(VertexSource& s, std::size_t first) {
@@ -361,11 +372,9 @@ class Search {
           std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
     for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
     statistics_.conservative_fallbacks += out.left_out.size();
-    // A wedge that only separates makes nothing visible, also where it should not exist.
-    for (const Source& s : sources_)
-      statistics_.conservative_fallbacks += s.walk.unresolved && !contours_[s.contour].holds_cell;
+    for (const Source& s : sources_) statistics_.conservative_fallbacks += s.walk.unresolved && !separates(s);
     for (const VertexSource& s : vertex_sources_)
-      statistics_.conservative_fallbacks += s.walk.unresolved && !s.separates;
+      statistics_.conservative_fallbacks += s.walk.unresolved && !separates(s);
   }
 
   void find_lit(Fixpoint& out) const {

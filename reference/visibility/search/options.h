@@ -38,7 +38,7 @@ struct Statistics {
   std::uint64_t refined_triangles = 0;
   std::uint64_t regions_visible = 0, regions_hidden = 0;
   std::uint64_t walks = 0;
-  std::uint64_t walk_disagreements = 0;  // D14; must stay 0
+  std::uint64_t walk_disagreements = 0;  // D14; must stay 0 (not counted where something counts as visible: fixpoint.h)
   std::uint64_t rounds = 0;
   std::uint64_t conservative_fallbacks = 0;  // D17
   std::uint64_t wedges_built = 0;            // wedges whose valid part was looked for
