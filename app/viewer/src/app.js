@@ -296,7 +296,7 @@ export class App {
         target: along(from.target, goal.target, s), distance: from.distance * (goal.distance / from.distance) ** s,
         yaw: from.yaw + turn * s, pitch: from.pitch + (goal.pitch - from.pitch) * s, flat: goal.flat,
       };
-      this.stage.draw();
+      this.stage.move();
       if (t < 1) requestAnimationFrame(step);
       else { this.changed('camera'); then(); }
     };

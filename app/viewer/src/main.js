@@ -46,7 +46,7 @@ function drawPanels(app) {
 }
 
 function tip(app, x, y) {
-  const hit = x < 0 ? null : app.stage.pick(x, y);
+  const hit = x < 0 ? null : app.stage.hover(x, y);
   $('tip').hidden = !hit;
   $('canvas').style.cursor = hit ? 'pointer' : '';
   if (!hit) return;
@@ -106,7 +106,7 @@ async function start() {
   window.cluesView = app;
   app.setTheme(matchMedia('(prefers-color-scheme: dark)').matches);
   control($('canvas'), app.camera, {
-    changed: () => { app.stage.draw(); app.changed('camera'); },
+    changed: () => { app.stage.move(); app.changed('camera'); },
     hover: (() => { let asked = 0; return (x, y) => { cancelAnimationFrame(asked); asked = requestAnimationFrame(() => tip(app, x, y)); }; })(),
     click: (x, y) => { if (app.case?.scene) app.select(app.stage.pick(x, y)?.triangle ?? null); },
     busy: () => app.stopFlight(),
