@@ -1,5 +1,6 @@
 // The page: reads what the program put into it, or what is dropped, and connects the parts.
 import { App } from './app.js';
+import { AT_ONCE } from './view/surface.js';
 import { nameOfPart } from './files/mesh_bytes.js';
 import { control } from './view/controls.js';
 import { readAddress, writeAddress } from './ui/address.js';
@@ -14,7 +15,17 @@ function note(sentences) {
   $('note').replaceChildren(...sentences.map((s) => h('span', {}, s)), h('button', { onclick: () => note([]), 'aria-label': 'Close' }, '×'));
 }
 
-function make() {
+// Where the processor draws, smooth edges are most of the cost of a large scene.
+function affordsSmoothEdges(data) {
+  const triangles = (data?.files ?? []).reduce((sum, { mesh }) => sum + (mesh ? mesh.triangles.length / 16 : 0), 0);  // 12 bytes each, in base64
+  if (triangles <= AT_ONCE) return true;
+  const trial = document.createElement('canvas').getContext('webgl2', { antialias: false, depth: false }), info = trial?.getExtension('WEBGL_debug_renderer_info');
+  const name = info ? trial.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
+  trial?.getExtension('WEBGL_lose_context')?.loseContext();
+  return !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+function make(data) {
   let panel = 0, address = 0;
   const app = new App($('canvas'), (what) => {
     if (what === 'drawn') {
@@ -27,7 +38,7 @@ function make() {
     if (what !== 'camera') { cancelAnimationFrame(panel); panel = requestAnimationFrame(() => drawPanels(app)); }
     clearTimeout(address);
     address = setTimeout(() => writeAddress(app), 150);
-  });
+  }, affordsSmoothEdges(data));
   return app;
 }
 
@@ -95,9 +106,10 @@ async function openFiles(app, files) {
 }
 
 async function start() {
+  const embedded = $('clues-data'), data = embedded && JSON.parse(embedded.textContent);
   let app;
   try {
-    app = make();
+    app = make(data);
   } catch (problem) {
     note([`This browser cannot draw the page: ${problem.message}. WebGL 2 is needed.`]);
     $('welcome').hidden = true;
@@ -127,9 +139,8 @@ async function start() {
     await openFiles(app, await filesOf(event.dataTransfer));
   });
   window.addEventListener('hashchange', () => readAddress(app));
-  const embedded = $('clues-data');
-  if (embedded) {
-    const data = JSON.parse(embedded.textContent), hash = location.hash;
+  if (data) {
+    const { hash } = location;
     embedded.textContent = '';
     note(await app.open(data.files));
     readAddress(app, hash);

@@ -137,7 +137,7 @@ function followsItself({ removals, levels, base }, file) {
 }
 
 // The pieces of where one is: { triangle, base, corners: [{ at, to, weights }] } with places in space and weights in the base triangle; at both ends those of the overlay, with
-// which the file proves its map, and between them those of the steps. Null where there are too many.
+// which the file proves its map, and between them those of the steps. Where these would be too many, triangles are so small that they are taken as a whole.
 function piecesHere(part) {
   const { data, at } = part, { base, points, removals } = data;
   if (data.piecesOf === at) return data.here;
@@ -150,7 +150,8 @@ function piecesHere(part) {
     return data.here;
   }
   const cut = data.maps.at(at), level = data.levels[at], sum = (vertices, weights) => [0, 1, 2].map((k) => vertices.reduce((x, v, i) => x + weights[i] * data.flat[3 * v + k], 0));
-  data.here = cut && [];
+  data.here = [];
+  if (!cut) data.here = wholeTriangles(data, level);
   for (let t = 0; cut && 3 * t < level.length; ++t) {
     const vertices = [...level.subarray(3 * t, 3 * t + 3)].sort((a, b) => a - b);
     for (const piece of cut.get(vertices.join())) {
@@ -163,6 +164,18 @@ function piecesHere(part) {
     }
   }
   return data.here;
+}
+
+// Each triangle of a level on the base triangle that holds the images of most of its corners.
+function wholeTriangles({ base, points, flat }, level) {
+  const around = new Map();
+  base.forEach((t, b) => t.forEach((v) => around.set(v, [...(around.get(v) ?? []), b])));
+  return Array.from({ length: level.length / 3 }, (_, triangle) => {
+    const vertices = [...level.subarray(3 * triangle, 3 * triangle + 3)], holds = (b) => vertices.filter((v) => points[v].image.every((x) => base[b].includes(x.corner))).length;
+    const best = vertices.flatMap((v) => around.get(points[v].image[0].corner)).reduce((one, other) => (holds(other) > holds(one) ? other : one));
+    const corners = vertices.map((v) => ({ at: [...flat.subarray(3 * v, 3 * v + 3)], far: points[v].far, weights: base[best].map((w) => points[v].image.find((x) => x.corner === w)?.weight ?? 0) }));
+    return { triangle, base: best, corners };
+  });
 }
 
 const isEnd = ({ at, data }) => at === 0 || at === data.removals.length;
@@ -190,7 +203,6 @@ export default {
   label: () => 'level',
   surface(part, frame) {
     const { data } = part, pieces = piecesHere(part);
-    if (!pieces) return null;
     const buffer = new SurfaceBuffer(2 * pieces.length), charts = [];
     for (const { triangle, base, corners } of pieces) {
       const far = Math.max(...corners.map((c) => c.far)), places = corners.map((c) => frame.local(c.at));
@@ -215,8 +227,8 @@ export default {
       { id: 'next', name: 'vertices that the next level takes away', colour: '#ff00d4', on: !isEnd(part), count: next.length, make: () => dots(frame, next, '#ff00d4', 5) },
     ];
     const pieces = piecesHere(part);
-    if (pieces && (isEnd(part) || pieces.length < MOST_OUTLINED)) {
-      out.push({ id: 'overlay', name: 'the pieces, when near', colour: '#0072b2', on: true, count: pieces.length, make(ink) {
+    if (isEnd(part) || pieces.length < MOST_OUTLINED) {
+      out.push({ id: 'overlay', name: 'the pieces, when near', colour: 'ink', on: true, count: pieces.length, make(ink) {
         const drawn = lines(frame, pieces.flatMap((p) => p.corners.map((c, k) => [c.at, p.corners[(k + 1) % p.corners.length].at])).filter(([a, b]) => before(a, b)), ink, 0.5);
         drawn.userData.below = OVERLAY_BELOW;
         return drawn;
@@ -227,7 +239,7 @@ export default {
   facts(part, t) {
     const { data, at } = part;
     const out = [{ text: `vertices ${[...meshAt(part).triangles.subarray(3 * t, 3 * t + 3)].join(', ')}` }];
-    const mine = piecesHere(part)?.filter((p) => p.triangle === t) ?? [], last = at === data.removals.length, bases = new Set(mine.map((p) => p.base));
+    const mine = piecesHere(part).filter((p) => p.triangle === t), last = at === data.removals.length, bases = new Set(mine.map((p) => p.base));
     if (mine.length === 0) return out;
     out.push({ text: last ? `${mine.length} pieces of the surface lie here` : `in ${mine.length} pieces, on ${bases.size === 1 ? 'base triangle' : 'base triangles'} ${[...bases].slice(0, 8).join(', ')}` });
     const far = Math.max(0, ...mine.flatMap((p) => p.corners.map((c) => c.far)));
@@ -246,7 +258,7 @@ export default {
     const { data, at } = part, last = data.removals.length;
     return {
       title: at === 0 ? 'The surface' : at === last ? 'The base domain' : `Level ${at} of ${last}`,
-      lines: [`${meshAt(part).triangles.length / 3} triangles${at < last ? `; the next level takes ${data.removals[at].length} vertices away` : ''}`, ...(piecesHere(part) ? [] : [`In this level the base triangles have more than ${MOST_PIECES} pieces; they are not drawn.`])],
+      lines: [`${meshAt(part).triangles.length / 3} triangles${at < last ? `; the next level takes ${data.removals[at].length} vertices away` : ''}`, ...(isEnd(part) || data.maps.at(at) ? [] : [`In this level patches have more than ${MOST_PIECES} pieces: each triangle is coloured as a whole.`])],
       bars: Array.from({ length: last + 1 }, (_, i) => ({ values: [i === last ? data.base.length : data.levels[i].length / 3], title: `level ${i}: ${i === last ? data.base.length : data.levels[i].length / 3} triangles` })),
       barNames: ['triangles'],
       choices: [{ id: 'maps-colours', name: 'Colours of', value: data.colours, options: [{ id: 'patches', name: 'patches' }, { id: 'checkerboard', name: 'a checkerboard of the base domain' }, { id: 'error', name: 'the distance to the image' }], set: (id) => { data.colours = id; app.setStep(part.at); } }],

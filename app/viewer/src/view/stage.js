@@ -10,8 +10,8 @@ THREE.ColorManagement.enabled = false;
 const NOTHING = new THREE.Color(1, 1, 1);
 
 export class Stage {
-  constructor(canvas, onDrawn) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+  constructor(canvas, onDrawn, smooth) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: smooth, preserveDrawingBuffer: true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.autoClear = false;
     this.canvas = canvas;
