@@ -46,6 +46,7 @@ function drawPanels(app) {
   const { cases } = app.workspace;
   document.title = app.case ? `${app.case.title} - clues view` : 'clues view';
   $('welcome').hidden = app.case !== null;
+  $('side').hidden = app.case === null;
   $('cases').hidden = cases.length < 2;
   $('cases').replaceChildren(...cases.map((c, i) => h('option', { value: i, selected: c === app.case }, c.title)));
   $('views').replaceChildren(...app.views().map((v) => h('button', { id: `view-${v.id}`, role: 'tab', 'aria-selected': String(v.id === app.view), onclick: () => app.setView(v.id) }, v.name)));

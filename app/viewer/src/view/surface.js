@@ -38,7 +38,7 @@ export class SurfaceBuffer {
   // `charts`: three numbers a corner that sum to 1, the place in a triangle of which a checkerboard is drawn.
   geometry(charts = null) {
     const geometry = new THREE.BufferGeometry(), order = this.count > AT_ONCE ? spreadOrder(this.places, this.count) : null;
-    const add = (name, numbers, each) => geometry.setAttribute(name, new THREE.BufferAttribute(order ? inOrder(order, numbers, 3 * each) : numbers.subarray(0, 3 * each * this.count), each));
+    const add = (name, numbers, each) => geometry.setAttribute(name, new THREE.BufferAttribute(order ? inOrder(order, numbers, 3 * each * numbers.BYTES_PER_ELEMENT) : numbers.subarray(0, 3 * each * this.count), each));
     add('position', this.places, 3);
     add('tag', this.tags, 4);
     if (charts) add('chart', charts, 3);
