@@ -16,8 +16,10 @@ const style = await esbuild.build({ ...common, entryPoints: [join(here, 'style.c
 
 // Within a page a script ends at </script>, wherever that stands.
 const within = (text) => text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
+const licence = (name) => readFileSync(join(modules, name, 'LICENSE'), 'utf8').trim().replaceAll('--', '- -');
 const page = readFileSync(join(here, 'page.html'), 'utf8')
-  .replace('LICENCE-OF-THREE', () => readFileSync(join(modules, 'three/LICENSE'), 'utf8').trim().replaceAll('--', '- -'))
+  .replace('LICENCE-OF-THREE', () => licence('three'))
+  .replace('LICENCE-OF-FZSTD', () => licence('fzstd'))
   .replace('/*STYLE*/', () => style.outputFiles[0].text.trim())
   .replace('/*SCRIPT*/', () => within(script.outputFiles[0].text.trim()));
 if (page.split('<!--CLUES-DATA-->').length !== 2) throw new Error('page.html has no one place for the data');

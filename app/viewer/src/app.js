@@ -15,11 +15,11 @@ import { Draw, Only, surfaceMaterial, wholeSurface } from './view/surface.js';
 const MOST_GRAZING = 4;
 
 export class App {
-  constructor(canvas, changed) {
+  constructor(canvas, changed, smooth = true) {
     this.workspace = new Workspace();
     this.camera = new Camera();
     this.changed = changed;
-    this.stage = new Stage(canvas, () => this.changed('drawn'));
+    this.stage = new Stage(canvas, () => this.changed('drawn'), smooth);
     this.case = null;
     this.view = 'map';
     this.colourBy = 'map';
@@ -296,7 +296,7 @@ export class App {
         target: along(from.target, goal.target, s), distance: from.distance * (goal.distance / from.distance) ** s,
         yaw: from.yaw + turn * s, pitch: from.pitch + (goal.pitch - from.pitch) * s, flat: goal.flat,
       };
-      this.stage.draw();
+      this.stage.move();
       if (t < 1) requestAnimationFrame(step);
       else { this.changed('camera'); then(); }
     };
@@ -318,7 +318,8 @@ export class App {
     // From above; unless the cell looks up or down at it, then more as the cell does.
     const pitch = Math.abs(look.pitch) > 0.7 ? Math.sign(look.pitch) * 0.95 : 0.6;
     const { width, height } = this.stage.size();
-    this.camera.state = { target: [0, 0, 0], distance: 2.3 * Math.max(1, (0.95 * height) / width), yaw: look.yaw + 0.35, pitch, flat: false };
+    this.camera.state = { target: [0, 0, 0], distance: 1, yaw: look.yaw + 0.35, pitch, flat: false };
+    this.camera.state.distance = this.camera.distanceFor([this.whole.geometry.getAttribute('position').array, this.case.cell.flatMap((p) => this.frame.local(p)), this.able('extent').flatMap((p) => p.kind.extent(p).flatMap((x) => this.frame.local(x)))], width / height);
     this.stage.draw();
     this.changed('camera');
   }

@@ -1,5 +1,6 @@
 // The page: reads what the program put into it, or what is dropped, and connects the parts.
 import { App } from './app.js';
+import { AT_ONCE } from './view/surface.js';
 import { nameOfPart } from './files/mesh_bytes.js';
 import { control } from './view/controls.js';
 import { readAddress, writeAddress } from './ui/address.js';
@@ -14,7 +15,17 @@ function note(sentences) {
   $('note').replaceChildren(...sentences.map((s) => h('span', {}, s)), h('button', { onclick: () => note([]), 'aria-label': 'Close' }, '×'));
 }
 
-function make() {
+// Where the processor draws, smooth edges are most of the cost of a large scene.
+function affordsSmoothEdges(data) {
+  const triangles = (data?.files ?? []).reduce((sum, { mesh }) => sum + (mesh ? mesh.triangles.length / 16 : 0), 0);  // 12 bytes each, in base64
+  if (triangles <= AT_ONCE) return true;
+  const trial = document.createElement('canvas').getContext('webgl2', { antialias: false, depth: false }), info = trial?.getExtension('WEBGL_debug_renderer_info');
+  const name = info ? trial.getParameter(info.UNMASKED_RENDERER_WEBGL) : '';
+  trial?.getExtension('WEBGL_lose_context')?.loseContext();
+  return !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+function make(data) {
   let panel = 0, address = 0;
   const app = new App($('canvas'), (what) => {
     if (what === 'drawn') {
@@ -27,7 +38,7 @@ function make() {
     if (what !== 'camera') { cancelAnimationFrame(panel); panel = requestAnimationFrame(() => drawPanels(app)); }
     clearTimeout(address);
     address = setTimeout(() => writeAddress(app), 150);
-  });
+  }, affordsSmoothEdges(data));
   return app;
 }
 
@@ -35,6 +46,7 @@ function drawPanels(app) {
   const { cases } = app.workspace;
   document.title = app.case ? `${app.case.title} - clues view` : 'clues view';
   $('welcome').hidden = app.case !== null;
+  $('side').hidden = app.case === null;
   $('cases').hidden = cases.length < 2;
   $('cases').replaceChildren(...cases.map((c, i) => h('option', { value: i, selected: c === app.case }, c.title)));
   $('views').replaceChildren(...app.views().map((v) => h('button', { id: `view-${v.id}`, role: 'tab', 'aria-selected': String(v.id === app.view), onclick: () => app.setView(v.id) }, v.name)));
@@ -46,7 +58,7 @@ function drawPanels(app) {
 }
 
 function tip(app, x, y) {
-  const hit = x < 0 ? null : app.stage.pick(x, y);
+  const hit = x < 0 ? null : app.stage.hover(x, y);
   $('tip').hidden = !hit;
   $('canvas').style.cursor = hit ? 'pointer' : '';
   if (!hit) return;
@@ -95,9 +107,10 @@ async function openFiles(app, files) {
 }
 
 async function start() {
+  const embedded = $('clues-data'), data = embedded && JSON.parse(embedded.textContent);
   let app;
   try {
-    app = make();
+    app = make(data);
   } catch (problem) {
     note([`This browser cannot draw the page: ${problem.message}. WebGL 2 is needed.`]);
     $('welcome').hidden = true;
@@ -106,7 +119,7 @@ async function start() {
   window.cluesView = app;
   app.setTheme(matchMedia('(prefers-color-scheme: dark)').matches);
   control($('canvas'), app.camera, {
-    changed: () => { app.stage.draw(); app.changed('camera'); },
+    changed: () => { app.stage.move(); app.changed('camera'); },
     hover: (() => { let asked = 0; return (x, y) => { cancelAnimationFrame(asked); asked = requestAnimationFrame(() => tip(app, x, y)); }; })(),
     click: (x, y) => { if (app.case?.scene) app.select(app.stage.pick(x, y)?.triangle ?? null); },
     busy: () => app.stopFlight(),
@@ -127,9 +140,8 @@ async function start() {
     await openFiles(app, await filesOf(event.dataTransfer));
   });
   window.addEventListener('hashchange', () => readAddress(app));
-  const embedded = $('clues-data');
-  if (embedded) {
-    const data = JSON.parse(embedded.textContent), hash = location.hash;
+  if (data) {
+    const { hash } = location;
     embedded.textContent = '';
     note(await app.open(data.files));
     readAddress(app, hash);

@@ -1,5 +1,6 @@
-// Rendering as a judge: from viewpoints in the cell the picture of the list is the picture of everything, pixel by pixel and without a tolerance. What the graphics processor
-// draws differently in both is decided by exact rays (src/view/stand.js says why). With one visible triangle taken out of the list it must be noticed.
+// Rendering as a judge: from viewpoints in the cell the picture of the list is the picture of everything, pixel by pixel and without a tolerance. What is listed is drawn alike in
+// both, to the last bit of number and colour; where a triangle that is not listed won a pixel, exact rays decide (src/view/stand.js says why that happens). With one visible
+// triangle taken out of the list it must be noticed.
 //
 // CLUES_LEVELS: a folder with levels (*.bsp) for the long form; without it, and in the short form, two small ones of the corpus are taken.
 import assert from 'node:assert/strict';
@@ -41,7 +42,7 @@ function makeBlocks(seed) {
 
 // From so many viewpoints: all six directions from few of them, two each from many. `until`: something is missed.
 const look = (page, viewpoints, until = false) => page.evaluate(([count, size, stop]) => {
-  const sum = { pictures: 0, pixels: 0, surface: 0, differ: 0, real: 0, missing: [], seen: [] }, seen = new Map();
+  const sum = { pictures: 0, pixels: 0, surface: 0, differ: 0, unequal: 0, real: 0, coloured: 0, missing: [], seen: [] }, seen = new Map();
   cluesView.setView('stand');
   cluesView.camera.perspective.fov = 90;
   // Triangles that fill a block of 3 by 3 pixels of the picture: not slivers, which are drawn where no ray through the middle of a pixel meets them.
@@ -51,6 +52,16 @@ const look = (page, viewpoints, until = false) => page.evaluate(([count, size, s
       if (i % size <= size - 3 && [-size, 0, size].every((row) => [0, 1, 2].every((k) => bytes[i + row + k] === bytes[i]))) found.add(bytes[i] & 0xffffff);
     return found;
   };
+  // Colours of both pictures, where everything shows what is listed, or nothing.
+  const colours = () => {
+    const draw = (words) => new Uint32Array(cluesView.stage.numbers(cluesView.stage.whole, { width: size, height: size, ...words }).buffer);
+    const numbers = draw({}), all = draw({ colours: true }), list = draw({ colours: true, listed: true });
+    numbers.forEach((bytes, i) => {
+      if (bytes >>> 24 !== 255 && ((bytes >>> 24) & 64) === 0) return;
+      ++sum.coloured;
+      if (all[i] !== list[i]) ++sum.unequal;
+    });
+  };
   const directions = [[0, 0], [1.5708, 0], [3.1416, 0], [-1.5708, 0], [0, 1.5], [0, -1.5]];
   for (let i = 0; i < count && !(stop && sum.real > 0); ++i) {
     cluesView.stand(i);
@@ -58,7 +69,8 @@ const look = (page, viewpoints, until = false) => page.evaluate(([count, size, s
       Object.assign(cluesView.camera.state, { yaw, pitch });
       const c = cluesView.compare(size, size, Infinity);
       ++sum.pictures;
-      for (const key of ['pixels', 'surface', 'differ', 'real']) sum[key] += c[key];
+      for (const key of ['pixels', 'surface', 'differ', 'unequal', 'real']) sum[key] += c[key];
+      if (i < 10 && !stop) colours();
       sum.missing.push(...c.missing);
       const filled = stop ? new Set() : blocks();
       for (const [t, n] of c.seen) if (filled.has(t)) seen.set(t, Math.max(seen.get(t) ?? 0, n));
@@ -69,7 +81,7 @@ const look = (page, viewpoints, until = false) => page.evaluate(([count, size, s
   return sum;
 }, [viewpoints, SIZE, until]);
 
-const KEYS = ['pictures', 'pixels', 'surface', 'differ', 'real'];
+const KEYS = ['pictures', 'pixels', 'surface', 'differ', 'unequal', 'real', 'coloured'];
 
 // What the page shows now: its list is judged, and then without one triangle. `isListed` and `putOut` (of the list, or back) speak of triangles; `tries`:
 // how many may be in vain. Returns sums, or null where nothing is large enough to be seen.
@@ -77,6 +89,8 @@ async function judge(page, name, isListed, putOut, tries = 1) {
   const sound = await look(page, VIEWPOINTS);
   if (sound.surface === 0) return null;
   if (LONG || sound.differ > 0) console.log(`${name}: ${sound.differ} of ${sound.surface} pixels of surface are drawn differently, ${sound.real} differ`);
+  assert.equal(sound.unequal, 0, `${name}: what is listed is drawn in two ways`);
+  assert(sound.coloured > 0);
   assert.equal(sound.real, 0, `${name}: a list that is sound lacks triangles ${sound.missing}`);
   const seen = sound.seen.filter(([t]) => isListed(t)).sort((a, b) => a[1] - b[1] || a[0] - b[0]);
   if (seen.length === 0) return null;
@@ -92,7 +106,7 @@ async function judge(page, name, isListed, putOut, tries = 1) {
 }
 
 test(`${SCENES} scenes, ${VIEWPOINTS} viewpoints each`, { timeout: 7200000 }, () => withPage('judge.html', async (page) => {
-  const total = { scenes: 0, pictures: 0, pixels: 0, surface: 0, differ: 0, real: 0 };
+  const total = { scenes: 0, ...Object.fromEntries(KEYS.map((key) => [key, 0])) };
   for (const c of cases) {
     if (total.scenes >= SCENES) break;
     const { scene } = c, name = `${c.id}.clues.json`;
@@ -126,7 +140,7 @@ test(`${LEVELS} levels, the leaves of each, ${VIEWPOINTS} viewpoints in each of 
     clues(0, 'bake', level, '--cells', 'leaves', '-o', `${level}.bake`);
     clues(0, 'view', `${level}.bake`, '-o', `${level}.html`);
     await withPage(`${level}.html`, async (page) => {
-      const total = { cells: 0, pictures: 0, pixels: 0, surface: 0, differ: 0, real: 0 }, count = await page.evaluate(() => cluesView.stepper().data.cells.length);
+      const total = { cells: 0, ...Object.fromEntries(KEYS.map((key) => [key, 0])) }, count = await page.evaluate(() => cluesView.stepper().data.cells.length);
       for (let i = 0; i < count && total.cells < CELLS; ++i) {
         const listed = await page.evaluate((cell) => {
           const part = cluesView.stepper();

@@ -99,6 +99,71 @@ test('a bake: the path through cells, + and -, bytes, the tree', () => withPage(
   assert(inside);
 }));
 
+test('a bake is dropped as it is, and shown as in a page that the program writes', async () => {
+  const told = (page) => part(page, 'JSON.stringify([part.scene, part.data.note, part.data.nodes, part.data.path, part.data.cells.map((c) => [c.name, c.node, c.fallbacks, c.points, c.count, [...c.bits]])])');
+  const written = await withPage('town.bake.html', told);
+  await withPage('empty.html', async (page) => {
+    await drop(page, dropped('town.bake'));
+    await page.waitForFunction(() => document.getElementById('note').textContent === 'town.bake: is about the scene boards.obj (12 triangles); drop that file too×');
+    await page.click('#note button');
+    await drop(page, dropped('boards.obj'));
+    await page.waitForSelector('body[data-drawn]');
+    assert(await page.isHidden('#note'));
+    assert.equal(await told(page), written);
+    await page.click('#view-bake');
+    await slide(page, 1);
+    assert((await text(page, '#side')).includes('step 1 of 4'));
+    await page.click('#view-stand');
+    await page.click('#compare');
+    await settled(page);
+    assert.match(await text(page, '#comparison'), /^none of \d+ pixels differs$|all by rounding/);
+  }, { picture: false });
+  // Both at once, and the store first.
+  await withPage('empty.html', async (page) => {
+    await drop(page, dropped('town.bake'), dropped('boards.obj'));
+    await page.waitForSelector('body[data-drawn]');
+    assert.equal(await told(page), written);
+  }, { picture: false });
+});
+
+test('stores that are damaged, unfinished or of others are a sentence', () => withPage('empty.html', async (page) => {
+  const whole = readFileSync(file('town.bake')), attempts = [];
+  const changed = (words, from, to) => {
+    const bytes = Buffer.from(whole), at = bytes.indexOf(from);
+    assert(at >= 0 && bytes.indexOf(from, at + 1) < 0, `${from} is there once`);
+    bytes.set(Buffer.from(to), at);
+    attempts.push([words, bytes]);
+  };
+  changed('is no bake of clues (clues-bake/1)', 'clues-bake/1', 'other-bake/1');
+  changed('is not finished: 8 of 8 cells', 'finishedyes', 'finishedno ');
+  changed('no number of triangles', 'triangles12', 'triangles-2');
+  changed('cell 0 has no list of 99 triangles', 'triangles12', 'triangles99');
+  const lists = Buffer.from(whole);
+  for (let at = lists.indexOf(Buffer.from([0x28, 0xb5, 0x2f, 0xfd])); at >= 0; at = lists.indexOf(Buffer.from([0x28, 0xb5, 0x2f, 0xfd]), at + 1)) lists[at + 7] ^= 6;
+  attempts.push(['triangles; the store was damaged', lists]);
+  attempts.push(['is a damaged store', whole.subarray(0, 60)], ['ends in the middle', whole.subarray(0, whole.length - 1)]);
+  for (const [words, content] of attempts) {
+    await drop(page, { name: 'odd.bake', content });
+    await page.waitForFunction((w) => document.getElementById('note').textContent.startsWith('odd.bake: ') && document.getElementById('note').textContent.includes(w), words);
+    await page.click('#note button');
+    assert(await page.isVisible('#welcome'), words);
+  }
+  // At random: something is said, or something is shown, whatever the bytes are.
+  const silent = await page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0)), { constructor: Workspace } = cluesView.workspace, out = [];
+    let seed = 7;
+    const random = (n) => { seed = (seed * 48271) % 2147483647; return seed % n; };
+    for (let i = 0; i < 3000; ++i) {
+      const some = i % 3 === 0 ? bytes.slice(0, random(bytes.length)) : bytes.slice(), workspace = new Workspace();
+      for (let k = random(4); k >= 0 && some.length > 0; --k) some[random(some.length)] = random(256);
+      const flaws = await workspace.add([{ path: 'odd.bake', bytes: some }]).catch((problem) => { out.push(problem.stack); return ['thrown']; });
+      if (flaws.length === 0) out.push(`nothing is said of ${i}`);
+    }
+    return out;
+  }, whole.toString('base64'));
+  assert.deepEqual(silent, []);
+}, { picture: false }));
+
 test('sliders can be dragged, though the panel beside them changes', () => withPage('ball.maps.html', async (page) => {
   const r = await page.locator('#step').boundingBox(), y = r.y + r.height / 2, steps = [];
   await page.mouse.move(r.x + 8, y);
@@ -178,7 +243,7 @@ test('bounds in the page are those of the walk', async () => {
   });
 });
 
-test('a hierarchy: levels, patches, the checkerboard, distances, the overlay when near', () => withPage('ball.maps.html', async (page) => {
+test('a hierarchy: levels, patches and the checkerboard at each, distances, the overlay when near', () => withPage('ball.maps.html', async (page) => {
   const levels = JSON.parse((clues(0, 'maps', 'verify', 'ball.maps', '--json', 'verdict.json'), read('verdict.json'))).levels.map((l) => l.triangles);
   await flat(page);
   for (let at = 0; at < levels.length; ++at) {
@@ -195,6 +260,50 @@ test('a hierarchy: levels, patches, the checkerboard, distances, the overlay whe
   await settled(page);
   const share = bright(await colours(page)) / surface;
   assert(share > 0.35 && share < 0.75, `36 of 64 small triangles are bright: ${share}`);
+  // The levels between, by the steps: pieces that fill each triangle of the level and of the base domain once, with the images of vertices that the file has.
+  for (let at = 1; at + 1 < levels.length; ++at) {
+    const found = await page.evaluate((level) => {
+      const { data } = cluesView.stepper(), cut = data.maps.at(level), sums = { triangles: cut.size, here: 0, base: 0, images: 0, vertices: 0 }, filled = data.base.map(() => 0), seen = new Set();
+      const area = (c, k, off) => {
+        const [a, b, d] = [0, k - 1, k].map((i) => c.slice(6 * i + off, 6 * i + off + 3));
+        return a[0] * (b[1] * d[2] - b[2] * d[1]) - a[1] * (b[0] * d[2] - b[2] * d[0]) + a[2] * (b[0] * d[1] - b[1] * d[0]);
+      };
+      for (const [name, pieces] of cut) {
+        const vertices = name.split(',').map(Number);
+        let whole = 0;
+        for (const { base, corners } of pieces) {
+          for (let k = 2; 6 * k < corners.length; ++k) { whole += area(corners, k, 0); filled[base] += area(corners, k, 3); }
+          for (let i = 0; i < corners.length; i += 6) {
+            const k = [0, 1, 2].find((j) => corners[i + j] > 1 - 1e-9);
+            if (k === undefined) continue;
+            seen.add(vertices[k]);
+            data.base[base].forEach((v, j) => { const weight = data.points[vertices[k]].image.find((x) => x.corner === v)?.weight ?? 0; sums.images = Math.max(sums.images, Math.abs(weight - corners[i + 3 + j])); });
+          }
+        }
+        sums.here = Math.max(sums.here, Math.abs(Math.abs(whole) - 1));
+      }
+      sums.base = Math.max(...filled.map((x) => Math.abs(x - 1)));
+      sums.vertices = new Set(data.levels[level]).size - seen.size;
+      return sums;
+    }, at);
+    assert.equal(found.triangles, levels[at]);
+    assert.equal(found.vertices, 0);
+    assert(found.here < 1e-9 && found.base < 1e-9 && found.images < 1e-9, `level ${at}: ${JSON.stringify(found)}`);
+    if (at % 4 !== 1) continue;
+    await page.selectOption('#maps-colours', 'patches');
+    await slide(page, at);
+    await page.evaluate(() => { for (const id of ['edges', 'next', 'overlay']) cluesView.switchLayer(id, false); });
+    const here = bright(await colours(page));
+    assert(here > 20000, `patches at level ${at}: ${here}`);
+    await page.selectOption('#maps-colours', 'checkerboard');
+    await settled(page);
+    const dark = bright(await colours(page)) / here;
+    assert(dark > 0.35 && dark < 0.75, `level ${at}: ${dark}`);
+  }
+  await page.evaluate(() => cluesView.select(0));
+  await settled(page);
+  assert.match(await text(page, '#side'), /in \d+ pieces, on base triangle/);
+  await slide(page, 0);
   await page.selectOption('#maps-colours', 'error');
   await settled(page);
   assert.match(await text(page, '#legend'), /0 % to /);
@@ -218,9 +327,6 @@ test('walks, hierarchies and transitions are dropped; what is not whole is a sen
     await page.click('#note button');
     assert(await page.isVisible('#welcome'), attempt.name);
   }
-  await drop(page, dropped('town.bake'));
-  await page.waitForFunction(() => document.getElementById('note').textContent.includes('is a store of `clues bake`'));
-  await page.click('#note button');
   await drop(page, dropped('town.delta.json'), dropped('town.obj'), dropped('town.walk.jsonl'), dropped('ball.maps'));
   await page.waitForSelector('body[data-drawn]');
   await settled(page);

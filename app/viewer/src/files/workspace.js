@@ -39,7 +39,7 @@ function parseMesh(file, full) {
 
 // Files that are no JSON are known by how they begin.
 const beginOf = (file) => file.text?.slice(0, 200) ?? (file.bytes ? new TextDecoder('latin1').decode(file.bytes.subarray(0, 200)) : '');
-const textKindOf = (file) => KINDS.find((k) => k.begins?.test(beginOf(file)));
+const kindByBegin = (file) => KINDS.find((k) => k.begins?.test(beginOf(file)));
 
 const isJson = (file) => file.json !== undefined || extension(file.path) === 'json' || (extension(file.path) !== 'gltf' && /^\s*\{/.test(beginOf(file)));
 
@@ -68,11 +68,10 @@ export class Workspace {
     }
     for (const file of files) {
       if (taken.has(file)) continue;
-      if (textKindOf(file)) await attempt(() => this.addText(file));
-      else if (beginOf(file).startsWith('SQLite format 3')) flaws.push(`${file.path}: is a store of \`clues bake\`; the page that \`clues view ${nameOf(file.path)}\` writes shows it`);
+      if (kindByBegin(file)) await attempt(() => this.addFile(file));
       else if (isJson(file)) await attempt(() => this.addJson(file));
       else if (file.mesh || MESHES[extension(file.path)]) await attempt(async () => this.scenes.push({ name: nameOf(file.path), mesh: parseMesh(file, true), sha256: file.sha256 ?? (await sha256(file.bytes)) }));
-      else if (!folders.some((f) => file.path.startsWith(folderOf(f.path)))) flaws.push(`${file.path}: is no file that this page knows (of clues: *.json, walks, hierarchies; or a scene: OBJ, OFF, PLY, STL; glTF, levels and bakes are put into a page by "clues view")`);
+      else if (!folders.some((f) => file.path.startsWith(folderOf(f.path)))) flaws.push(`${file.path}: is no file that this page knows (of clues: *.json, bakes, walks, hierarchies; or a scene: OBJ, OFF, PLY, STL; glTF and levels are put into a page by "clues view")`);
     }
     await attempt(() => { flaws.push(...this.combine()); });
     return flaws;
@@ -94,9 +93,9 @@ export class Workspace {
     };
     for (const part of kind.readFolder(file.json, file.path, beside)) this.parts.push({ ...part, kind, file: file.path });
   }
-  addText(file) {
-    const kind = textKindOf(file), text = file.text ?? new TextDecoder().decode(file.bytes);
-    this.parts.push({ ...kind.readText(text, file), kind, file: file.path });
+  addFile(file) {
+    const kind = kindByBegin(file), part = kind.readBytes ? kind.readBytes(file.bytes, file) : kind.readText(file.text ?? new TextDecoder().decode(file.bytes), file);
+    this.parts.push({ ...part, kind, file: file.path });
   }
   addJson(file) {
     const json = parseJson(file), kind = this.kindOf(json, file.path);

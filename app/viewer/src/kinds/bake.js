@@ -1,4 +1,5 @@
-// The lists of all cells of a scene: a store of `clues bake`, as `clues view` puts it into a page.
+// The lists of all cells of a scene: a store of `clues bake`, or what `clues view` puts into a page of it.
+import { readBakeStore } from '../files/bake_store.js';
 import { Fields } from '../files/fields.js';
 import { bitOf, bitsOfRuns, without } from '../files/runs.js';
 import { LABELS, LAYER_COLOURS, NUMBER, SCALE } from '../view/labels.js';
@@ -16,13 +17,17 @@ function read(json, file) {
   const cells = top.objects('cells').map((c) => {
     const list = bitsOfRuns(c.text('runs'), triangles) ?? c.wrong('runs', `is no list of ${triangles} triangles`), points = c.points('points');
     if (points.length === 0) c.wrong('points', 'has no point');
-    return { name: c.text('name'), node: c.whole('node', nodes.length - 1), fallbacks: c.whole('fallbacks'), points, ...list, low: bound(points, Math.min), high: bound(points, Math.max) };
+    return { name: c.text('name'), node: c.whole('node', nodes.length - 1), fallbacks: c.whole('fallbacks'), points, ...list };
   });
   if (cells.length === 0) top.wrong('cells', 'has none');
-  const data = { nodes, cells, note: top.text('note'), near: joined(cells), most: Math.max(...cells.map((c) => c.count)), least: Math.min(...cells.map((c) => c.count)), path: [0] };
-  const part = { scene: { file: scene.text('file'), sha256: scene.text('sha256'), triangles }, cell: cells[0].points, mode: null, data, at: 0 };
+  return partOf({ scene: { file: scene.text('file'), sha256: scene.text('sha256'), triangles }, note: top.text('note'), nodes, cells });
+}
+
+function partOf({ scene, note, nodes, cells }) {
+  for (const c of cells) { c.low = bound(c.points, Math.min); c.high = bound(c.points, Math.max); }
+  const data = { nodes, cells, note, near: joined(cells), most: Math.max(...cells.map((c) => c.count)), least: Math.min(...cells.map((c) => c.count)), path: [0] };
   data.path = longest(data);
-  return part;
+  return { scene, cell: cells[0].points, mode: null, data, at: 0 };
 }
 
 const bound = (points, least) => [0, 1, 2].map((k) => points.reduce((x, p) => least(x, p[k]), points[0][k]));
@@ -86,8 +91,10 @@ export default {
   id: 'bake',
   name: 'the cell',
   formats: ['clues-bake-page/1'],
+  begins: /^SQLite format 3/,
   view: { id: 'bake', name: 'Bake' },
   read,
+  readBytes: (bytes, file) => partOf(readBakeStore(bytes, file.path)),
   title: (part) => `bake of ${part.scene.file}`,
   listed: (part, t) => bitOf(here(part).bits, t),
   label(part, t) {

@@ -14,7 +14,7 @@
 //   facts(part, t)               [{ text, lines, ends, triangles }]: what it knows about a triangle; lines and so on are drawn
 //   rows(part)                   [{ verdict, name, note, triangle, sight: [v, p], bad, goto }]: of the table; goto: the data of the part that shows it, if that is another
 //
-// A kind that is no JSON has, in place of formats and read, `begins` (how the text begins) and readText(text, file). One that is gone through step by step (cells, frames,
+// A kind that is no JSON has `begins` (how the file begins) and readText(text, file) or readBytes(bytes, file). One that is gone through step by step (cells, frames,
 // levels) has a view of its own, and keeps in part.at where one is:
 //
 //   view                         { id, name }

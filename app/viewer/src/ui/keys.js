@@ -30,11 +30,11 @@ export function keyboard(app, { save, help }) {
       app.stopFlight();
       if (event.shiftKey) app.camera.slide(-0.08 * step[0], -0.08 * step[1]);
       else app.camera.turn(...step.map((x) => x * (app.camera.eye ? 0.06 : -0.1)));
-      app.stage.draw();
+      app.stage.move();
       app.changed('camera');
     } else if (event.key === '+' || event.key === '=' || event.key === '-') {
       app.camera.zoom(event.key === '-' ? 1.15 : 1 / 1.15);
-      app.stage.draw();
+      app.stage.move();
       app.changed('camera');
     } else if (event.key >= '1' && event.key <= '9') {
       app.setView(app.views()[event.key - 1]?.id);

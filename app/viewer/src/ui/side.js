@@ -37,6 +37,7 @@ function legend(app) {
 }
 
 function said(c) {
+  if (c.unequal > 0) return `${c.unequal} pixels show the same triangle, and are not equal: this graphics processor does not draw alike twice, and nothing can be said`;
   if (c.differ === 0) return `none of ${c.pixels} pixels differs`;
   if (c.real === 0) return `${c.differ} of ${c.pixels} pixels differ${c.differ > 400 ? '' : ', all by rounding at edges: exact rays through them meet what is listed'}`;
   return `${c.differ} of ${c.pixels} pixels differ; missing: triangle${c.missing.length === 1 ? '' : 's'} ${c.missing.slice(0, 12).join(', ')}${c.missing.length > 12 ? '…' : ''}`;

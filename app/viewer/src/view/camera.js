@@ -28,6 +28,19 @@ export class Camera {
     const d = this.direction();
     return this.state.target.map((x, k) => x - d[k] * this.state.distance);
   }
+  // How far from the target one has to be to see all of these places (lists of coordinates), with a little room around them.
+  distanceFor(lists, aspect) {
+    const camera = this.get(aspect), high = Math.tan((22.5 * Math.PI) / 180) * 0.92, [r, a, d] = [new THREE.Vector3(), new THREE.Vector3(), this.direction()];
+    camera.matrixWorld.extractBasis(r, a, new THREE.Vector3());
+    let far = 1e-3;
+    for (const places of lists) {
+      for (let i = 0; i < places.length; i += 3) {
+        const [x, y, z] = [places[i], places[i + 1], places[i + 2]], along = x * d[0] + y * d[1] + z * d[2];
+        far = Math.max(far, Math.abs(x * r.x + y * r.y + z * r.z) / (high * aspect) - along, Math.abs(x * a.x + y * a.y + z * a.z) / high - along);
+      }
+    }
+    return far;
+  }
   turn(dx, dy) {
     this.state.yaw -= dx;
     this.state.pitch = Math.max(-LIMIT, Math.min(LIMIT, this.state.pitch + dy));

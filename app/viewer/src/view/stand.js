@@ -2,7 +2,7 @@
 import { Vector3 } from 'three';
 import { firstMet } from '../scene/exact_ray.js';
 import { length, middle, minus, pointToTriangle } from '../scene/vectors.js';
-import { BACK, NO_TAG } from './surface.js';
+import { BACK, LISTED, NO_TAG } from './surface.js';
 
 export const VIEWPOINTS = 100;
 const MOST_MEASURED = 200000;
@@ -45,21 +45,24 @@ export function nearest(locals, triangles, eye) {
 
 const MOST_CAST = 400;  // in the panel; tests cast all of them
 
-// The picture of the list beside that of everything, from where the camera stands. `differ`: pixels that differ. Why any does though nothing is missing: a graphics
-// processor moves corners to a part of a pixel and rounds depths, so that at the outline of a body its hidden side is at once as near as the side that hides it, and where
-// bodies touch what is behind shows in the crack. So the picture itself is taken from rays: a pixel that differs is the ray from the viewpoint through its middle, and
-// what that meets first is decided exactly (scene/exact_ray.js). `real`: those (of the first `most`) where no triangle that it meets first is in the list.
-// `seen`: triangles, with their numbers of pixels. `eye`: in coordinates of the scene, and in the cell.
+// The picture of the list beside that of everything, from where the camera stands. Both are drawn from the same buffer in the same order, and for the list the others are moved out
+// of the picture: so depths and colours of what is listed are the same to the last bit, and a pixel can only differ (`differ`) where a triangle that is not listed won.
+// `unequal` counts what contradicts that, and is 0. Why any such triangle wins though nothing is missing: a graphics processor moves corners to a part of a pixel and rounds
+// depths, so that at the outline of a body its hidden side is at once as near as the side that hides it, and where bodies touch what is behind shows in the crack.
+// So the picture itself is taken from rays: a pixel that differs is the ray from the viewpoint through its middle, and what that meets first is decided exactly
+// (scene/exact_ray.js). `real`: those (of the first `most`) where no triangle that it meets first is in the list. `seen`: triangles, with their numbers of pixels.
+// `eye`: in coordinates of the scene, and in the cell.
 export function compare(stage, { width, height, mesh, solid, listed, eye, most = MOST_CAST }) {
   const all = stage.numbers(stage.whole, { width, height }), list = stage.numbers(stage.whole, { width, height, listed: true });
   const camera = stage.camera.get(width / height), from = stage.camera.place();
   const numberAt = (at) => all[at] + 256 * all[at + 1] + 65536 * all[at + 2];
-  let differ = 0, surface = 0, real = 0;
+  let differ = 0, unequal = 0, surface = 0, real = 0;
   const seen = new Map(), missing = new Set();
   for (let at = 0; at < all.length; at += 4) {
     if (all[at + 3] !== NO_TAG) { ++surface; seen.set(numberAt(at), (seen.get(numberAt(at)) ?? 0) + 1); }
     if (all[at + 3] >= BACK && all[at + 3] !== NO_TAG) continue;  // in solid mode a back: it blocks, and does not count
     if (all[at] === list[at] && all[at + 1] === list[at + 1] && all[at + 2] === list[at + 2] && all[at + 3] === list[at + 3]) continue;
+    if (all[at + 3] === NO_TAG || (all[at + 3] & LISTED) !== 0) { ++unequal; continue; }
     if (++differ > most) continue;
     const x = (at / 4) % width, y = Math.floor(at / 4 / width);
     const far = new Vector3(((x + 0.5) / width) * 2 - 1, ((y + 0.5) / height) * 2 - 1, 0.5).unproject(camera);
@@ -68,5 +71,5 @@ export function compare(stage, { width, height, mesh, solid, listed, eye, most =
     ++real;
     for (const { triangle } of met) missing.add(triangle);
   }
-  return { pixels: all.length / 4, surface, differ, real, seen: [...seen], missing: [...missing].sort((a, b) => a - b) };
+  return { pixels: all.length / 4, surface, differ, unequal, real, seen: [...seen], missing: [...missing].sort((a, b) => a - b) };
 }

@@ -3,8 +3,11 @@
 // processor draws colours, or triangle numbers (for picking, and to compare images), from the same buffer.
 import * as THREE from 'three';
 import { LABELS, rgb } from './labels.js';
+import { inOrder, spreadOrder } from './spread.js';
 
-const LISTED = 64;
+export const AT_ONCE = 60000;  // so many triangles are drawn at once also while the camera moves
+
+export const LISTED = 64;
 export const BACK = 128;
 export const NO_TAG = 255;  // where there is no surface; no label has the number 63
 
@@ -34,10 +37,11 @@ export class SurfaceBuffer {
   }
   // `charts`: three numbers a corner that sum to 1, the place in a triangle of which a checkerboard is drawn.
   geometry(charts = null) {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.BufferAttribute(this.places.subarray(0, 9 * this.count), 3));
-    geometry.setAttribute('tag', new THREE.BufferAttribute(this.tags.subarray(0, 12 * this.count), 4));
-    if (charts) geometry.setAttribute('chart', new THREE.BufferAttribute(charts, 3));
+    const geometry = new THREE.BufferGeometry(), order = this.count > AT_ONCE ? spreadOrder(this.places, this.count) : null;
+    const add = (name, numbers, each) => geometry.setAttribute(name, new THREE.BufferAttribute(order ? inOrder(order, numbers, 3 * each * numbers.BYTES_PER_ELEMENT) : numbers.subarray(0, 3 * each * this.count), each));
+    add('position', this.places, 3);
+    add('tag', this.tags, 4);
+    if (charts) add('chart', charts, 3);
     geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 1.01);
     return geometry;
   }
