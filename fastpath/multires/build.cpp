@@ -12,6 +12,7 @@
 #include "exact/dials.h"
 #include "exact/threads.h"
 #include "fastpath/multires/carry.h"
+#include "fastpath/multires/vertex_places.h"
 #include "fastpath/predicates/float_rules.h"
 #include "scene/messages/error.h"
 
@@ -44,6 +45,7 @@ class Build {
         counts_(counts),
         domain_(mesh, name),
         pieces_(mesh),
+        places_(mesh),
         points_(exact::points_for_estimates(mesh)),
         tagged_(mesh.points.size(), {scene::no_vertex, scene::no_vertex}),
         fixed_(mesh.points.size(), 0),
@@ -65,7 +67,11 @@ class Build {
     }
     const auto left = domain_.triangles_left();
     for (const std::uint32_t t : left) hierarchy_.base.push_back(domain_.triangles()[t]);
-    pieces_.write_to(left, hierarchy_);
+    if (options_.overlay) {
+      pieces_.write_to(left, hierarchy_);
+    } else {
+      places_.write_to(hierarchy_);
+    }
     return std::move(hierarchy_);
   }
 
@@ -228,6 +234,14 @@ class Build {
                        [&](const scene::Triangle& t) { return domain_.has_face(t[0], t[1], t[2]); });
   }
 
+  void carry(const Proposal& p, Carried& out) {
+    if (options_.overlay) {
+      carriers_.local().carry(p.star, p.layout, p.cover, out);
+    } else {
+      places_.carry(p.star, p.layout, p.cover, out);
+    }
+  }
+
   // What the first round found out counts, where it was about the same.
   bool carry_now(const Proposal& p) {
     const std::uint32_t first = tried_[p.star.vertex];
@@ -240,7 +254,7 @@ class Build {
       }
     }
     Carried out;
-    carriers_.local().carry(p.star, p.layout, p.cover, out);
+    carry(p, out);
     if (!out.done) return false;
     carried_.push_back(std::move(out));
     return true;
@@ -260,10 +274,7 @@ class Build {
 
   void carry_all() {
     carried_.resize(chosen_.size());
-    for_all(chosen_.size(), 16, [&](std::size_t k) {
-      const Proposal& p = chosen_[k];
-      carriers_.local().carry(p.star, p.layout, p.cover, carried_[k]);
-    });
+    for_all(chosen_.size(), 16, [&](std::size_t k) { carry(chosen_[k], carried_[k]); });
   }
 
   scene::HierarchyLevel one_level() {
@@ -287,7 +298,11 @@ class Build {
     }
     counts_.stars += chosen_.size();
     for (std::size_t k = 0; k < chosen_.size(); ++k) {
-      pieces_.put(chosen_[k].star.triangles(), carried_[k]);
+      if (options_.overlay) {
+        pieces_.put(chosen_[k].star.triangles(), carried_[k]);
+      } else {
+        places_.put(chosen_[k].star, chosen_[k].cover, carried_[k]);
+      }
       level.removals.push_back(removal_of(chosen_[k]));
     }
     domain_.end_level();
@@ -312,6 +327,7 @@ class Build {
   scene::Hierarchy hierarchy_;
   Domain domain_;
   CommonPieces pieces_;
+  VertexPlaces places_;  // without the overlay
   std::vector<scene::Point> points_;
   std::vector<std::array<std::uint32_t, 2>> tagged_;  // of a vertex at which two features end: their other ends
   std::vector<std::uint8_t> fixed_;

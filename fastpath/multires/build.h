@@ -24,6 +24,7 @@ struct BuildOptions {
   std::uint64_t base_triangles = 200;  // ends with the first level that has no more
   std::vector<scene::Edge> features;   // edges of the surface that stay edge paths; those of its boundary do anyway
   std::vector<std::uint32_t> fixed;    // vertices that stay
+  bool overlay = true;                 // false: levels and images of vertices alone, which is no proof of a map
   int threads = 0;                     // 0: as many as the machine has
   std::function<void(std::uint64_t triangles_left)> progress;
 };

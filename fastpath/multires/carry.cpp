@@ -12,6 +12,7 @@ using exact::DiskPoint;
 using exact::FlatPoint;
 using scene::CarrierPoint;
 constexpr std::uint32_t none = scene::no_vertex;
+constexpr std::size_t number_of_middle = 15;
 
 bool lies_in(const scene::Triangle& triangle, const CarrierPoint& p) {
   return std::all_of(p.corner.begin(), p.corner.end(), [&](std::uint32_t v) {
@@ -21,11 +22,16 @@ bool lies_in(const scene::Triangle& triangle, const CarrierPoint& p) {
 
 }  // namespace
 
-DiskPoint Carrier::place_of(std::uint32_t vertex) const {
-  if (vertex == star_->vertex) return {0, 0};
+std::size_t Carrier::number_of(std::uint32_t vertex) const {
+  if (vertex == star_->vertex) return number_of_middle;
   std::size_t k = 0;
   while (star_->ring_[k] != vertex) ++k;
-  return layout_->ring_[k];
+  return k;
+}
+
+DiskPoint Carrier::place_of(std::uint32_t vertex) const {
+  const std::size_t k = number_of(vertex);
+  return k == number_of_middle ? DiskPoint{0, 0} : layout_->ring_[k];
 }
 
 void Carrier::add_point(std::uint32_t number, bool of_input, const CarrierPoint& source, const CarrierPoint& image) {
@@ -35,8 +41,12 @@ void Carrier::add_point(std::uint32_t number, bool of_input, const CarrierPoint&
   points_.image.push_back(image);
   FlatPoint flat;
   DiskDouble about;
+  unsigned mask = 0;
   for (std::size_t k = 0; k < 3 && image.corner[k] != none; ++k) {
-    const DiskPoint corner = place_of(image.corner[k]);
+    const std::size_t place = number_of(image.corner[k]);
+    mask |= 1U << place;
+    if (place == number_of_middle) continue;
+    const DiskPoint& corner = layout_->ring_[place];
     flat.x += Wide{corner[0]} * image.weight[k];
     flat.y += Wide{corner[1]} * image.weight[k];
     const DiskDouble c = in_doubles(corner);
@@ -46,12 +56,14 @@ void Carrier::add_point(std::uint32_t number, bool of_input, const CarrierPoint&
   }
   flat_.push_back(flat);
   about_.push_back(about);
+  mask_.push_back(static_cast<std::uint16_t>(mask));
 }
 
 void Carrier::gather() {
   points_.clear();
   flat_.clear();
   about_.clear();
+  mask_.clear();
   parts_.clear();
   place_.resize(std::max(place_.size(), pieces_.point_count()), none);
   for (const std::uint32_t triangle : star_->triangles()) {
@@ -203,36 +215,67 @@ bool Carrier::holds_middle(std::size_t triangle, const std::array<std::uint32_t,
 // New images for the points that are not on the border; those that a diagonal introduced lie on an edge already.
 bool Carrier::locate(const HoleCover& cover) {
   for (std::uint32_t k = 0; k < points_.size(); ++k) {
-    if (points_.image[k].weight_of(star_->vertex) == 0) continue;
+    if ((mask_[k] >> number_of_middle) == 0) continue;
     std::size_t t = 0;
     while (t < cover.size && !holds(t, k)) ++t;
     if (t == cover.size) return false;
     const auto image = weights_in(cover.triangles_[t], corners_[t], flat_[k]);
     if (!image) return false;
     points_.image[k] = *image;
+    unsigned mask = 0;
+    for (const std::uint32_t v : cover.triangles_[t]) {
+      if (image->weight_of(v) > 0) mask |= 1U << number_of(v);
+    }
+    mask_[k] = static_cast<std::uint16_t>(mask);
   }
   return true;
 }
 
+// The first new triangle that holds the middle of a part, if it has its images, too; else the number of triangles. New triangles have no inside in
+// common: one that has the middle inside, as doubles may tell, is the first. The one to look at is that over the corners that the images name.
+std::size_t Carrier::triangle_of(const HoleCover& cover, const StarPart& part) const {
+  const auto [p, q, r] = part.corners;
+  const unsigned mask = static_cast<unsigned>(mask_[p]) | mask_[q] | mask_[r];
+  std::size_t likely = 0;
+  while (likely < cover.size && cover_mask_[likely] != mask) ++likely;
+  if (likely < cover.size && sure_) {
+    const Sides& about = about_corners_[likely];
+    const DiskDouble sum{about_[p].x + about_[q].x + about_[r].x, about_[p].y + about_[q].y + about_[r].y};
+    if (middle_filtered(about[0], about[1], sum) == 1 && middle_filtered(about[1], about[2], sum) == 1 &&
+        middle_filtered(about[2], about[0], sum) == 1) {
+      return likely;
+    }
+  }
+  std::size_t t = 0;
+  while (t < cover.size && !holds_middle(t, part.corners)) ++t;
+  if (t == cover.size) return t;
+  const auto& triangle = cover.triangles_[t];
+  const bool fits =
+      lies_in(triangle, points_.image[p]) && lies_in(triangle, points_.image[q]) && lies_in(triangle, points_.image[r]);
+  return fits ? t : cover.size;
+}
+
 bool Carrier::share_out(const HoleCover& cover) {
   shares_.resize(std::max(shares_.size(), cover.size));
-  for (auto& share : shares_) share.clear();
+  for (std::size_t t = 0; t < cover.size; ++t) {
+    shares_[t].clear();
+    may_thin_[t] = false;
+  }
+  points_.may_go.resize(points_.size());
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    points_.may_go[k] = points_.of_input[k] == 0 && points_.image[k].corner[2] != none ? 1 : 0;
+  }
   for (const StarPart& part : parts_) {
-    std::size_t t = 0;
-    while (t < cover.size && !holds_middle(t, part.corners)) ++t;
+    const std::size_t t = triangle_of(cover, part);
     if (t == cover.size) return false;
-    const auto& triangle = cover.triangles_[t];
-    const auto [p, q, r] = part.corners;
-    if (!lies_in(triangle, points_.image[p]) || !lies_in(triangle, points_.image[q]) ||
-        !lies_in(triangle, points_.image[r])) {
-      return false;
-    }
-    if (exact::orientation_in(triangle, points_.image[p], points_.image[q], points_.image[r]) <= 0) return false;
-    if (part.cut &&
-        exact::orientation_in(input_[part.input], points_.source[p], points_.source[q], points_.source[r]) <= 0) {
-      return false;
-    }
+    const std::uint32_t p = part.corners[0], q = part.corners[1], r = part.corners[2];
+    const auto turns = [&](const scene::Triangle& in, const std::vector<CarrierPoint>& of) {
+      return area_of(place_in(in, of[p]), place_in(in, of[q]), place_in(in, of[r])) > 0;
+    };
+    if (!turns(cover.triangles_[t], points_.image)) return false;
+    if (part.cut && !turns(input_[part.input], points_.source)) return false;
     shares_[t].push_back(part);
+    may_thin_[t] = may_thin_[t] || (points_.may_go[p] | points_.may_go[q] | points_.may_go[r]) != 0;
   }
   return true;
 }
@@ -249,23 +292,27 @@ void Carrier::carry(const SurfaceStar& star, const DiskLayout& layout, const Hol
     if (!cut_along(diagonal)) return;
   }
   for (std::size_t t = 0; t < cover.size; ++t) {
+    unsigned mask = 0;
     for (std::size_t k = 0; k < 3; ++k) {
+      mask |= 1U << number_of(cover.triangles_[t][k]);
       corners_[t][k] = place_of(cover.triangles_[t][k]);
       about_corners_[t][k] = in_doubles(corners_[t][k]);
     }
+    cover_mask_[t] = static_cast<std::uint16_t>(mask);
   }
-  std::vector<std::uint8_t>& moves = moves_;
-  moves.assign(before, 0);
-  for (std::size_t k = 0; k < before; ++k) moves[k] = points_.image[k].weight_of(star.vertex) != 0 ? 1 : 0;
+  moves_.resize(before);
+  for (std::size_t k = 0; k < before; ++k) moves_[k] = static_cast<std::uint8_t>(mask_[k] >> number_of_middle);
   if (!locate(cover) || !share_out(cover)) return;
-  for (std::size_t t = 0; t < cover.size; ++t) thinning_.thin(cover.triangles_[t], input_, points_, shares_[t]);
+  for (std::size_t t = 0; t < cover.size; ++t) {
+    if (may_thin_[t]) thinning_.thin(cover.triangles_[t], input_, points_, shares_[t]);
+  }
 
   out.done = true;
   std::size_t count = 0;
   for (std::size_t t = 0; t < cover.size; ++t) count += shares_[t].size();
   out.pieces.reserve(count);
   for (std::size_t k = 0; k < before; ++k) {
-    if (moves[k] != 0) out.moved.push_back({points_.number[k], points_.image[k]});
+    if (moves_[k] != 0) out.moved.push_back({points_.number[k], points_.image[k]});
   }
   for (std::size_t t = 0; t < cover.size; ++t) {
     out.sizes.push_back(static_cast<std::uint32_t>(shares_[t].size()));

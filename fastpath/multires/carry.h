@@ -29,7 +29,9 @@ class Carrier {
   using Sides = std::array<DiskDouble, 3>;
 
   void gather();
+  std::size_t number_of(std::uint32_t vertex) const;  // in the ring, or that of the middle
   exact::DiskPoint place_of(std::uint32_t vertex) const;
+  std::size_t triangle_of(const HoleCover& cover, const StarPart& part) const;
   void add_point(std::uint32_t number, bool of_input, const scene::CarrierPoint& source,
                  const scene::CarrierPoint& image);
   void find_diagonals(const HoleCover& cover);
@@ -60,6 +62,10 @@ class Carrier {
   // The corners of the new triangles.
   std::array<std::array<exact::DiskPoint, 3>, most_neighbours> corners_;
   std::array<Sides, most_neighbours> about_corners_;
+  // Bits for corners of an image, by place in the ring; 15: the middle.
+  std::vector<std::uint16_t> mask_;
+  std::array<std::uint16_t, most_neighbours> cover_mask_;
+  std::array<bool, most_neighbours> may_thin_;
   // The crossings of a diagonal, in lists by the lower end of the edge.
   struct Crossing {
     std::uint32_t other, point, next;

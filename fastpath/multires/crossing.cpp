@@ -8,24 +8,71 @@ using exact::DiskPoint;
 using exact::FlatPoint;
 using scene::CarrierPoint;
 
+namespace {
+
+double in_double(Wide a) {
+  return static_cast<double>(static_cast<std::int64_t>(a >> 62)) * 0x1p62 +
+         static_cast<double>(static_cast<std::int64_t>(a & ((Wide{1} << 62) - 1)));
+}
+
+// floor(part / area) for 0 <= part <= 2^60 area, area < 2^51, and what is left over. The guess is wrong by four roundings, of at most 2^60: less than
+// 2^10. So what is left over after it is below 2^61, and 64 bits, in which it is computed, hold it.
+struct Ratio {
+  std::int64_t whole, rest;
+};
+Ratio ratio_of(Wide part, std::int64_t area) {
+  const double about = static_cast<double>(area);
+  auto q = static_cast<std::int64_t>(in_double(part) / about);
+  auto rest = static_cast<std::int64_t>(static_cast<std::uint64_t>(part) -
+                                        static_cast<std::uint64_t>(q) * static_cast<std::uint64_t>(area));
+  while (rest < 0 || rest >= area) {
+    auto step = static_cast<std::int64_t>(static_cast<double>(rest) / about);
+    if (step == 0) step = rest < 0 ? -1 : 1;
+    q += step;
+    rest -= step * area;
+  }
+  return {q, rest};
+}
+
+// floor(part (x - y) / whole) for weights x, y and 0 < part < whole < 2^113. The guess is wrong by at most six roundings, of at most 2^60: less
+// than 2^11. So what is left over after it is below 2^124, and 128 bits, in which it is computed, hold it.
+std::int64_t share_of(Wide part, Wide whole, std::int64_t difference) {
+  const double about = in_double(whole);
+  auto q = static_cast<std::int64_t>(in_double(part) / about * static_cast<double>(difference));
+  auto rest = static_cast<Wide>(static_cast<WideBits>(part) * static_cast<WideBits>(Wide{difference}) -
+                                static_cast<WideBits>(Wide{q}) * static_cast<WideBits>(whole));
+  while (rest < 0 || rest >= whole) {
+    auto step = static_cast<std::int64_t>(in_double(rest) / about);
+    if (step == 0) step = rest < 0 ? -1 : 1;
+    q += step;
+    rest -= step * whole;
+  }
+  return q;
+}
+
+}  // namespace
+
+// The three parts sum to 2^60 times the area, so that two quotients give the third.
 std::optional<CarrierPoint> weights_in(const scene::Triangle& triangle, const std::array<DiskPoint, 3>& corners,
                                        const FlatPoint& point) {
-  const Wide area = exact::orientation(corners[0], corners[1], corners[2]);
-  std::array<std::pair<std::uint32_t, std::int64_t>, 3> weights;
-  std::int64_t left = scene::whole_weight;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Wide part = exact::orientation(corners[(k + 1) % 3], corners[(k + 2) % 3], point);
-    Wide rest = 0;
-    weights[k] = {triangle[k], quotient(part, area, rest)};
-    if (part > 0 && weights[k].second == 0) return std::nullopt;
-    left -= weights[k].second;
-  }
-  std::sort(weights.begin(), weights.end());
+  const auto area = static_cast<std::int64_t>(exact::orientation(corners[0], corners[1], corners[2]));
+  const Wide first = exact::orientation(corners[1], corners[2], point),
+             second = exact::orientation(corners[2], corners[0], point);
+  const Ratio p = ratio_of(first, area), q = ratio_of(second, area);
+  if ((first > 0 && p.whole == 0) || (second > 0 && q.whole == 0)) return std::nullopt;
+  const std::int64_t missing = scene::whole_weight - p.whole - q.whole, rest = p.rest + q.rest;
+  const std::int64_t r = missing - (rest == 0 ? 0 : (rest <= area ? 1 : 2));
+  if (r == 0 && missing * area > rest) return std::nullopt;
+  std::array<std::pair<std::uint32_t, std::int64_t>, 3> weights{
+      {{triangle[0], p.whole}, {triangle[1], q.whole}, {triangle[2], r}}};
+  if (weights[1] < weights[0]) std::swap(weights[0], weights[1]);
+  if (weights[2] < weights[1]) std::swap(weights[1], weights[2]);
+  if (weights[1] < weights[0]) std::swap(weights[0], weights[1]);
   std::size_t largest = 0;
   for (std::size_t k = 1; k < 3; ++k) {
     if (weights[k].second > weights[largest].second) largest = k;
   }
-  weights[largest].second += left;
+  weights[largest].second += missing - r;
   CarrierPoint out;
   std::size_t used = 0;
   for (const auto& [vertex, weight] : weights) {
@@ -68,14 +115,12 @@ std::optional<CarrierPoint> mean_of(const CarrierPoint& x, const CarrierPoint& y
     }
   }
   std::sort(out.corner.begin(), out.corner.end());
-  const Wide256 whole = widened(parts.of_x + parts.of_y);
+  const Wide whole = parts.of_x + parts.of_y;
   std::int64_t left = scene::whole_weight;
   std::size_t largest = 0;
   for (std::size_t k = 0; k < used; ++k) {
-    Wide256 rest;
-    const Wide256 sum =
-        product(parts.of_x, x.weight_of(out.corner[k])) + product(parts.of_y, y.weight_of(out.corner[k]));
-    out.weight[k] = std::max<std::int64_t>(1, quotient(sum, whole, rest));  // on the side that it is on
+    const std::int64_t at_y = y.weight_of(out.corner[k]), more = x.weight_of(out.corner[k]) - at_y;
+    out.weight[k] = std::max<std::int64_t>(1, at_y + share_of(parts.of_x, whole, more));  // on the side that it is on
     if (out.weight[k] > out.weight[largest]) largest = k;
     left -= out.weight[k];
   }

@@ -57,6 +57,16 @@ inline std::int64_t short_orientation(const DiskPoint& a, const DiskPoint& b, co
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
+// Of points of one triangle, by weights of its second and third corner: twice the area, in units of 2^-120.
+using TrianglePlace = std::array<std::int64_t, 2>;
+inline TrianglePlace place_in(const scene::Triangle& triangle, const scene::CarrierPoint& p) {
+  return {p.weight_of(triangle[1]), p.weight_of(triangle[2])};
+}
+inline exact::Wide area_of(const TrianglePlace& a, const TrianglePlace& b, const TrianglePlace& c) {
+  const std::int64_t bu = b[0] - a[0], bv = b[1] - a[1], cu = c[0] - a[0], cv = c[1] - a[1];
+  return exact::Wide{bu} * cv - exact::Wide{bv} * cu;
+}
+
 inline int in_circle_filtered(const DiskPoint& a, const DiskPoint& b, const DiskPoint& c, const DiskPoint& d,
                               double error = kInCircleError) {
   const std::int64_t ax = a[0] - d[0], ay = a[1] - d[1], bx = b[0] - d[0], by = b[1] - d[1], cx = c[0] - d[0],

@@ -82,10 +82,12 @@ bool is_embedded(const SurfaceStar& star, const DiskLayout& layout) {
 RingEdges ring_edges(const Domain& domain, const SurfaceStar& star) {
   RingEdges joined{};
   const auto ring = star.ring();
+  std::uint64_t seen = 0;  // a bit for each vertex, which others may have, too
+  for (const std::uint32_t v : ring) seen |= std::uint64_t{1} << (v & 63U);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     for (const std::uint32_t number : domain.star(ring[i])) {
       for (const std::uint32_t v : domain.triangles()[number]) {
-        if (v == ring[i] || v == star.vertex) continue;
+        if ((seen >> (v & 63U) & 1U) == 0 || v == ring[i] || v == star.vertex) continue;
         for (std::size_t j = 0; j < ring.size(); ++j) {
           if (ring[j] == v) joined[i] = static_cast<std::uint16_t>(joined[i] | (1U << j));
         }

@@ -2,21 +2,13 @@
 
 #include <algorithm>
 
+#include "fastpath/multires/grid_signs.h"
+
 namespace clues::fastpath::multires {
 namespace {
 
 using exact::Wide;
 using scene::CarrierPoint;
-
-Wide area(const std::array<std::int64_t, 2>& a, const std::array<std::int64_t, 2>& b,
-          const std::array<std::int64_t, 2>& c) {
-  const std::int64_t bu = b[0] - a[0], bv = b[1] - a[1], cu = c[0] - a[0], cv = c[1] - a[1];
-  return Wide{bu} * cv - Wide{bv} * cu;
-}
-
-std::array<std::int64_t, 2> place_in(const scene::Triangle& t, const CarrierPoint& p) {
-  return {p.weight_of(t[1]), p.weight_of(t[2])};
-}
 
 // Whether a point may move to another place on the input: inside of a triangle anywhere, on an edge along it.
 bool may_slide(const CarrierPoint& from, const CarrierPoint& to) {
@@ -35,13 +27,10 @@ void Thinning::thin(const scene::Triangle& triangle, const std::vector<scene::Tr
   candidates_.clear();
   changed_.resize(std::max(changed_.size(), points.size()));
   for (const StarPart& part : parts) {
-    for (const std::uint32_t p : part.corners) changed_[p] = 1;
-  }
-  for (const StarPart& part : parts) {
     for (const std::uint32_t p : part.corners) {
-      if (changed_[p] == 0) continue;
-      changed_[p] = 0;
-      if (points.of_input[p] == 0 && points.image[p].size() == 3) candidates_.push_back(p);
+      if (points.may_go[p] == 0 || changed_[p] != 0) continue;
+      changed_[p] = 1;
+      candidates_.push_back(p);
     }
   }
   if (candidates_.empty()) return;
@@ -61,7 +50,6 @@ void Thinning::thin(const scene::Triangle& triangle, const std::vector<scene::Tr
       around_[p].push_back(k);
     }
   }
-  for (const std::uint32_t p : candidates_) changed_[p] = 1;
   for (bool again = true; again;) {
     again = false;
     left_.clear();
@@ -94,7 +82,7 @@ Wide Thinning::smallest_left(std::uint32_t point, std::uint32_t target, Wide bes
       continue;
     }
     const auto moved = [&](std::size_t i) { return at_[c[i] == point ? target : c[i]]; };
-    const Wide left = area(moved(0), moved(1), moved(2));
+    const Wide left = area_of(moved(0), moved(1), moved(2));
     if (left <= best) return 0;
     if (smallest == 0 || left < smallest) smallest = left;
   }
@@ -105,7 +93,7 @@ Wide Thinning::smallest_left(std::uint32_t point, std::uint32_t target, Wide bes
     if (c[0] == target || c[1] == target || c[2] == target) continue;
     const auto& t = (*input_)[part.input];
     const auto moved = [&](std::size_t i) { return place_in(t, points_->source[c[i] == point ? target : c[i]]); };
-    if (area(moved(0), moved(1), moved(2)) <= 0) return 0;
+    if (area_of(moved(0), moved(1), moved(2)) <= 0) return 0;
   }
   return smallest;
 }
@@ -114,15 +102,16 @@ bool Thinning::take_out(std::uint32_t point) {
   neighbours_.clear();
   for (const std::uint32_t k : around_[point]) {
     for (const std::uint32_t q : (*parts_)[k].corners) {
-      if (q != point) neighbours_.push_back(q);
+      if (q != point && may_slide(points_->source[point], points_->source[q]) &&
+          std::find(neighbours_.begin(), neighbours_.end(), q) == neighbours_.end()) {
+        neighbours_.push_back(q);
+      }
     }
   }
   std::sort(neighbours_.begin(), neighbours_.end());
-  neighbours_.erase(std::unique(neighbours_.begin(), neighbours_.end()), neighbours_.end());
   Wide best = 0;
   std::uint32_t target = point;
   for (const std::uint32_t q : neighbours_) {
-    if (!may_slide(points_->source[point], points_->source[q])) continue;
     const Wide smallest = smallest_left(point, q, best);
     if (smallest > best) {
       best = smallest;
@@ -132,6 +121,7 @@ bool Thinning::take_out(std::uint32_t point) {
   if (target == point) return false;
   for (const std::uint32_t k : around_[point]) {
     auto& corners = (*parts_)[k].corners;
+    for (const std::uint32_t q : corners) changed_[q] = 1;
     if (std::find(corners.begin(), corners.end(), target) != corners.end()) {
       gone_[k] = 1;
       for (const std::uint32_t q : corners) {
@@ -146,7 +136,6 @@ bool Thinning::take_out(std::uint32_t point) {
   }
   around_[point].clear();
   changed_[point] = 0;
-  for (const std::uint32_t q : neighbours_) changed_[q] = 1;
   return true;
 }
 

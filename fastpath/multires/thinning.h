@@ -17,6 +17,7 @@ namespace clues::fastpath::multires {
 struct StarPoints {
   std::vector<std::uint32_t> number;  // in the overlay; no_vertex: introduced here
   std::vector<std::uint8_t> of_input;
+  std::vector<std::uint8_t> may_go;  // introduced, and inside of a new triangle
   std::vector<scene::CarrierPoint> source, image;
 
   std::size_t size() const { return number.size(); }

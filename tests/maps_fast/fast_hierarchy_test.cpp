@@ -145,6 +145,27 @@ void random_surfaces(std::uint64_t seed, std::uint64_t count) {
 TEST(FastHierarchy, OfRandomSurfacesIsTheReferences) { random_surfaces(kSeed, 300); }
 TEST(FastHierarchyLong, OfRandomSurfacesIsTheReferences) { random_surfaces(kSeed + 2, 10'000); }
 
+// Where the overlay forbids nothing, levels, base domain and images of vertices are the same without it.
+TEST(FastHierarchy, WithoutOverlayHasTheSameImages) {
+  std::uint64_t compared = 0;
+  for (std::uint64_t k = 0; k < 60; ++k) {
+    const auto mesh = fuzz::surface_case(kSeed, k).mesh;
+    fast::BuildOptions options;
+    options.base_triangles = 20;
+    fast::BuildCounts counts;
+    auto with = fast::build_hierarchy(mesh, options, "mesh", &counts);
+    if (counts.levels_again > 0 || with.levels.size() < 2) continue;
+    ++compared;
+    with.points.resize(mesh.points.size());
+    with.pieces.clear();
+    options.overlay = false;
+    for (options.threads = 1; options.threads <= 2; ++options.threads) {
+      ASSERT_TRUE(scene::to_text(with) == scene::to_text(fast::build_hierarchy(mesh, options))) << k;
+    }
+  }
+  EXPECT_GT(compared, 10U);
+}
+
 // Every filter says that it does not know: whole numbers make the same file.
 TEST(FastHierarchy, WithoutDoublesIsTheSame) {
   exact::ProcessDials dials;
