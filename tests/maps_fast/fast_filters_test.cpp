@@ -7,6 +7,8 @@
 #include "fastpath/multires/crossing.h"
 #include "fastpath/multires/grid_signs.h"
 #include "fuzz/generators/random.h"
+#include "reference/multires/overlay.h"
+#include "reference/multires/stars/combination.h"
 
 namespace clues {
 namespace {
@@ -175,6 +177,98 @@ TEST(FastMapNumbers, AreThoseOfGmp) {
     ASSERT_EQ(quotient(number, widened(divisor), rest), q);
     ASSERT_EQ(integer(rest), integer(number) - whole(divisor) * mpz_class(q));
   }
+}
+
+std::int64_t weight_below(fuzz::Random& random, std::int64_t most) {
+  const auto any = static_cast<std::int64_t>(random.next() >> random.between(4, 63));
+  return most == 0 ? 0 : any % (most + 1);
+}
+std::array<std::int64_t, 3> three_weights(fuzz::Random& random) {
+  const std::int64_t a = weight_below(random, scene::whole_weight), b = weight_below(random, scene::whole_weight - a);
+  std::array<std::int64_t, 3> out{scene::whole_weight - a - b, a, b};
+  std::swap(out[0], out[static_cast<std::size_t>(random.between(0, 2))]);
+  return out;
+}
+
+// Slivers and whole disks; points inside, on edges, at corners, and off by units. Against GMP and 128 bits.
+TEST(FastMapNumbers, WeightsAreTheReferences) {
+  fuzz::Random random(4);
+  int found = 0, none = 0;
+  for (int k = 0; k < 200000; ++k) {
+    std::array<DiskPoint, 3> c;
+    for (auto& p : c) {
+      const std::int64_t size = std::int64_t{1} << random.between(1, 24);
+      p = {coordinate(random, size), coordinate(random, size)};
+    }
+    if (exact::orientation(c[0], c[1], c[2]) < 0) std::swap(c[1], c[2]);
+    if (exact::orientation(c[0], c[1], c[2]) == 0) continue;
+    auto point = placed(c, three_weights(random)).flat;
+    if (random.one_in(3)) point.x += random.between(-3, 3);
+    const scene::Triangle triangle{static_cast<std::uint32_t>(random.between(0, 9)),
+                                   10 + static_cast<std::uint32_t>(k % 2) * 7, 12};
+    const auto expected = reference::weights_in(triangle, c, point);
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) inside = inside && exact::orientation(c[i], c[(i + 1) % 3], point) >= 0;
+    if (!inside) continue;  // is not asked
+    ASSERT_EQ(weights_in(triangle, c, point), expected) << k;
+    ++(expected ? found : none);
+  }
+  EXPECT_GT(found, 50000);
+  EXPECT_GT(none, 100);
+}
+
+scene::CarrierPoint carrier_point(fuzz::Random& random, std::uint32_t from) {
+  const auto weights = three_weights(random);
+  scene::CarrierPoint out;
+  std::size_t used = 0;
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    if (weights[i] == 0) continue;
+    out.corner[used] = from + 2 * i;
+    out.weight[used++] = weights[i];
+  }
+  return out;
+}
+
+TEST(FastMapNumbers, MeansAndCrossingsAreTheReferences) {
+  fuzz::Random random(5);
+  int none = 0;
+  for (int k = 0; k < 100000; ++k) {
+    const auto x = carrier_point(random, 4), y = carrier_point(random, random.one_in(9) ? 5 : 4);
+    const Parts parts{wide(random, random.between(1, 112)) + 1, wide(random, random.between(1, 112)) + 1};
+    const mpz_class of_x = integer(widened(parts.of_x)), of_y = integer(widened(parts.of_y));
+    const auto mean = mean_of(x, y, parts);
+    ASSERT_EQ(mean, reference::combined({{&x, of_x}, {&y, of_y}})) << k;
+    none += mean ? 0 : 1;
+  }
+  EXPECT_GT(none, 1000);
+  int within = 0;
+  for (int k = 0; k < 100000; ++k) {
+    std::array<DiskPoint, 3> c;
+    for (auto& p : c) p = {coordinate(random, 1 << 24), coordinate(random, 1 << 24)};
+    const FlatPoint x = placed(c, three_weights(random)).flat,
+                    y = placed({c[2], c[1], c[0]}, three_weights(random)).flat;
+    const DiskPoint a{coordinate(random, 1 << 24), coordinate(random, 1 << 24)},
+        b{coordinate(random, 1 << 24), c[0][1]};
+    const Wide one = exact::orientation(a, b, x), two = exact::orientation(a, b, y);
+    if (exact::sign_of(one) * exact::sign_of(two) >= 0) continue;
+    const Parts parts{two > 0 ? two : -two, one > 0 ? one : -one};
+    // The crossing, as a rational: its place along the longer axis.
+    const std::size_t axis = std::abs(b[0] - a[0]) >= std::abs(b[1] - a[1]) ? 0 : 1;
+    const auto whole = [](Wide value) { return mpq_class(integer(widened(value))); };
+    const mpq_class way =
+        (whole(parts.of_x) * whole(axis == 0 ? x.x : x.y) + whole(parts.of_y) * whole(axis == 0 ? y.x : y.y)) /
+            whole(parts.of_x + parts.of_y) -
+        mpq_class(mpz_class(a[axis])) * mpq_class(mpz_class(scene::whole_weight));
+    const mpq_class place = way / mpq_class(mpz_class(b[axis] - a[axis]));
+    const auto found = place_on_diagonal(a, b, x, y, parts);
+    ASSERT_EQ(found.has_value(), place > 0 && place < mpq_class(mpz_class(scene::whole_weight))) << k;
+    if (!found) continue;
+    ++within;
+    mpz_class floor;
+    mpz_fdiv_q(floor.get_mpz_t(), place.get_num_mpz_t(), place.get_den_mpz_t());
+    ASSERT_EQ(mpz_class(*found), floor) << k;
+  }
+  EXPECT_GT(within, 1000);
 }
 
 }  // namespace
