@@ -16,6 +16,7 @@
 #include "app/maps/maps_output.h"
 #include "app/maps/remesh_output.h"
 #include "app/progress.h"
+#include "fastpath/multires/build.h"
 #include "reference/multires/hierarchy.h"
 #include "reference/multires/remesh.h"
 #include "reference/multires/smoothing.h"
@@ -34,7 +35,7 @@ namespace clues::app {
 namespace {
 
 struct MapsRequest {
-  std::string mesh, features, out, patches, base_out, remesh, proof, checker, svg;
+  std::string mesh, features, out, patches, base_out, remesh, proof, checker, svg, kernel = "exact";
   std::uint64_t base = 200;
   std::optional<int> uniform;
   int smooth = 0;
@@ -162,6 +163,22 @@ RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarch
   return answer;
 }
 
+// The same, whoever makes it.
+scene::Hierarchy built(const MapsRequest& request, const scene::TriangleMesh& mesh,
+                       reference::HierarchyOptions options) {
+  ProgressBar bar("clues maps");
+  options.progress = [&](std::uint64_t left) {
+    bar.show("triangles taken away", mesh.triangles.size() - left, mesh.triangles.size());
+  };
+  if (request.kernel == "exact") return reference::build_hierarchy(mesh, options, request.mesh);
+  fastpath::multires::BuildOptions fast;
+  fast.base_triangles = options.base_triangles;
+  fast.features = options.features;
+  fast.fixed = options.fixed;
+  fast.progress = options.progress;
+  return fastpath::multires::build_hierarchy(mesh, fast, request.mesh);
+}
+
 int run_maps(const MapsRequest& request) {
   if (request.mesh.empty()) throw scene::Error(scene::ErrorCode::bad_argument, "MESH is required (or verify)");
   const std::vector<const std::string*> outputs{&request.out,     &request.patches,    &request.base_out,
@@ -179,14 +196,7 @@ int run_maps(const MapsRequest& request) {
   reference::HierarchyOptions options;
   options.base_triangles = request.base;
   add_features(request.features, mesh, options);
-  scene::Hierarchy hierarchy;
-  {
-    ProgressBar bar("clues maps");
-    options.progress = [&](std::uint64_t left) {
-      bar.show("triangles taken away", mesh.triangles.size() - left, mesh.triangles.size());
-    };
-    hierarchy = reference::build_hierarchy(mesh, options, request.mesh);
-  }
+  const auto hierarchy = built(request, mesh, options);
   // What is written is what was judged: the text, read again.
   const std::string text = scene::to_text(hierarchy);
   auto report = validate::check_hierarchy(scene::parse_hierarchy(text, "the hierarchy"));
@@ -225,6 +235,11 @@ void add_maps_command(CLI::App& program, int& status) {
   command->add_option("MESH", request->mesh, "A surface, closed or with boundary: OBJ, OFF, PLY or STL");
   command->add_option("--base", request->base, "End with the first level of at most N triangles (default: 200)")
       ->type_name("N");
+  command
+      ->add_option("--kernel", request->kernel,
+                   "Made by the exact reference, or fast: with filtered doubles, by all threads; the same bytes")
+      ->check(CLI::IsMember({"exact", "fast"}))
+      ->capture_default_str();
   command
       ->add_option("--features", request->features,
                    "Edges that stay edges: sharper than an angle in degrees, or those of a FILE (docs/maps.md)")
@@ -277,6 +292,7 @@ void add_maps_command(CLI::App& program, int& status) {
       "EXAMPLES\n"
       "  clues maps ball.off --base 20 -o ball.maps --patches ball.ply\n"
       "  clues maps verify ball.maps\n"
+      "  clues maps ball.off --base 20 --kernel fast -o ball.maps\n"
       "  clues maps ball.off --base 20 --features 40 --json ball.json\n"
       "  clues maps ball.off --base 20 --uniform 2 --remesh uniform.ply --proof uniform.proof\n"
       "  clues maps verify ball.maps --remesh uniform.ply --proof uniform.proof\n"

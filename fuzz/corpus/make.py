@@ -303,5 +303,23 @@ def motion():
     put("motion", "way_of_nothing", "# nothing\n")
 
 
-for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, motion, stream, report, scene_to_verdict):
+def maps():
+    files = {c["id"]: c["lines"] for c in json.loads((SUITE / "multires" / "hierarchy-files.json").read_text())["cases"]}
+    for name in ("octahedron", "feature-line", "flipped-piece", "neighbours-in-one-level"):
+        put("maps", "hierarchy_" + name.replace("-", "_"), "\n".join(files["file-" + name]) + "\n")
+    put("maps", "hierarchy_of_many_levels", "clues-maps 1\nvertices 0\ntriangles 0\nfeatures 0\nfixed 0\nlevels 4000000000\n")
+    whole = 1 << 60
+    corners = "".join("1 %d %d\n" % (v, whole) for v in range(3))
+    same = "".join("1 %d %d 1 %d %d\n" % (v, whole, v, whole) for v in range(3))
+    head = "clues-remesh 1\nbounds 0 %s\nparameters 4\n" + corners + "2 0 %d 2 %d\n" % (whole // 2, whole // 2)
+    rest = "triangles 1\n0 1 2\npoints 3\n" + same + "pieces 1\n0 1 2 0 0\n"
+    put("maps", "proof", head % "0.1" + rest)
+    put("maps", "proof_without_bound", head % "none" + rest)
+    put("maps", "proof_corner_beyond", head % "0" + rest.replace("0 1 2 0 0", "0 1 3 0 0"))
+    put("maps", "features", "# an edge, a vertex\n0 1\n7\r\n3 2")
+    put("maps", "plain_map", "0 1 0\n3 0.25 0x1p-2 1/2\n1 1/3 1/3\n")
+    put("maps", "plain_map_of_one_coordinate", "0 1 0\n3 0.25\n4 -1 2\n")
+
+
+for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, motion, maps, stream, report, scene_to_verdict):
     make()

@@ -27,7 +27,7 @@ class Builder {
       : options_(options),
         complex_(mesh),
         overlay_(mesh),
-        points_(points_for_estimates(mesh)),
+        points_(exact::points_for_estimates(mesh)),
         features_(options.features.begin(), options.features.end()),
         tags_(mesh.points.size(), 0),
         fixed_(mesh.points.size(), false) {

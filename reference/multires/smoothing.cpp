@@ -37,7 +37,7 @@ class Smoother {
  public:
   Smoother(Remesh& remesh, const scene::Hierarchy& h, const SmoothingOptions& options)
       : remesh_(remesh), h_(h), options_(options), complex_(remesh.mesh), points_(remesh.proof.points) {
-    estimates_.points = points_for_estimates(h.input);
+    estimates_.points = exact::points_for_estimates(h.input);
     for (const CarrierPoint& source : remesh.sources) places_.push_back(position_estimate(source, estimates_));
     for (std::size_t t = 0; t < remesh.mesh.triangles.size(); ++t) {
       const auto first = remesh.proof.pieces.begin() + static_cast<std::ptrdiff_t>(remesh.first_piece[t]),

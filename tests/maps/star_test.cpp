@@ -82,7 +82,7 @@ TEST(Flattening, AlwaysCertifiesSomething) {
         const reference::StarComplex complex(mesh);
         const reference::StarShape shape{closed ? scene::StarKind::interior : scene::StarKind::boundary,
                                          complex.ring(0), 0};
-        const auto flat = reference::flattenings(shape, 0, reference::points_for_estimates(mesh));
+        const auto flat = reference::flattenings(shape, 0, exact::points_for_estimates(mesh));
         ASSERT_FALSE(flat.empty()) << n << closed << how;
         EXPECT_EQ(flat.size(), how == 0 ? 3U : 1U);
         for (const auto& f : flat) EXPECT_TRUE(reference::is_certified(shape, f));

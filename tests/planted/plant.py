@@ -135,6 +135,16 @@ COPIES = {
     "no_link_condition": ("reference/hierarchy.cpp", [
         ("const auto forbidden = [this](std::uint32_t a, std::uint32_t b) { return complex_.has_edge(a, b); };",
          "const auto forbidden = [](std::uint32_t, std::uint32_t) { return false; };")]),
+    # The fast path takes the other diagonal of four corners on one circle.
+    "fast_cocircular_tie": ("fastpath/hole_cover.cpp", [
+        ("if (sign == 0) sign = std::min(number(c), number(d)) < std::min(number(a), number(b)) ? 1 : -1;",
+         "if (sign == 0) sign = std::min(number(c), number(d)) < std::min(number(a), number(b)) ? -1 : 1;")]),
+    # The fast path asks the filter of circles without its error term.
+    "fast_circle_without_error": ("fastpath/hole_cover.cpp", [
+        ("in_circle_filtered(at_[a], at_[b], at_[c], at_[d])", "in_circle_filtered(at_[a], at_[b], at_[c], at_[d], 0)")]),
+    # A cover that was made before an edge came between two of its corners is used as it is.
+    "fast_stale_cover": ("fastpath/build.cpp", [
+        ("(touched < 2 || joined == p.joined)", "true")]),
     # What is farthest from the remesh is not looked at.
     "remesh_bound_too_small": ("reference/remesh_error.cpp", [
         ("      to_remesh = std::max(to_remesh, square_bound(on(source, weights), triangle));\n",

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "exact/multires/grid.h"
+#include "exact/multires/star_rules.h"
 #include "reference/multires/stars/star_complex.h"
 
 namespace clues::reference {
@@ -25,7 +25,7 @@ struct StarShape {
 bool is_certified(const StarShape& shape, const FlatStar& flat);
 
 // In the order in which they are to be tried, only certified ones: z^a; its angles with equal radii; equal angles and radii. None where a side is a single
-// triangle, which z^a makes flat. `points` as from points_for_estimates().
+// triangle, which z^a makes flat. `points` as from exact::points_for_estimates().
 std::vector<FlatStar> flattenings(const StarShape& shape, std::uint32_t vertex,
                                   const std::vector<scene::Point>& points);
 

@@ -25,6 +25,7 @@ class StarComplex {
   std::size_t triangle_count() const { return count_; }
   // Numbers of triangles are never used twice; those of triangles that are gone have no meaning.
   const scene::Triangle& triangle(std::uint32_t number) const { return triangles_[number]; }
+  const std::vector<scene::Triangle>& triangles() const { return triangles_; }
   const std::vector<std::uint32_t>& star(std::uint32_t vertex) const { return stars_[vertex]; }
   bool has_vertex(std::uint32_t vertex) const { return !stars_[vertex].empty(); }
 
