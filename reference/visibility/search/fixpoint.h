@@ -23,8 +23,9 @@ namespace clues::reference {
 
 struct Fixpoint {
   WedgeSet wedges;
-  LeftOut left_out;      // by the limits of D17
-  bool in_doubt = false;  // something counts as visible: of what that lights, but of nothing else, walks may say different things
+  LeftOut left_out;  // by the limits of D17
+  bool in_doubt =
+      false;  // something counts as visible: of what that lights, but of nothing else, walks may say different things
   // Edges and points of the complex at which a visible source lies or a valid wedge piece arrives.
   std::vector<std::uint32_t> lit_edges, lit_points;
 };
