@@ -129,6 +129,7 @@ TEST(FastHierarchy, OfTheSuiteIsTheReferences) {
 
 // Shaken, folded, with slivers, with many vertices in one place; of genus 0 to 3, with up to 4 boundaries.
 void random_surfaces(std::uint64_t seed, std::uint64_t count) {
+  const tbb::global_control three(tbb::global_control::max_allowed_parallelism, 3);
   fast::BuildCounts counts;
   std::uint64_t features = 0;
   for (std::uint64_t k = 0; k < count; ++k) {
