@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What of each folder the tests have run: the table of docs/coverage.md.
+"""What of each folder the tests have run, as a table.
 
 usage: coverage_table.py REPORT.csv [--files N]
 

@@ -47,7 +47,7 @@ TEST(LeftOutParts, HoldTheAntiConesOfAllPointsBetween) {
     const Point3 y = e.lo + FT(number(rng)) / FT(12) * (e.hi - e.lo);
     Point3 in = y;
     for (const Point3& s : cell.vertices()) in = in + FT(number(rng)) / FT(5) * (y - s);
-    EXPECT_TRUE(left_out.holds({in})) << in;
+    EXPECT_TRUE(left_out.holds(0, in)) << in;
     EXPECT_TRUE(left_out.may_reach({in}));
   }
 }
@@ -61,7 +61,9 @@ TEST(LeftOutParts, KeepToTheirSideOfTheEdge) {
   EXPECT_FALSE(left_out.may_reach({Point3(2, 1, 1)})) << "lower than all of the edge, as V is";
   EXPECT_FALSE(left_out.may_reach({Point3(2, -50, 3)})) << "past the end, by more than the way from V leads";
   EXPECT_TRUE(left_out.may_reach({Point3(0, 0, 4), Point3(2, 0, 4)}));
-  EXPECT_FALSE(left_out.holds({Point3(0, 0, 4), Point3(2, 0, 4)}));
+  EXPECT_TRUE(left_out.meets(0, Point3(0, 0, 4), Point3(2, 0, 4)));
+  EXPECT_FALSE(left_out.holds(0, Point3(0, 0, 4)));
+  EXPECT_FALSE(left_out.meets(0, Point3(0, 0, 4), Point3(2, 0, -2))) << "out of one side before into the other";
 }
 
 TEST(LeftOutWalks, OnlyALegFromAGrooveOrACornerIsNoPartOfASightLine) {
@@ -69,18 +71,18 @@ TEST(LeftOutWalks, OnlyALegFromAGrooveOrACornerIsNoPartOfASightLine) {
   LeftOut left_out;
   left_out.add(Point3(1, 1, 2), cell);
   const Point3 before(FT(1) / FT(2), FT(1) / FT(2), 3), through(3, 3, 4), behind(9, 9, 3);
-  ASSERT_TRUE(left_out.holds({through}));
+  ASSERT_TRUE(left_out.holds(0, through));
   ASSERT_FALSE(left_out.may_reach({before}));
   ASSERT_FALSE(left_out.may_reach({behind}));
   Walk walk;
   walk.legs.push_back({before, behind, 0, true, false, false});
-  EXPECT_FALSE(walk.may_run_through(left_out));
+  EXPECT_FALSE(walk.runs_through(left_out, 0));
   walk.legs.push_back({before, behind, 0, true, true, false});
-  EXPECT_TRUE(walk.may_run_through(left_out)) << "its ends keep out, and its middle does not";
+  EXPECT_TRUE(walk.runs_through(left_out, 0)) << "its ends keep out, and its middle does not";
   walk.legs.back() = {before, behind, 0, true, false, true};
-  EXPECT_TRUE(walk.may_run_through(left_out));
+  EXPECT_TRUE(walk.runs_through(left_out, 0));
   walk.legs.back() = {before, Point3(-1, 0, 3), 0, true, true, false};
-  EXPECT_FALSE(walk.may_run_through(left_out));
+  EXPECT_FALSE(walk.runs_through(left_out, 0));
 }
 
 }  // namespace

@@ -107,8 +107,15 @@ async function openFiles(app, files) {
 }
 
 async function start() {
-  const embedded = $('clues-data'), data = embedded && JSON.parse(embedded.textContent);
-  let app;
+  const embedded = $('clues-data');
+  let app, data;
+  try {
+    data = embedded && JSON.parse(embedded.textContent);
+  } catch {
+    note(['This page is not complete: its data end too early. Write it again with clues view.']);
+    $('welcome').hidden = true;
+    return;
+  }
   try {
     app = make(data);
   } catch (problem) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -166,7 +167,10 @@ class Search::Work {
         std::stable_partition(lit.begin(), lit.end(), [](const Contact* c) { return !c->has_all_sectors; });
     too_intricate.insert(too_intricate.end(), known, lit.end());
     lit.erase(known, lit.end());
-    if (in_doubt) lit.insert(lit.end(), too_intricate.begin(), too_intricate.end());
+    if (in_doubt) {
+      std::copy_if(too_intricate.begin(), too_intricate.end(), std::back_inserter(lit),
+                   [&](const Contact* c) { return !left_out_contacts.contains(c); });
+    }
     for (Contact* c : lit) {
       for (const std::uint32_t k : Contacts::existing_sectors(*c)) {
         if (c->built[k]) continue;

@@ -270,9 +270,9 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   }
 }
 
-bool Walk::may_run_through(const LeftOut& left_out) const {
+bool Walk::runs_through(const LeftOut& left_out, std::size_t i) const {
   return std::any_of(legs.begin(), legs.end(), [&](const Leg& leg) {
-    return (leg.from_edge || leg.from_corner) && left_out.may_reach({leg.m, leg.p});
+    return (leg.from_edge || leg.from_corner) && left_out.meets(i, leg.m, leg.p);
   });
 }
 
@@ -352,7 +352,8 @@ Walker::Label Walker::label(const Start& start, const WedgeSet& wedges, const Le
     const Meets m = visible(start, made, wedges, 0);
     if (m == Meets::yes) return {true, made.unresolved};
     if (m == Meets::no) {
-      const bool in_doubt = made.may_run_through(left_out);
+      bool in_doubt = false;
+      for (std::size_t i = 0; !in_doubt && i < left_out.size(); ++i) in_doubt = made.runs_through(left_out, i);
       return {in_doubt, in_doubt};
     }
   }

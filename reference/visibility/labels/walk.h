@@ -47,8 +47,8 @@ struct Leg {
 };
 
 struct Walk {
-  // Whether an anti-cone may reach the leg that is no part of a sight line, if it has one.
-  bool may_run_through(const LeftOut& left_out) const;
+  // Whether the leg that is no part of a sight line, if there is one, meets number i of what was left out.
+  bool runs_through(const LeftOut& left_out, std::size_t i) const;
 
   bool ends_at_cell = false;
   bool unresolved = false;  // never ends: the label is visible, as a counted fallback

@@ -315,35 +315,47 @@ class Search {
     return slot.get();
   }
 
-  // Hidden sources whose walk says nothing (anticone.h), until none is left that an anti-cone does not hold anyway.
+  // A source as one figure (anticone.h): a part of an edge from lo to hi with its point y, or a vertex, which is all three.
+  struct Figure {
+    Point3 lo, hi, y;
+    const Walk* walk = nullptr;
+    const ContourEdge* contour = nullptr;  // none: a vertex
+    std::size_t looked_at = 0;             // how many of what is left out
+    bool settled = false;                  // no matter what else is left out
+  };
+  enum class Doubt { none, settled, left_out };
+  static Doubt doubt_of(const Figure& f, const LeftOut& left_out, std::size_t i) {
+    const bool walk_counts = !f.walk->runs_through(left_out, i);
+    if (walk_counts && !left_out.meets(i, f.lo, f.hi)) return Doubt::none;
+    const bool holds_lo = left_out.holds(i, f.lo), holds_hi = left_out.holds(i, f.hi);
+    if (holds_lo && holds_hi) return Doubt::settled;
+    return walk_counts && (holds_lo || holds_hi) && !left_out.holds(i, f.y) ? Doubt::none : Doubt::left_out;
+  }
+
+  // Until there is none that what was added last concerns. O(sources * what is left out in the end).
   void leave_out_doubtful_sources(LeftOut& left_out) const {
-    std::vector<const Source*> parts;
-    std::vector<const VertexSource*> vertices;
-    const auto is_open = [](const Walk& w) {
-      return !w.legs.empty() && (w.legs.back().from_edge || w.legs.back().from_corner);
-    };
+    std::vector<Figure> figures;
     for (const Source& s : sources_) {
-      if (!s.lit && is_open(s.walk)) parts.push_back(&s);
+      if (!s.walk.unresolved) figures.push_back({s.lo, s.hi, s.y, &s.walk, &contours_[s.contour], 0, false});
     }
     for (const VertexSource& s : vertex_sources_) {
-      if (!s.lit && is_open(s.walk)) vertices.push_back(&s);
+      if (!s.walk.unresolved) figures.push_back({s.x, s.x, s.x, &s.walk, nullptr, 0, false});
     }
     for (bool more = true; more;) {
       more = false;
-      std::erase_if(parts, [&](const Source* s) {
-        if (!s->walk.may_run_through(left_out)) return false;
-        if (left_out.holds({s->lo, s->hi})) return true;
-        left_out.add(s->lo, s->hi, contours_[s->contour].plane, scene_.cell());
-        more = true;
-        return true;
-      });
-      std::erase_if(vertices, [&](const VertexSource* s) {
-        if (!s->walk.may_run_through(left_out)) return false;
-        if (left_out.holds({s->x})) return true;
-        left_out.add(s->x, scene_.cell());
-        more = true;
-        return true;
-      });
+      for (Figure& f : figures) {
+        for (; !f.settled && f.looked_at < left_out.size(); ++f.looked_at) {
+          const Doubt doubt = doubt_of(f, left_out, f.looked_at);
+          f.settled = doubt != Doubt::none;
+          if (doubt != Doubt::left_out) continue;
+          if (f.contour) {
+            left_out.add(f.lo, f.hi, f.contour->plane, scene_.cell());
+          } else {
+            left_out.add(f.lo, scene_.cell());
+          }
+          more = true;
+        }
+      }
     }
   }
 

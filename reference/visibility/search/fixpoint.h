@@ -24,8 +24,8 @@ namespace clues::reference {
 struct Fixpoint {
   WedgeSet wedges;
   LeftOut left_out;  // by the limits of D17
-  bool in_doubt =
-      false;  // something counts as visible: of what that lights, but of nothing else, walks may say different things
+  // Something counts as visible: of what that lights, and of nothing else, walks may say different things. So in this map they are not held against each other.
+  bool in_doubt = false;
   // Edges and points of the complex at which a visible source lies or a valid wedge piece arrives.
   std::vector<std::uint32_t> lit_edges, lit_points;
 };

@@ -102,13 +102,23 @@ void LeftOut::add(const Point3& lo, const Point3& hi, const exact::Plane3& suppo
   }
 }
 
-bool LeftOut::holds(const std::vector<Point3>& corners) const {
-  return std::any_of(anticones_.begin(), anticones_.end(), [&](const std::vector<exact::Plane3>& facets) {
-    return std::all_of(facets.begin(), facets.end(), [&](const exact::Plane3& h) {
-      return std::none_of(corners.begin(), corners.end(),
-                          [&](const Point3& q) { return h.oriented_side(q) == CGAL::ON_NEGATIVE_SIDE; });
-    });
-  });
+// If the segment enters one side no later than it leaves every other.
+bool LeftOut::meets(std::size_t i, const Point3& a, const Point3& b) const {
+  exact::FT enters(0), leaves(1);
+  for (const exact::Plane3& h : anticones_[i]) {
+    const exact::FT at_a = h.a() * a.x() + h.b() * a.y() + h.c() * a.z() + h.d(),
+                    at_b = h.a() * b.x() + h.b() * b.y() + h.c() * b.z() + h.d();
+    const bool from_outside = CGAL::is_negative(at_a), to_outside = CGAL::is_negative(at_b);
+    if (from_outside && to_outside) return false;
+    if (from_outside) enters = std::max(enters, exact::FT(at_a / (at_a - at_b)));
+    if (to_outside) leaves = std::min(leaves, exact::FT(at_a / (at_a - at_b)));
+  }
+  return enters <= leaves;
+}
+
+bool LeftOut::holds(std::size_t i, const Point3& x) const {
+  return std::none_of(anticones_[i].begin(), anticones_[i].end(),
+                      [&](const exact::Plane3& h) { return h.oriented_side(x) == CGAL::ON_NEGATIVE_SIDE; });
 }
 
 bool LeftOut::may_reach(const std::vector<Point3>& corners) const {

@@ -26,8 +26,11 @@ std::vector<AnticoneFacet> anticone_facets(const exact::Point3& x, const exact::
 // label that a walk finds is right for a whole figure only if no anti-cone reaches the figure; one sample outside says nothing about the rest.
 //
 // A walk from a point outside keeps outside: where a leg, a part of a sight line, crosses a wedge that is not there, all that is behind it on the line is in the anti-cone. Only the last leg
-// of a walk that ends in a groove or a corner (walk.h) is no part of a sight line. Where that may run through an anti-cone the walk says nothing, and a hidden source with such a walk, whose
-// own wedges may be missing without being in an anti-cone, is left out as well.
+// of a walk that ends in a groove or a corner (walk.h) is no part of a sight line. Where that runs through an anti-cone the walk says nothing.
+//
+// Sources are such figures, too: a part of an edge, known by one of its points. A missing wedge may end one label within it; then its own wedges may be missing, or be there in error, without
+// being in an anti-cone. It is right if the anti-cone misses all of it, or if it runs into the anti-cone at one end and stays there, and its point is outside; and if its walk says something. It
+// does not matter if it lies in the anti-cone as a whole. Any other source is left out as well, with what holds the anti-cones of all its points.
 class LeftOut {
  public:
   void add(const exact::Point3& x, const exact::ConvexCell& cell);
@@ -38,8 +41,9 @@ class LeftOut {
   bool empty() const { return anticones_.empty(); }
   // Whether one may reach the hull of these points: false only if each has a facet's plane that keeps it out. O(apexes * facets * corners).
   bool may_reach(const std::vector<exact::Point3>& corners) const;
-  // Whether one of them holds all these points.
-  bool holds(const std::vector<exact::Point3>& corners) const;
+  // Of number i: whether it meets the closed segment, and whether it holds the point. O(facets).
+  bool meets(std::size_t i, const exact::Point3& a, const exact::Point3& b) const;
+  bool holds(std::size_t i, const exact::Point3& x) const;
 
  private:
   std::vector<std::vector<exact::Plane3>> anticones_;  // by their facets

@@ -5,7 +5,9 @@ import { SqliteFile } from './sqlite.js';
 
 const FORMAT = 'clues-bake/1';
 
-// The length that a frame of zstd (RFC 8878) says it has; -1: it does not say. So nobody can make the page ask for more memory than a list needs.
+const MOST = 2 ** 31;  // bytes of lists, unpacked
+
+// The length that a frame of zstd (RFC 8878) says it has; -1: it does not say. So a list cannot make the page ask for more memory than it needs.
 function lengthSaid(bytes) {
   if (bytes.length < 6 || [0x28, 0xb5, 0x2f, 0xfd].some((byte, i) => bytes[i] !== byte)) return -1;
   const flags = bytes[4], single = (flags >> 5) & 1, wide = flags >> 6, size = wide > 0 ? 1 << wide : single, at = 6 - single + [0, 1, 2, 4][flags & 3];
@@ -50,6 +52,7 @@ export function readBakeStore(bytes, file) {
     if (id !== nodes.length || !Number.isSafeInteger(node) || node < 0 || node >= id) damaged(`node ${id} is out of order`);
     nodes.push(node);
   }
+  if (cellRows.length * Math.ceil(triangles / 8) > MOST) throw flaw(file, `has ${cellRows.length} lists of ${triangles} triangles, more than a page can hold`);
   const cells = cellRows.map(({ id, name, node, points, list, listed, fallbacks }, i) => {
     if (id !== i || typeof name !== 'string' || !Number.isSafeInteger(node) || node < 0 || node >= nodes.length) damaged(`cell ${i} is out of order`);
     const found = unpacked(list, triangles) ?? damaged(`cell ${i} has no list of ${triangles} triangles`);

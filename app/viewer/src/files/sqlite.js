@@ -1,5 +1,5 @@
 // Rows of the tables of an SQLite file, read and nothing else: what the stores of clues hold (https://www.sqlite.org/fileformat2.html). Whatever is not as it should be is
-// a Flaw: pages are visited once, and what lies outside of the file is not there.
+// a Flaw: pages are visited once, what lies outside of the file is not there, and rows do not share their bytes, so that a table is no longer than the file.
 import { flaw } from './flaw.js';
 
 const MAGIC = 'SQLite format 3\0', HEADER = 100;
@@ -22,7 +22,7 @@ export class SqliteFile {
     if (bytes.length < pages * this.size) throw flaw(file, 'ends in the middle; is it complete?');
     this.tables = new Map();
     this.guarded(() => {
-      for (const { values: [type, name, , root, sql] } of this.rowsFrom(1)) if (type === 'table') this.tables.set(name, { root, columns: columnsOf(sql), plain: !/WITHOUT\s+ROWID\s*$/i.test(sql) });
+      for (const { values: [type, name, , root, sql] } of this.rowsOf(1)) if (type === 'table') this.tables.set(name, { root, columns: columnsOf(sql), plain: !/WITHOUT\s+ROWID\s*$/i.test(sql) });
     });
   }
   damaged() { throw flaw(this.file, 'is a damaged store'); }
@@ -37,18 +37,23 @@ export class SqliteFile {
   rows(name) {
     const table = this.tables.get(name);
     if (!table) return null;
-    return this.guarded(() => [...this.rowsFrom(table.root)].map(({ row, values }) => {
+    return this.guarded(() => [...this.rowsOf(table.root)].map(({ row, values }) => {
       if (values.length > table.columns.length) this.damaged();
       // The number of a row stands for the column that is its key.
       return Object.fromEntries(table.columns.map(({ column, key }, i) => [column, key && table.plain ? row : values[i] ?? null]));
     }));
   }
-  *rowsFrom(root, seen = new Set()) {
+  rowsOf(root) {
+    this.left = this.bytes.length;  // for the records of a table, which are parts of the file and not of each other
+    return this.rowsFrom(root, new Set());
+  }
+  *rowsFrom(root, seen) {
     if (!Number.isSafeInteger(root) || root < 1 || seen.has(root)) this.damaged();
     seen.add(root);
     const start = (root - 1) * this.size, at = root === 1 ? HEADER : start, kind = this.view.getUint8(at), inner = kind === INNER || kind === INDEX_INNER;
     if (![LEAF, INNER, INDEX_LEAF, INDEX_INNER].includes(kind)) this.damaged();
     const count = this.view.getUint16(at + 3), cells = at + (inner ? 12 : 8), index = kind === INDEX_LEAF || kind === INDEX_INNER;
+    if (cells + 2 * count > start + this.size) this.damaged();
     for (let i = 0; i < count; ++i) {
       let place = start + this.view.getUint16(cells + 2 * i);
       if (inner) { yield* this.rowsFrom(this.view.getUint32(place), seen); place += 4; }
@@ -61,7 +66,8 @@ export class SqliteFile {
   // The bytes of a record; what does not find room in the page is on a chain of others.
   payload(at, length, index) {
     const u = this.usable, most = index ? Math.floor(((u - 12) * 64) / 255) - 23 : u - 35;
-    if (length < 0 || length > this.bytes.length) this.damaged();
+    if (length < 1 || length > this.left) this.damaged();
+    this.left -= length;
     if (length <= most) return this.part(at, length);
     const least = Math.floor(((u - 12) * 32) / 255) - 23, fitting = least + ((length - least) % (u - 4)), here = fitting <= most ? fitting : least;
     const out = new Uint8Array(length);

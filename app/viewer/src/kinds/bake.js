@@ -25,7 +25,7 @@ function read(json, file) {
 
 function partOf({ scene, note, nodes, cells }) {
   for (const c of cells) { c.low = bound(c.points, Math.min); c.high = bound(c.points, Math.max); }
-  const data = { nodes, cells, note, near: joined(cells), most: Math.max(...cells.map((c) => c.count)), least: Math.min(...cells.map((c) => c.count)), path: [0] };
+  const data = { nodes, cells, note, near: joined(cells), most: cells.reduce((x, c) => Math.max(x, c.count), 0), least: cells.reduce((x, c) => Math.min(x, c.count), Infinity), path: [0] };
   data.path = longest(data);
   return { scene, cell: cells[0].points, mode: null, data, at: 0 };
 }
