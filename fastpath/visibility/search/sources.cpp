@@ -203,7 +203,7 @@ Sources::Numbers Sources::newly_lit(std::size_t first, bool in_doubt) {
 }
 
 std::uint64_t Sources::unresolved() const {
-  const auto in_doubt = [this](const auto& s) { return is_in_doubt(s); };
+  const auto in_doubt = [this](const auto& s) { return this->is_in_doubt(s); };
   const auto edges = std::count_if(of_edges_.begin(), of_edges_.end(), in_doubt);
   const auto vertices = std::count_if(of_vertices_.begin(), of_vertices_.end(), in_doubt);
   return static_cast<std::uint64_t>(edges + vertices);

@@ -126,7 +126,7 @@ class Search {
   }
 
   bool counts_as_visible() const {
-    const auto counts = [this](const auto& s) { return s.walk.unresolved && !separates(s); };
+    const auto counts = [this](const auto& s) { return s.walk.unresolved && !this->separates(s); };
     return std::any_of(sources_.begin(), sources_.end(), counts) ||
            std::any_of(vertex_sources_.begin(), vertex_sources_.end(), counts);
   }
