@@ -68,6 +68,7 @@ export class App {
       this.stage.camera = this.camera;
       this.followStep();
       this.paint();
+      this.changed('room');
       if (!keepCamera) this.fit();
     }
     this.mark();

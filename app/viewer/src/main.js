@@ -35,6 +35,10 @@ function make(data) {
       }
       return;
     }
+    if (what === 'room') {  // what is beside the scene takes its room before the scene is fitted into the rest
+      $('side').hidden = false;
+      return;
+    }
     if (what !== 'camera') { cancelAnimationFrame(panel); panel = requestAnimationFrame(() => drawPanels(app)); }
     clearTimeout(address);
     address = setTimeout(() => writeAddress(app), 150);

@@ -47,6 +47,12 @@ test('the map: labels, layers, the legend', () => withPage('town.html', async (p
   assert((await colours(page))['255,0,212'] > 20);
 }));
 
+test('the first picture fits into the room that the panel leaves', () => withPage('town.html', async (page) => {
+  const distance = () => page.evaluate(() => cluesView.camera.state.distance), first = await distance();
+  await page.evaluate(() => cluesView.fit());
+  assert.equal(await distance(), first);
+}));
+
 test('a click on a triangle says how much of it is visible, and the proof', () => withPage('town.html', async (page) => {
   await page.click('#layer-umbra');
   const [x, y] = await onPage(page, [10.3, 1.3, 4]);
