@@ -25,4 +25,23 @@ int orientation_in(const scene::Triangle& triangle, const scene::CarrierPoint& a
   return sign_of(area_in(triangle, a, b, c));
 }
 
+scene::CarrierPoint rounded_point(std::array<std::pair<std::uint32_t, std::int64_t>, 3> weights, std::int64_t left) {
+  if (weights[1] < weights[0]) std::swap(weights[0], weights[1]);
+  if (weights[2] < weights[1]) std::swap(weights[1], weights[2]);
+  if (weights[1] < weights[0]) std::swap(weights[0], weights[1]);
+  std::size_t largest = 0;
+  for (std::size_t k = 1; k < 3; ++k) {
+    if (weights[k].second > weights[largest].second) largest = k;
+  }
+  weights[largest].second += left;
+  scene::CarrierPoint out;
+  std::size_t used = 0;
+  for (const auto& [vertex, weight] : weights) {
+    if (weight == 0) continue;
+    out.corner[used] = vertex;
+    out.weight[used++] = weight;
+  }
+  return out;
+}
+
 }  // namespace clues::exact

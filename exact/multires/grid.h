@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "scene/multires/hierarchy.h"
 
@@ -39,5 +40,8 @@ int orientation_in(const scene::Triangle& triangle, const scene::CarrierPoint& a
 // The area itself as a part of the triangle's, in units of 2^-120.
 Wide area_in(const scene::Triangle& triangle, const scene::CarrierPoint& a, const scene::CarrierPoint& b,
              const scene::CarrierPoint& c);
+
+// The point with these weights, by vertex, which are rounded down and lack `left` of the whole: that goes to the largest, the first of them by vertex. A weight of 0 names no corner.
+scene::CarrierPoint rounded_point(std::array<std::pair<std::uint32_t, std::int64_t>, 3> weights, std::int64_t left);
 
 }  // namespace clues::exact

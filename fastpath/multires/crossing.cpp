@@ -63,24 +63,7 @@ std::optional<CarrierPoint> weights_in(const scene::Triangle& triangle, const st
   const std::int64_t missing = scene::whole_weight - p.whole - q.whole, rest = p.rest + q.rest;
   const std::int64_t r = missing - (rest == 0 ? 0 : (rest <= area ? 1 : 2));
   if (r == 0 && missing * area > rest) return std::nullopt;
-  std::array<std::pair<std::uint32_t, std::int64_t>, 3> weights{
-      {{triangle[0], p.whole}, {triangle[1], q.whole}, {triangle[2], r}}};
-  if (weights[1] < weights[0]) std::swap(weights[0], weights[1]);
-  if (weights[2] < weights[1]) std::swap(weights[1], weights[2]);
-  if (weights[1] < weights[0]) std::swap(weights[0], weights[1]);
-  std::size_t largest = 0;
-  for (std::size_t k = 1; k < 3; ++k) {
-    if (weights[k].second > weights[largest].second) largest = k;
-  }
-  weights[largest].second += missing - r;
-  CarrierPoint out;
-  std::size_t used = 0;
-  for (const auto& [vertex, weight] : weights) {
-    if (weight == 0) continue;
-    out.corner[used] = vertex;
-    out.weight[used++] = weight;
-  }
-  return out;
+  return exact::rounded_point({{{triangle[0], p.whole}, {triangle[1], q.whole}, {triangle[2], r}}}, missing - r);
 }
 
 // Along the axis on which the diagonal is longer. From a, in units of 2^-84 over the sum of the parts; the diagonal has its length times 2^60 times

@@ -72,20 +72,7 @@ std::optional<CarrierPoint> weights_in(const scene::Triangle& triangle, const st
     if (part > 0 && weights[k].second == 0) return std::nullopt;
     left -= weights[k].second;
   }
-  std::sort(weights.begin(), weights.end());
-  auto largest = weights.begin();
-  for (auto w = weights.begin(); w != weights.end(); ++w) {
-    if (w->second > largest->second) largest = w;
-  }
-  largest->second += left;
-  CarrierPoint out;
-  std::size_t used = 0;
-  for (const auto& [vertex, weight] : weights) {
-    if (weight == 0) continue;
-    out.corner[used] = vertex;
-    out.weight[used++] = weight;
-  }
-  return out;
+  return exact::rounded_point(weights, left);
 }
 
 Overlay::Overlay(const scene::TriangleMesh& input)

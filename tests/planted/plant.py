@@ -125,7 +125,7 @@ COPIES = {
          "wanted = std::min(number(c), number(d)) < std::min(number(a), number(b)) ? -1 : 1;")]),
     # Weights sum to 1 but for 2^-60.
     "weights_miss_one": ("reference/overlay.cpp", [
-        ("  largest->second += left;\n", "  largest->second += left - 1;\n")]),
+        ("  return exact::rounded_point(weights, left);\n", "  return exact::rounded_point(weights, left - 1);\n")]),
     # A piece of the overlay is turned round.
     "flipped_piece": ("reference/overlay.cpp", [
         ("      hierarchy.pieces.push_back(piece);\n",
