@@ -35,7 +35,7 @@ function(clues_use_kernel_pch name)
   target_precompile_headers(${name} REUSE_FROM clues_kernel_pch)
 endfunction()
 
-# clues_chapters(name): every folder of sources is compiled as one piece, in parts of at most six files: the templates that its
+# clues_chapters(name): every folder of sources is compiled as one piece, in parts of at most twelve files: the templates that its
 # files share are made once, and a first build takes a third of the time. Tests link wrong copies of a few sources in place of
 # those in the libraries (tests/planted), so that with tests these are compiled alone. Who works in one file, or compares single
 # objects, says CLUES_UNITY=OFF.
@@ -61,12 +61,12 @@ function(clues_chapters name)
     cmake_path(RELATIVE_PATH chapter BASE_DIRECTORY ${PROJECT_SOURCE_DIR})
     string(MAKE_C_IDENTIFIER "${chapter}" chapter)
     math(EXPR count_${chapter} "${count_${chapter}} + 1")
-    math(EXPR part "(${count_${chapter}} - 1) / 6")
+    math(EXPR part "(${count_${chapter}} - 1) / 12")
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${chapter}_${part})
   endforeach()
   set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # To GCC a class of a source that is included looks like one of a header.
-  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  # To GCC a class of a source that is included looks like one of a header; and a name of another source is none that is shadowed.
+  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> -Wno-shadow)
 endfunction()
 
 # What `clues demo` needs, as folders and single sources: a quarter of all. Each library keeps the objects of these in a target of its

@@ -36,11 +36,6 @@ std::vector<std::string> TestFolder::names() const {
   return found;
 }
 
-std::string read_all(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::string attacked_program() {
   const char* other = std::getenv("CLUES_ATTACKED");
   return other != nullptr ? other : CLUES_PROGRAM;

@@ -7,6 +7,7 @@
 
 #include "scene/files/temporary_folder.h"
 #include "scene/mesh/mesh.h"
+#include "tests/read_all.h"
 
 namespace clues::tests {
 
@@ -26,8 +27,6 @@ class TestFolder : public scene::TemporaryFolder {
   std::string write(const std::string& name, const std::string& bytes) const;  // returns the path
   std::vector<std::string> names() const;                                      // what lies in it, sorted
 };
-
-std::string read_all(const std::filesystem::path& path);
 
 // OFF text: a wall of two triangles (0, 1) at z = 4, and before it at z = 2 a screen (2); seen from a cell near the
 // origin the far-off triangle 4 is visible, and triangle 3 just behind the screen is hidden.

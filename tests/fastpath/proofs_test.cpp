@@ -16,14 +16,14 @@
 namespace clues::fastpath {
 namespace {
 
-constexpr std::uint64_t kScenesSeed = 20261123;
+constexpr std::uint64_t kProofsSeed = 20261123;
 
 double random_double(fuzz::Random& random) { return std::ldexp(static_cast<double>(random.next() >> 11), -53); }
 
 // A float segment without error: `reach` is 0, and what remains are the roundings of the test itself.
 TEST(BoxTest, LooksAtABoxThatBeginsAtTheLimit) {
-  std::printf("seed %lu\n", kScenesSeed);
-  fuzz::Random random(kScenesSeed);
+  std::printf("seed %lu\n", kProofsSeed);
+  fuzz::Random random(kProofsSeed);
   for (int i = 0; i < 200000; ++i) {
     LocalSegment s;
     BoxLanes node{};
@@ -45,7 +45,7 @@ TEST(BoxTest, LooksAtABoxThatBeginsAtTheLimit) {
 }
 
 TEST(AboutInside, HoldsAPointOfTheTriangleOfSubnormals) {
-  fuzz::Random random(kScenesSeed);
+  fuzz::Random random(kProofsSeed);
   for (int i = 0; i < 20000; ++i) {
     Corners t;
     for (Point& p : t) {
@@ -124,7 +124,7 @@ TEST(Star, AWayThatEndsOnAnArcIsNotFree) {
 }
 
 TEST(Star, FreeWaysMeetNoArc) {
-  fuzz::Random random(kScenesSeed + 1);
+  fuzz::Random random(kProofsSeed + 1);
   const auto some = [&] { return way(random.between(-2, 2), random.between(-2, 2), random.between(-2, 2)); };
   const auto is_zero = [](const Way& d) { return d.x.sign() == 0 && d.y.sign() == 0 && d.z.sign() == 0; };
   int free = 0, on_circle = 0;

@@ -28,7 +28,7 @@ using Ids = std::vector<std::uint32_t>;
 
 const std::vector<Point> cell_points{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0},
                                      {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
-exact::ConvexCell cell() { return exact::ConvexCell::from_doubles(cell_points); }
+exact::ConvexCell whole_cell() { return exact::ConvexCell::from_doubles(cell_points); }
 
 FlaggedMesh random_scene(std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -54,14 +54,14 @@ FlaggedMesh random_scene(std::uint64_t seed) {
 
 Ids exactly_visible(const TriangleMesh& mesh) {
   Ids visible;
-  const auto found = validate::exact_visible_set(mesh, cell());
+  const auto found = validate::exact_visible_set(mesh, whole_cell());
   for (std::uint32_t t = 0; t < found.triangles.size(); ++t) {
     if (found.triangles[t].sight == validate::Sight::visible) visible.push_back(t);
   }
   return visible;
 }
 
-Ids by_reference(const TriangleMesh& mesh) { return reference::first_order_visibility(mesh, cell(), {}).visible; }
+Ids by_reference(const TriangleMesh& mesh) { return reference::first_order_visibility(mesh, whole_cell(), {}).visible; }
 
 Ids by_fast_path(const TriangleMesh& mesh) {
   return fastpath::first_order_visibility(fastpath::Bvh(mesh), cell_points, fastpath::LocalMapOptions{}, false).visible;
@@ -95,7 +95,7 @@ Ids one_at_a_time(const FlaggedMesh& scene) {
     const auto mesh = blockers_and(scene, t, place);
     validate::VisibleSetOptions options;
     options.only = {place};
-    if (validate::exact_visible_set(mesh, cell(), options).triangles[place].sight == validate::Sight::visible)
+    if (validate::exact_visible_set(mesh, whole_cell(), options).triangles[place].sight == validate::Sight::visible)
       visible.push_back(t);
   }
   return visible;
@@ -174,7 +174,9 @@ TEST(SeeThrough, PanesAreSeenThroughOneAnother) {
 
 TEST(SeeThrough, TheJudgeSeesThroughPanes) {
   const auto scene = panes();
-  const auto judged = [&](const Ids& pvs) { return validate::judge_see_through(scene, cell(), pvs, {}).judgement; };
+  const auto judged = [&](const Ids& pvs) {
+    return validate::judge_see_through(scene, whole_cell(), pvs, {}).judgement;
+  };
   EXPECT_EQ(judged({0, 1, 2}).verdict, validate::Verdict::sound);
   EXPECT_EQ(judged({0, 1, 2, 5}).loose, 0U) << "what does not count is no matter of the list";
   EXPECT_EQ(judged({0, 1, 2, 3}).loose, 1U);
@@ -189,7 +191,7 @@ TEST(SeeThrough, TheJudgeSeesThroughPanes) {
     for (const auto& w : judgement.witnesses) {
       std::uint32_t place = 0;
       const auto mesh = blockers_and(scene, w.triangle, place);
-      EXPECT_TRUE(exact::check_witness(mesh, cell(), place, w.front, w.v, w.p).valid) << w.triangle;
+      EXPECT_TRUE(exact::check_witness(mesh, whole_cell(), place, w.front, w.v, w.p).valid) << w.triangle;
     }
   }
 }
@@ -222,8 +224,8 @@ TEST(SeeThrough, TheJudgeAgreesWithTheDefinition) {
     SCOPED_TRACE(seed);
     const auto scene = random_scene(seed);
     const Ids truth = one_at_a_time(scene);
-    EXPECT_EQ(validate::judge_see_through(scene, cell(), truth, {}).judgement.verdict, validate::Verdict::sound);
-    const auto nothing = validate::judge_see_through(scene, cell(), {}, {}).judgement;
+    EXPECT_EQ(validate::judge_see_through(scene, whole_cell(), truth, {}).judgement.verdict, validate::Verdict::sound);
+    const auto nothing = validate::judge_see_through(scene, whole_cell(), {}, {}).judgement;
     Ids missing;
     for (std::uint32_t t = 0; t < nothing.triangles.size(); ++t) {
       if (nothing.triangles[t] == validate::TriangleVerdict::missing_visible) missing.push_back(t);

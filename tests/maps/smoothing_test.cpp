@@ -69,7 +69,7 @@ TEST(Smoothing, KeepsFeaturesAndTheBoundary) {
   EXPECT_LT(flat.error(), 1.1 * error);
 }
 
-void judge_random_surfaces(std::uint64_t seed, std::uint64_t count) {
+void judge_smoothed_surfaces(std::uint64_t seed, std::uint64_t count) {
   std::uint64_t judged = 0, moves = 0;
   for (std::uint64_t k = 0; k < count; ++k) {
     const auto h = test::hierarchy_over(fuzz::surface_case(seed, k).mesh, 20);
@@ -87,8 +87,8 @@ void judge_random_surfaces(std::uint64_t seed, std::uint64_t count) {
   EXPECT_GT(judged, count / 2);
   EXPECT_GT(moves, 4 * count);
 }
-TEST(Smoothing, OfRandomSurfacesIsJudgedRight) { judge_random_surfaces(kSeed + 7, 24); }
-TEST(SmoothingLong, OfRandomSurfacesIsJudgedRight) { judge_random_surfaces(kSeed + 8, 1000); }
+TEST(Smoothing, OfRandomSurfacesIsJudgedRight) { judge_smoothed_surfaces(kSeed + 7, 24); }
+TEST(SmoothingLong, OfRandomSurfacesIsJudgedRight) { judge_smoothed_surfaces(kSeed + 8, 1000); }
 
 }  // namespace
 }  // namespace clues

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "scene/mesh/mesh.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
+#include "tests/read_all.h"
 
 namespace clues::tests {
 
@@ -32,11 +32,6 @@ class SceneFolder : public scene::TemporaryFolder {
     return names;
   }
 };
-
-inline std::string read_all(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 inline scene::TriangleMesh mesh_of(const std::string& name, std::string_view bytes) {
   const SceneFolder folder;
