@@ -190,6 +190,7 @@ Crossing Walker::visible(const Walk& walk, std::size_t first) const {
   if (walk.end != Walk::End::surface) return Crossing::yes;
   Crossing result = Crossing::no;
   for (const Leg& leg : walk.legs) {
+    if (!leg.is_sight_line()) break;
     const Crossing c = leg_crossed(leg, first);
     if (c == Crossing::yes) return c;
     if (c == Crossing::touch) result = c;
@@ -198,13 +199,23 @@ Crossing Walker::visible(const Walk& walk, std::size_t first) const {
   return result;
 }
 
+Crossing Walker::visible_by_last_leg(const Walk& walk, std::size_t first) const {
+  return walk.ends_in_the_dark() ? leg_crossed(walk.legs.back(), first) : Crossing::no;
+}
+
+bool Walker::last_leg_is_in_doubt(const Walk& walk) const {
+  return walk.ends_in_the_dark() && pieces_->may_leave(*walk.legs.back().m, *walk.legs.back().p);
+}
+
 Walker::Label Walker::label(const ExactPoint* p, const LeftOut& left_out, Pool& pool, std::uint64_t seed) const {
   for (std::uint64_t attempt = 0; attempt < 12; ++attempt) {
     const Walk made = walk(p, pool, seed + attempt * 7919);
     if (made.end == Walk::End::unresolved) continue;
     const Crossing c = visible(made, 0);
     if (c == Crossing::yes) return Label::visible;
-    if (c == Crossing::touch) continue;
+    const Crossing last = visible_by_last_leg(made, 0);
+    if (last == Crossing::yes && !last_leg_is_in_doubt(made)) return Label::visible;
+    if (c == Crossing::touch || last != Crossing::no) continue;
     bool counts = true;
     for (std::size_t i = 0; counts && i < left_out.size(); ++i) counts = keeps_out(made, left_out, i);
     if (counts) return Label::hidden;

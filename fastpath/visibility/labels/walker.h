@@ -24,8 +24,9 @@ struct Leg {
   bool from_edge = false;    // m is on an edge of the piece, the bottom of a groove in which all is hidden
   bool from_corner = false;  // m is a corner of the piece, and all next to it is hidden (corner.h)
 
+  bool is_sight_line() const { return !from_edge && !from_corner; }
   // From where to p the walk goes beside a sight line, or along none (one_label.h, 1); null: nowhere.
-  const ExactPoint* aside_from() const { return next ? next : from_edge || from_corner ? m : nullptr; }
+  const ExactPoint* aside_from() const { return next ? next : is_sight_line() ? nullptr : m; }
 };
 
 struct Walk {
@@ -33,6 +34,9 @@ struct Walk {
   enum class End : std::uint8_t { cell, surface, unresolved, crossed };
   End end = End::surface;
   std::vector<Leg> legs;  // from p towards the cell
+
+  // Its last leg comes out of a groove or a corner.
+  bool ends_in_the_dark() const { return !legs.empty() && !legs.back().is_sight_line(); }
 };
 
 // Whether a walk surely keeps out of number `i` of what was left out, where it follows no sight line. Needs RoundedUp in scope.
@@ -49,8 +53,13 @@ class Walker {
   Walk walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const;
   // Whether the pieces from number `first` on cross a leg from H+ to H-; touch: some coincidence.
   Crossing leg_crossed(const Leg& leg, std::size_t first) const;
-  // The label at the start of a walk by the pieces from number `first` on; touch: make another walk.
+  // Whether the start of a walk is visible by the pieces from number `first` on, as far as sight lines tell; touch: make another walk.
   Crossing visible(const Walk& walk, std::size_t first) const;
+  // The same by a last leg that comes out of the dark. A sight line that comes into a beam stays in it, as V is on H+ of every wedge; this leg may leave it again.
+  // So the start counts as visible, and is visible if in the end no piece is crossed from H- to H+.
+  Crossing visible_by_last_leg(const Walk& walk, std::size_t first) const;
+  // Whether one is, or may be; the pieces are complete.
+  bool last_leg_is_in_doubt(const Walk& walk) const;
   // Walks until a walk is in general position, and keeps out of what was left out where it follows no sight line. Needs RoundedUp in scope.
   Label label(const ExactPoint* p, const LeftOut& left_out, Pool& pool, std::uint64_t seed) const;
 

@@ -71,6 +71,7 @@ class Search::Work {
     spread();
     in_doubt = true;
     spread();
+    sources.note_doubt();
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     std::vector<ValidPiece> merged = build(merged_jobs());
     cut_coplanar(merged);
@@ -87,11 +88,11 @@ class Search::Work {
 
   // Lights what is visible, and all that follows from it. In doubt: also what counts as visible.
   void spread() {
-    for (std::vector<Job> waiting = light(set.pieces().size()); !waiting.empty();) {
+    for (std::vector<Job> waiting = light({set.pieces().size(), 0, in_doubt}); !waiting.empty();) {
       const std::size_t first = set.pieces().size();
       set.add(build(next_batch(waiting)));
       meet_edges(first);
-      const std::vector<Job> jobs = light(first);
+      const std::vector<Job> jobs = light({first, first, in_doubt});
       waiting.insert(waiting.end(), jobs.begin(), jobs.end());
     }
   }
@@ -126,9 +127,9 @@ class Search::Work {
 
   // --- lighting -----------------------------------------------------------------------------------------------------------------
 
-  // The wedges that sources make which the pieces from number `first` on light: their own (D10, D11), and those at the contour vertices they light (D12).
-  std::vector<Job> light(std::size_t first) {
-    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first, in_doubt);
+  // The wedges that sources make which new pieces light: their own (D10, D11), and those at the contour vertices they light (D12).
+  std::vector<Job> light(const Sources::From& from) {
+    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(from);
     const auto is_doubtful = [this](const auto& source) {
       return in_doubt || source.walk.end == Walk::End::unresolved;
     };

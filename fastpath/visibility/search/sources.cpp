@@ -155,41 +155,49 @@ void Sources::place(OfEdge& s, Pool& pool) {
   }
 }
 
-bool Sources::newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first, Pool& pool) {
+Crossing Sources::label_of(const Walk& walk, const From& from) const {
+  const Crossing label = walker_.visible(walk, from.sight_lines);
+  if (label == Crossing::yes || !from.in_doubt) return label;
+  const Crossing last = walker_.visible_by_last_leg(walk, from.last_legs);
+  return last == Crossing::no ? label : last;
+}
+
+bool Sources::newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, const From& from, Pool& pool) {
   constexpr int kRetries = 12;
-  Crossing c = walker_.visible(w, first);
+  Crossing c = label_of(w, from);
   for (int i = 0; c == Crossing::touch && i < kRetries; ++i) {
     w = walk(p, ++seed, pool);
-    c = walker_.visible(w, 0);
+    c = label_of(w, {0, 0, from.in_doubt});
   }
   if (c == Crossing::touch) w.end = Walk::End::unresolved;
   return c != Crossing::no;
 }
 
-bool Sources::newly_visible(OfEdge& s, std::size_t first, Pool& pool) {
-  if (s.beside && pieces_.may_meet(*s.beside, *s.part.y, first, holds_edge(scene_, contours_[s.contour].edge))) {
+bool Sources::newly_visible(OfEdge& s, From from, Pool& pool) {
+  if (s.beside &&
+      pieces_.may_meet(*s.beside, *s.part.y, from.sight_lines, holds_edge(scene_, contours_[s.contour].edge))) {
     ++s.level;
     place(s, pool);
-    first = 0;
+    from.sight_lines = from.last_legs = 0;
   }
-  return newly_visible(s.beside, s.walk, s.seed, first, pool);
+  return newly_visible(s.beside, s.walk, s.seed, from, pool);
 }
 
-bool Sources::newly_visible(OfVertex& s, std::size_t first, Pool& pool) {
-  if (newly_visible(s.beside, s.walk, s.seed, first, pool)) return true;
+bool Sources::newly_visible(OfVertex& s, const From& from, Pool& pool) {
+  if (newly_visible(s.beside, s.walk, s.seed, from, pool)) return true;
   if (!s.view) return false;
-  if (!piece_between(*s.beside, scene_.points[s.point], first)) return false;
+  if (!piece_between(*s.beside, scene_.points[s.point], from.sight_lines)) return false;
   ++s.level;
   place(s, pool);
-  return newly_visible(s.beside, s.walk, s.seed, 0, pool);
+  return newly_visible(s.beside, s.walk, s.seed, {0, 0, from.in_doubt}, pool);
 }
 
-Sources::Numbers Sources::newly_lit(std::size_t first, bool in_doubt) {
+Sources::Numbers Sources::newly_lit(const From& from) {
   const std::size_t edges = of_edges_.size();
   std::vector<char> visible(edges + of_vertices_.size(), 0);
   workers_.for_each(visible.size(), [&](std::size_t i, Workers::Worker& worker) {
     const auto look = [&](auto& s) {
-      visible[i] = !s.lit && newly_visible(s, first, worker.pool) && (in_doubt || !is_in_doubt(s)) ? 1 : 0;
+      visible[i] = !s.lit && newly_visible(s, from, worker.pool) && (from.in_doubt || !is_in_doubt(s)) ? 1 : 0;
     };
     i < edges ? look(of_edges_[i]) : look(of_vertices_[i - edges]);
   });
@@ -200,6 +208,15 @@ Sources::Numbers Sources::newly_lit(std::size_t first, bool in_doubt) {
     i < edges ? lit.of_edges.push_back(i) : lit.of_vertices.push_back(i - edges);
   }
   return lit;
+}
+
+void Sources::note_doubt() {
+  const auto look = [this](auto& s) {
+    if (s.lit && walker_.last_leg_is_in_doubt(s.walk) && walker_.visible(s.walk, 0) != Crossing::yes)
+      s.walk.end = Walk::End::unresolved;
+  };
+  std::for_each(of_edges_.begin(), of_edges_.end(), look);
+  std::for_each(of_vertices_.begin(), of_vertices_.end(), look);
 }
 
 std::uint64_t Sources::unresolved() const {

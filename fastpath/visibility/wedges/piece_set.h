@@ -65,6 +65,14 @@ class PieceSet {
     return result;
   }
 
+  // Whether the way from m to p, which lies on no piece, crosses one from H- to H+, or may.
+  bool may_leave(const ExactPoint& m, const ExactPoint& p) const {
+    return any(SegmentTest(m, p), [&](std::size_t i) {
+      const Plane& h = *pieces_[i].on->plane;
+      return !pieces_[i].holds_cell && h.side(m) > 0 && h.side(p) <= 0 && passes(pieces_[i], p, m) != Crossing::no;
+    });
+  }
+
   // Whether the open segment meets a piece from number `first` on, in either direction, or may. Planes that `leaves_out` are skipped.
   template <class LeavesOut>
   bool may_meet(const ExactPoint& a, const ExactPoint& b, std::size_t first, const LeavesOut& leaves_out) const {

@@ -271,9 +271,8 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
 }
 
 bool Walk::runs_through(const LeftOut& left_out, std::size_t i) const {
-  return std::any_of(legs.begin(), legs.end(), [&](const Leg& leg) {
-    return (leg.from_edge || leg.from_corner) && left_out.meets(i, leg.m, leg.p);
-  });
+  return std::any_of(legs.begin(), legs.end(),
+                     [&](const Leg& leg) { return !leg.is_sight_line() && left_out.meets(i, leg.m, leg.p); });
 }
 
 Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const {
@@ -303,46 +302,62 @@ Meets Walker::visible(const Start& start, const Walk& walk, const WedgeSet& wedg
       note(m == Meets::degenerate ? Meets::no : m);
     }
   }
-  const exact::Complex& complex = scene_->complex();
   for (const Leg& leg : walk.legs) {
-    if (result == Meets::yes) break;
-    const bool at_start = &leg == &walk.legs.front();
-    const auto crosses_nothing = [&](const ValidPiece& piece) {
-      const exact::Plane3& h = piece.wedge.plane;
-      const auto on_plane = [&](std::uint32_t point) {
-        return h.oriented_side(complex.points[point]) == CGAL::ON_ORIENTED_BOUNDARY;
-      };
-      const auto holds_piece = [&](std::uint32_t t) {
-        const auto& c = complex.pieces[t].corners;
-        return on_plane(c[0]) && on_plane(c[1]) && on_plane(c[2]);
-      };
-      if (h.oriented_side(leg.m) == CGAL::ON_ORIENTED_BOUNDARY) {
-        if (holds_piece(leg.piece)) return true;
-        if (leg.from_corner) return true;  // the leg leaves its plane
-        if (leg.from_edge) {               // a wedge through the edge itself runs outside the groove
-          const auto& edges = complex.piece_edges[leg.piece];
-          return std::any_of(edges.begin(), edges.end(),
-                             [&](auto e) { return on_plane(complex.edges[e].a) && on_plane(complex.edges[e].b); });
-        }
-      }
-      if (h.oriented_side(leg.p) != CGAL::ON_ORIENTED_BOUNDARY) return false;
-      if (!at_start) return true;   // p is the m of the leg before, and was looked at there
-      if (start.from) return true;  // p stands for what is just before it
-      if (start.contour)
-        return on_plane(complex.edges[start.contour->edge].a) && on_plane(complex.edges[start.contour->edge].b);
-      return start.surface && holds_piece(start.surface->piece);
-    };
-    Meets crossed = wedges.crossed(leg.m, leg.p, first, crosses_nothing);
-    if (crossed == Meets::degenerate && start.contour) {
-      // A flat cell in the plane of its wedge has no other sight lines; D13a means those just off the plane, in H-.
-      const exact::Plane3& h = start.contour->plane;
-      if (h.has_on(leg.m) && h.has_on(leg.p))
-        crossed = wedges.crossed(leg.m, leg.p, first, crosses_nothing, h.orthogonal_vector());
-    }
-    note(crossed);
-    if (result != Meets::yes && !leg.from_edge && !leg.from_corner) upon(leg.piece, leg.front, leg.m);
+    if (result == Meets::yes || !leg.is_sight_line()) break;
+    note(crossed(start, walk, leg, leg.m, leg.p, wedges, first));
+    if (result != Meets::yes) upon(leg.piece, leg.front, leg.m);
   }
   return result;
+}
+
+Meets Walker::visible_by_last_leg(const Start& start, const Walk& walk, const WedgeSet& wedges,
+                                  std::size_t first) const {
+  if (!walk.ends_in_the_dark()) return Meets::no;
+  const Leg& leg = walk.legs.back();
+  return crossed(start, walk, leg, leg.m, leg.p, wedges, first);
+}
+
+bool Walker::last_leg_is_in_doubt(const Start& start, const Walk& walk, const WedgeSet& wedges) const {
+  if (!walk.ends_in_the_dark()) return false;
+  const Leg& leg = walk.legs.back();
+  return crossed(start, walk, leg, leg.p, leg.m, wedges, 0) != Meets::no;
+}
+
+Meets Walker::crossed(const Start& start, const Walk& walk, const Leg& leg, const Point3& m, const Point3& p,
+                      const WedgeSet& wedges, std::size_t first) const {
+  const exact::Complex& complex = scene_->complex();
+  const bool at_start = &leg == &walk.legs.front();
+  const auto crosses_nothing = [&](const ValidPiece& piece) {
+    const exact::Plane3& h = piece.wedge.plane;
+    const auto on_plane = [&](std::uint32_t point) {
+      return h.oriented_side(complex.points[point]) == CGAL::ON_ORIENTED_BOUNDARY;
+    };
+    const auto holds_piece = [&](std::uint32_t t) {
+      const auto& c = complex.pieces[t].corners;
+      return on_plane(c[0]) && on_plane(c[1]) && on_plane(c[2]);
+    };
+    if (h.oriented_side(leg.m) == CGAL::ON_ORIENTED_BOUNDARY) {
+      if (holds_piece(leg.piece)) return true;
+      if (leg.from_corner) return true;  // the leg leaves its plane
+      if (leg.from_edge) {               // a wedge through the edge itself runs outside the groove
+        const auto& edges = complex.piece_edges[leg.piece];
+        return std::any_of(edges.begin(), edges.end(),
+                           [&](auto e) { return on_plane(complex.edges[e].a) && on_plane(complex.edges[e].b); });
+      }
+    }
+    if (h.oriented_side(leg.p) != CGAL::ON_ORIENTED_BOUNDARY) return false;
+    if (!at_start) return true;   // p is on the leg before, and was looked at there
+    if (start.from) return true;  // p stands for what is just before it
+    if (start.contour)
+      return on_plane(complex.edges[start.contour->edge].a) && on_plane(complex.edges[start.contour->edge].b);
+    return start.surface && holds_piece(start.surface->piece);
+  };
+  const Meets met = wedges.crossed(m, p, first, crosses_nothing);
+  if (met != Meets::degenerate || !start.contour) return met;
+  // A flat cell in the plane of its wedge has no other sight lines; D13a means those just off the plane, in H-.
+  const exact::Plane3& h = start.contour->plane;
+  if (!h.has_on(m) || !h.has_on(p)) return met;
+  return wedges.crossed(m, p, first, crosses_nothing, h.orthogonal_vector());
 }
 
 Walker::Label Walker::label(const Start& start, const WedgeSet& wedges, const LeftOut& left_out,
@@ -351,7 +366,9 @@ Walker::Label Walker::label(const Start& start, const WedgeSet& wedges, const Le
     const Walk made = walk(start, seed + static_cast<std::uint64_t>(attempt) * 7919);
     const Meets m = visible(start, made, wedges, 0);
     if (m == Meets::yes) return {true, made.unresolved};
-    if (m == Meets::no) {
+    const Meets counts = visible_by_last_leg(start, made, wedges, 0);
+    if (counts == Meets::yes) return {true, last_leg_is_in_doubt(start, made, wedges)};
+    if (m == Meets::no && counts == Meets::no) {
       bool in_doubt = false;
       for (std::size_t i = 0; !in_doubt && i < left_out.size(); ++i) in_doubt = made.runs_through(left_out, i);
       return {in_doubt, in_doubt};

@@ -21,6 +21,11 @@
 // rays leave it on one side, that line is one, wherever V lies on it: a segment that goes through a groove's edge is as
 // blind in the groove as one that ends there. The leg from y stays on one side of the line of V.
 //
+// That last leg comes out of the dark, and is no part of a sight line. Where no valid piece crosses it, its end is as dark as its start. Where one
+// does from H+ to H-, there is light behind; but while a sight line that comes into a beam stays in it, as V is on H+ of every wedge, this leg may
+// leave the beam again, through a piece that it crosses from H- to H+. Only if none does, of all pieces that there are in the end, its end is visible. Until
+// then it counts as visible.
+//
 // So walks are made once, and only their legs are looked at again when new wedge pieces appear (D17a).
 #pragma once
 
@@ -44,9 +49,13 @@ struct Leg {
   bool front = true;         // its side that faces p
   bool from_edge = false;    // m is on an edge of the piece, and stands for the space beside it (see Walker::walk)
   bool from_corner = false;  // m is a corner of the piece, and stands for the dark space next to it (corner.h)
+
+  bool is_sight_line() const { return !from_edge && !from_corner; }
 };
 
 struct Walk {
+  // Its last leg comes out of a groove or a corner.
+  bool ends_in_the_dark() const { return !legs.empty() && !legs.back().is_sight_line(); }
   // Whether the leg that is no part of a sight line, if there is one, meets number i of what was left out.
   bool runs_through(const LeftOut& left_out, std::size_t i) const;
 
@@ -80,17 +89,24 @@ class Walker {
   // Different seeds use different sight lines; the label must not depend on the seed (D14). Deterministic.
   Walk walk(const Start& start, std::uint64_t seed) const;
 
-  // The label of the walk's start by the wedge pieces from index `first` on; degenerate: walk again with another seed.
+  // Whether the walk's start is visible by the wedge pieces from index `first` on, as far as sight lines tell; degenerate: walk again with another seed.
   Meets visible(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const;
+  // The same by a last leg that comes out of the dark, which counts as visible (see above).
+  Meets visible_by_last_leg(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const;
+  // Whether that is in doubt when `wedges` are complete: a piece may cross that leg the other way. False without such a leg.
+  bool last_leg_is_in_doubt(const Start& start, const Walk& walk, const WedgeSet& wedges) const;
 
   struct Label {
     bool visible = false;
-    bool fallback = false;  // visible only because the walk was unresolved, or says nothing (LeftOut)
+    bool fallback = false;  // visible only because the walk was unresolved, or says nothing (LeftOut), or is in doubt
   };
   // Walks with one seed after another until a walk is in general position with all the wedges.
   Label label(const Start& start, const WedgeSet& wedges, const LeftOut& left_out, std::uint64_t seed) const;
 
  private:
+  // Whether a piece from index `first` on crosses the way from m to p, the leg or its reverse, from H+ to H-.
+  Meets crossed(const Start& start, const Walk& walk, const Leg& leg, const exact::Point3& m, const exact::Point3& p,
+                const WedgeSet& wedges, std::size_t first) const;
   using Good = std::function<bool(const exact::Point3&)>;
   // A point v of int V near `anchor` (or anywhere) that satisfies the predicate; it must hold near the anchor.
   exact::Point3 choose(std::uint64_t seed, const std::optional<exact::Point3>& anchor, const Good& good) const;

@@ -73,6 +73,7 @@ class Search {
     spread();
     in_doubt_ = true;
     spread();
+    note_doubt();
 
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     wedges_ = WedgeSet(scene_);
@@ -94,25 +95,47 @@ class Search {
 
   // Lights what is visible, and all that follows from it. In doubt: also what counts as visible.
   void spread() {
-    std::vector<std::size_t> lit;
-    for (std::size_t i = 0; i < sources_.size(); ++i) {
-      const Source& s = sources_[i];
-      if (!s.lit && (s.walk.ends_at_cell || (s.walk.unresolved && !waits(s)))) lit.push_back(i);
-    }
-    for (VertexSource& s : vertex_sources_) {
-      if (!s.lit && (s.walk.ends_at_cell || (s.walk.unresolved && !waits(s)))) light_vertex(s);
-    }
-    std::vector<Job> waiting = light(lit);
+    std::vector<Job> waiting = light_new({wedges_.pieces().size(), 0});
     while (!waiting.empty()) {
       report();
       const std::size_t first = wedges_.pieces().size();
       wedges_.add(maker_.build(next_batch(waiting)));
       for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
-      for (VertexSource& s : vertex_sources_) {
-        if (!s.lit && reached(s, first)) light_vertex(s);
-      }
-      const std::vector<Job> jobs = light(newly_lit(first));
+      const std::vector<Job> jobs = light_new({first, first});
       waiting.insert(waiting.end(), jobs.begin(), jobs.end());
+    }
+  }
+
+  // From which piece on walks are looked at: what is a part of a sight line, and last legs that are not. These count in doubt only.
+  struct From {
+    std::size_t sight_lines, last_legs;
+  };
+
+  std::vector<Job> light_new(From from) {
+    for (VertexSource& s : vertex_sources_) {
+      if (!s.lit && reached(s, from)) light_vertex(s);
+    }
+    return light(newly_lit(from));
+  }
+
+  Meets label_of(const Start& start, const Walk& walk, From from) const {
+    const Meets label = walker_.visible(start, walk, wedges_, from.sight_lines);
+    if (label == Meets::yes || !in_doubt_) return label;
+    const Meets last = walker_.visible_by_last_leg(start, walk, wedges_, from.last_legs);
+    return last == Meets::no ? label : last;
+  }
+
+  // When a round has all its pieces: what is lit by its last leg alone may be so for want of an answer (walk.h).
+  void note_doubt() {
+    const auto look = [this](const Start& start, Walk& walk) {
+      walk.unresolved |=
+          walker_.last_leg_is_in_doubt(start, walk, wedges_) && walker_.visible(start, walk, wedges_, 0) != Meets::yes;
+    };
+    for (Source& s : sources_) {
+      if (s.lit) look(start_of(s, contours_), s.walk);
+    }
+    for (VertexSource& s : vertex_sources_) {
+      if (s.lit) look(start_of(s), s.walk);
     }
   }
 
@@ -131,13 +154,13 @@ class Search {
            std::any_of(vertex_sources_.begin(), vertex_sources_.end(), counts);
   }
 
-  // Whether the pieces from index `first` on make the source visible.
-  bool reached(VertexSource& s, std::size_t first) {
-    Meets label = walker_.visible(start_of(s), s.walk, wedges_, first);
+  // Whether new pieces make the source visible.
+  bool reached(VertexSource& s, From from) {
+    Meets label = label_of(start_of(s), s.walk, from);
     for (int attempt = 1; label == Meets::degenerate && !s.separates && attempt < kViews; ++attempt) {
       if (!look_again(scene_, *corner(s.point), s, attempt)) continue;
       s.walk = walker_.walk(start_of(s), kSourceSeed);
-      label = walker_.visible(start_of(s), s.walk, wedges_, 0);
+      label = label_of(start_of(s), s.walk, {0, 0});
     }
     s.walk.unresolved |= label == Meets::degenerate;
     return label != Meets::no && !waits(s);
@@ -162,13 +185,13 @@ class Search {
     touched_.insert(apex);
   }
 
-  // Hidden sources that the pieces from index `first` on make visible.
-  std::vector<std::size_t> newly_lit(std::size_t first) {
+  // Sources that are not lit and that new pieces make visible.
+  std::vector<std::size_t> newly_lit(From from) {
     std::vector<Meets> label(sources_.size(), Meets::no);
     tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
       Source& s = sources_[i];
       if (s.lit) return;
-      label[i] = walker_.visible(start_of(s, contours_), s.walk, wedges_, first);
+      label[i] = label_of(start_of(s, contours_), s.walk, from);
       for (int attempt = 0; label[i] == Meets::degenerate; ++attempt) {  // walk elsewhere, and ask all pieces
         if (attempt == kOtherWalks) {
           s.walk.unresolved = true;
@@ -177,7 +200,7 @@ class Search {
         }
         if (attempt % 4 == 3) ask_elsewhere(s, attempt);
         s.walk = walker_.walk(start_of(s, contours_), ++s.seed);
-        label[i] = walker_.visible(start_of(s, contours_), s.walk, wedges_, 0);
+        label[i] = label_of(start_of(s, contours_), s.walk, {0, 0});
       }
       if (waits(s)) label[i] = Meets::no;
     });
