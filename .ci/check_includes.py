@@ -31,8 +31,8 @@ CHAPTERS = {
                  "visibility/refinement", "motion", "multires"],
     "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "cells", "vectors", "conform",
                  "motion", "multires", "stream"],
-    "fuzz": ["generators", "findings", "subjects", "oracles", "shrinking", "campaign", "report", "targets",
-             "motion", "multires"],
+    "fuzz": ["generators", "motion", "multires", "findings", "trials", "subjects", "oracles", "shrinking", "campaign", "report",
+             "targets"],
     "app": [".", "cluster", "cluster/mpi", "map", "view", "engine", "bake", "demo", "maps", "motion", "stream", "commands"],
 }
 NO_CHAPTERS = {"validate/adapters"}  # to be copied; they include nothing of ours

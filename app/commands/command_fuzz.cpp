@@ -183,6 +183,9 @@ std::string fuzz_footer() {
       "                 the reference refined to depth 2, its hidden regions included\n"
       "  fast:subdivided, fast:backprojected\n"
       "                 the fast path refined to depth 3\n"
+      "  maps           hierarchies and remeshes of clues maps, both kernels, on surfaces of their own\n"
+      "  motion         motion bounds of both kernels, and walks of clues motion\n"
+      "  deltas         transitions of clues delta between the halves of a cell\n"
       "  COMMAND LINE   a program, run once for each scene; {scene}, {cell} and {pvs} stand for an OFF file, an OBJ "
       "file of\n"
       "                 the cell's points, and the list of visible triangle ids that it has to write, one a line;\n"
@@ -194,11 +197,20 @@ std::string fuzz_footer() {
   for (const auto& d : fuzz::all_dials()) text += fmt::format("  {:<22} {}\n", d.name, d.what);
   text += "\nORACLES\n";
   for (const auto& o : fuzz::all_oracles()) text += fmt::format("  {:<22} {}\n", o->name(), o->what());
+  for (const char* name : {"maps", "motion", "deltas"}) {
+    const auto subject = fuzz::make_subject(name);
+    text += fmt::format("\nGENERATORS AND ORACLES OF --subject {} (no --scenes, no dials)\n", name);
+    for (const auto& g : subject->trial()->generators()) text += fmt::format("  {:<22} {}\n", g.name, g.degeneracy);
+    for (const auto& c : subject->trial()->checks()) text += fmt::format("  {:<22} {}\n", c.name, c.what);
+  }
   return text +
          "\nEXAMPLES\n"
          "  clues fuzz --time 10m --jobs 2 --out fuzz-out\n"
          "  clues fuzz --subject './bake {scene} {cell} -o {pvs}' --seed 7 --cases 1000 --errors 5 --out fuzz-bake\n"
          "  clues fuzz --subject fast --agreement 1/16 --cases 400 --out fuzz-quick\n"
+         "  clues fuzz --subject maps --cases 40 --out fuzz-maps\n"
+         "  clues fuzz --subject motion --cases 110 --out fuzz-motion\n"
+         "  clues fuzz --subject deltas --cases 6 --out fuzz-deltas\n"
          "  clues fuzz --generator axis_boxes --oracle sight-lines --cases 50 --out fuzz-boxes\n"
          "  clues fuzz --generator umbrellas:1 --cases 50 --out fuzz-gaps            # gaps of one ulp only\n"
          "  clues fuzz --scenes vectors --scenes meshes --time 10m --out fuzz-scenes\n"

@@ -33,14 +33,14 @@ constexpr std::chrono::milliseconds look_up{200};
 constexpr std::uint64_t rounds_to_judge = 4, least_to_judge = 100;
 
 std::string plan_of(const CampaignOptions& options, const std::vector<NamedGenerator>& generators,
-                    const std::vector<const Oracle*>& oracles, const Subject& subject, std::uint64_t shard,
+                    const std::vector<std::string>& oracles, const Subject& subject, std::uint64_t shard,
                     std::uint64_t shards) {
   json plan{
       {"seed", options.seed}, {"first", options.first}, {"subject", subject.name()}, {"scenes", options.given.hashes}};
   if (options.dials) plan["dials"] = true;
   if (shards > 1) plan["shard"] = fmt::format("{}/{}", shard + 1, shards);
   for (const auto& g : generators) plan["generators"].push_back(g.name);
-  for (const Oracle* o : oracles) plan["oracles"].push_back(o->name());
+  for (const auto& name : oracles) plan["oracles"].push_back(name);
   return plan.dump();
 }
 
@@ -50,29 +50,65 @@ class Cases {
   Cases(const CampaignOptions& options, const Subject& subject)
       : options_(options),
         subject_(subject),
-        generators_(generators_named(options.generators, options.given)),
-        oracles_(oracles_named(options.oracles)) {}
+        trial_(subject.trial()),
+        generators_(trial_ ? generators_named(*trial_, options.generators)
+                           : generators_named(options.generators, options.given)) {
+    if (trial_) {
+      if (!options.given.paths.empty())
+        throw Error(ErrorCode::bad_argument, "--scenes: the subject " + subject.name() + " takes none");
+      checks_ = checks_named(*trial_, options.oracles);
+    } else {
+      oracles_ = oracles_named(options.oracles);
+    }
+  }
 
   std::string plan(std::uint64_t shard, std::uint64_t shards) const {
-    return plan_of(options_, generators_, oracles_, subject_, shard, shards);
+    std::vector<std::string> names;
+    for (const Oracle* o : oracles_) names.emplace_back(o->name());
+    for (const auto& check : checks_) names.emplace_back(check.name);
+    return plan_of(options_, generators_, names, subject_, shard, shards);
   }
 
   Case make(std::uint64_t number) const {
     const auto& g = generators_[number % generators_.size()];
     Case made = g.make(options_.seed, options_.first + number / generators_.size());
-    return options_.dials ? with_dials(std::move(made), subject_.takes_dials()) : made;
+    return turns_dials() ? with_dials(std::move(made), subject_.takes_dials()) : made;
   }
 
-  std::string judged(std::uint64_t number) const { return to_json_text(judge_case(make(number), subject_, oracles_)); }
+  std::string judged(std::uint64_t number) const {
+    return to_json_text(trial_ ? judge_case(make(number), *trial_, checks_)
+                               : judge_case(make(number), subject_, oracles_));
+  }
 
   const std::vector<NamedGenerator>& generators() const { return generators_; }
-  const std::vector<const Oracle*>& oracles() const { return oracles_; }
+
+  // Anti-vacuity: the counters of what a campaign with these generators and oracles must have met.
+  std::vector<std::string> needed() const {
+    std::vector<std::string> needed;
+    if (!trial_)
+      needed = {"triangles visible", "triangles hidden", "triangles partly visible",    "wedges SV-ME",
+                "wedges SE-ME",      "wedges SE-MV",     "compound silhouette vertices"};
+    for (const auto& g : generators_) needed.push_back("cases of " + g.name);
+    for (const Oracle* o : oracles_) {
+      for (const char* name : o->needs()) needed.emplace_back(name);
+    }
+    for (const auto& check : checks_) needed.insert(needed.end(), check.needs.begin(), check.needs.end());
+    for (const NamedDial& d : all_dials()) {
+      if (turns_dials() && (d.of == NamedDial::Of::scene || subject_.takes_dials()))
+        needed.push_back(std::string("dial ") + d.name);
+    }
+    return needed;
+  }
 
  private:
+  bool turns_dials() const { return options_.dials && !trial_; }
+
   const CampaignOptions& options_;
   const Subject& subject_;
+  const Trial* trial_;
   std::vector<NamedGenerator> generators_;
-  std::vector<const Oracle*> oracles_;
+  std::vector<const Oracle*> oracles_;  // of a subject that answers,
+  std::vector<Trial::Check> checks_;    // or of a trial
 };
 
 class Campaign {
@@ -276,21 +312,9 @@ class Campaign {
     }
   }
 
-  // Anti-vacuity: what a campaign with these generators and oracles must have met.
   std::vector<std::string> never_occurred(const Counters& counters) const {
-    std::vector<std::string> needed{
-        "triangles visible", "triangles hidden", "triangles partly visible",    "wedges SV-ME",
-        "wedges SE-ME",      "wedges SE-MV",     "compound silhouette vertices"};
-    for (const auto& g : cases_.generators()) needed.push_back("cases of " + g.name);
-    for (const Oracle* o : cases_.oracles()) {
-      for (const char* name : o->needs()) needed.emplace_back(name);
-    }
-    for (const NamedDial& d : all_dials()) {
-      if (options_.dials && (d.of == NamedDial::Of::scene || subject_.takes_dials()))
-        needed.push_back(std::string("dial ") + d.name);
-    }
     std::vector<std::string> missing;
-    for (const auto& name : needed) {
+    for (const auto& name : cases_.needed()) {
       const auto at = counters.find(name);
       if (at == counters.end() || at->second == 0) missing.push_back(name);
     }
@@ -324,6 +348,14 @@ void serve_campaign(const CampaignOptions& options, const Subject& subject,
 }
 
 namespace {
+
+std::string rules_text(const Counters& counters) {
+  const RulesMet met = rules_met(counters);
+  std::string text = fmt::format("{:>14}  of {} pairs of rules met in one case\n", met.pairs, met.all_pairs);
+  for (const auto& rule : met.never) text += fmt::format("{:>14}  met: rule {}\n", "never", rule);
+  for (const auto& pair : met.apart) text += fmt::format("{:>14}  met together: {}\n", "never", pair);
+  return text;
+}
 
 // What a run says that is too short to be judged, or is a part of one.
 std::string short_line(const CampaignSummary& s) {
@@ -367,10 +399,9 @@ std::string to_text(const CampaignSummary& s, const fs::path& out) {
   for (const auto& [name, value] : s.counters) {
     if (!is_a_pair(name)) text += fmt::format("{:>14}  {}\n", value, scene::printable(name));
   }
-  const RulesMet met = rules_met(s.counters);
-  text += fmt::format("{:>14}  of {} pairs of rules met in one case\n", met.pairs, met.all_pairs);
-  for (const auto& rule : met.never) text += fmt::format("{:>14}  met: rule {}\n", "never", rule);
-  for (const auto& pair : met.apart) text += fmt::format("{:>14}  met together: {}\n", "never", pair);
+  const bool has_rules = std::any_of(s.counters.begin(), s.counters.end(),
+                                     [](const auto& counter) { return counter.first.starts_with("rule "); });
+  if (has_rules) text += rules_text(s.counters);
   for (const auto& name : s.never_occurred) text += "NEVER OCCURRED: " + scene::printable(name) + "\n";
   text += fmt::format("{} cases, {} of them in this run; {} different findings{}\n", s.cases, s.cases_now,
                       s.findings.size(), s.interrupted ? "; interrupted: the same command goes on" : "");

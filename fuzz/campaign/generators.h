@@ -1,21 +1,13 @@
 // The scenes of a campaign by name. Each is a pure function of (seed, index).
 #pragma once
 
-#include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "fuzz/campaign/given_files.h"
-#include "fuzz/findings/finding.h"
+#include "fuzz/findings/named_generator.h"
 
 namespace clues::fuzz {
-
-struct NamedGenerator {
-  std::string name;
-  std::string degeneracy;  // what it is made to hit, for --help
-  std::function<Case(std::uint64_t seed, std::uint64_t index)> make;
-};
 
 // `given` must outlive them. mesh_pieces makes something only where a mesh is given.
 std::vector<NamedGenerator> all_generators(const GivenScenes& given);

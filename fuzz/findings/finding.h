@@ -45,6 +45,9 @@ struct Finding {
   std::string signature() const { return oracle + " " + verdict + " " + where.generator; }
 };
 
+// The verdict of the checks of a trial: something was promised and does not hold.
+inline constexpr const char* broken_promise = "promise/broken";
+
 using Counters = std::map<std::string, std::uint64_t>;
 
 // What came of one case.

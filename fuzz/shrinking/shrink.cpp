@@ -66,6 +66,7 @@ std::optional<Finding> by_witness(const Finding& f, const Case& candidate, const
 // `f` as it would be in `candidate`: its triangle is number `triangle` there.
 // Throws NoAnswer.
 std::optional<Finding> found_by_oracles(const Finding& f, const Case& candidate, const Subject& subject) {
+  if (const Trial* trial = subject.trial()) return found_again(f, candidate, *trial);
   if (f.oracle == "subject") {  // it gave no answer
     for (Finding& g : judge_case(candidate, subject, {}).findings) {
       if (g.verdict == f.verdict) return std::move(g);
@@ -259,6 +260,7 @@ std::optional<Finding> found_again(const Finding& finding, const Case& candidate
 }
 
 Shrunk shrink(const Finding& finding, const Subject& subject, const ShrinkLimits& limits) {
+  if (subject.trial() && !subject.trial()->is_a_mesh(finding.where)) return {finding, 0};
   return Shrinker(finding, subject, limits).run();
 }
 

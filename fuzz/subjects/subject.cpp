@@ -11,6 +11,9 @@
 #include "fuzz/findings/case_random.h"
 #include "fuzz/findings/dials.h"
 #include "fuzz/findings/files.h"
+#include "fuzz/trials/deltas_trial.h"
+#include "fuzz/trials/maps_trial.h"
+#include "fuzz/trials/motion_trial.h"
 #include "reference/visibility/refinement/bounds.h"
 #include "scene/files/atomic_file.h"
 #include "scene/files/temporary_folder.h"
@@ -182,7 +185,23 @@ class CommandSubject : public Subject {
   std::vector<std::string> words_;
 };
 
+class TrialSubject : public Subject {
+ public:
+  TrialSubject(std::string name, std::unique_ptr<Trial> trial) : name_(std::move(name)), trial_(std::move(trial)) {}
+  Answer answer(const Case&) const override { throw NoAnswer(name_ + " is asked about no cell"); }
+  std::string name() const override { return name_; }
+  const Trial* trial() const override { return trial_.get(); }
+
+ private:
+  std::string name_;
+  std::unique_ptr<Trial> trial_;
+};
+
 }  // namespace
+
+std::unique_ptr<Subject> subject_of(std::string name, std::unique_ptr<Trial> trial) {
+  return std::make_unique<TrialSubject>(std::move(name), std::move(trial));
+}
 
 std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<std::uint32_t>(const Case&)> pvs) {
   return std::make_unique<FunctionSubject>(std::move(name), false, [pvs = std::move(pvs)](const Case& scene) {
@@ -197,6 +216,9 @@ std::unique_ptr<Subject> make_subject(const std::string& text) {
   if (text == "subdivided") return refined_subject(text, validate::Refinement::cells);
   if (text == "backprojected") return refined_subject(text, validate::Refinement::backprojection);
   if (text == "fast:subdivided") return refined_fast_subject(text, fastpath::RefineBy::cells);
+  if (text == "maps") return subject_of(text, make_maps_trial());
+  if (text == "motion") return subject_of(text, make_motion_trial());
+  if (text == "deltas") return subject_of(text, make_deltas_trial());
   assert(text == "fast:backprojected");
   return refined_fast_subject(text, fastpath::RefineBy::backprojection);
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fuzz/findings/finding.h"
+#include "fuzz/trials/trial.h"
 #include "reference/visibility/first_order.h"
 
 namespace clues::fuzz {
@@ -42,10 +43,12 @@ class Subject {
   // Whether the reference is asked about the case, too: a function of the case's name and dials. Where it is not, oracles have the subject's own answer as a
   // guide to the places worth looking at.
   virtual bool is_compared(const Case&) const { return true; }
+  // Where it is no answer that is tested: what is. Then answer() throws NoAnswer.
+  virtual const Trial* trial() const { return nullptr; }
 };
 
 // "reference": the exact reference. "fast": the fast path; "fast/N": the same, with the reference asked about one case in N. "subdivided",
-// "backprojected": the reference refined to depth 2; after "fast:" the fast path to depth 3. Anything else is a command line (words and quotes as in
+// "backprojected": the reference refined to depth 2; after "fast:" the fast path to depth 3. "maps", "motion", "deltas": trials. Anything else is a command line (words and quotes as in
 // a shell), in which {scene}, {cell} and {pvs} stand for an OFF file, an OBJ file of the cell's points and the file that it has to write, {mode} for
 // sheet or solid; without any of these words, the first three are appended. Throws scene::Error bad_argument.
 std::unique_ptr<Subject> make_subject(const std::string& text);
@@ -55,6 +58,8 @@ std::optional<std::uint64_t> cases_for_a_comparison(const std::string& name);
 
 // Whether make_subject() takes it for a command line. What a file names is not run unless the user says so.
 bool is_program(const std::string& text);
+
+std::unique_ptr<Subject> subject_of(std::string name, std::unique_ptr<Trial> trial);
 
 // A function of this process that returns a PVS, ascending. It may throw scene::Error: then it gave no answer.
 std::unique_ptr<Subject> subject_of(std::string name, std::function<std::vector<std::uint32_t>(const Case&)> pvs);

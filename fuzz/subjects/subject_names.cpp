@@ -20,7 +20,8 @@ std::optional<std::uint64_t> cases_for_a_comparison(const std::string& name) {
 }
 
 bool is_program(const std::string& text) {
-  constexpr std::array names{"reference", "subdivided", "backprojected", "fast:subdivided", "fast:backprojected"};
+  constexpr std::array names{"reference",          "subdivided", "backprojected", "fast:subdivided",
+                             "fast:backprojected", "maps",       "motion",        "deltas"};
   return !cases_for_a_comparison(text) && std::find(names.begin(), names.end(), text) == names.end();
 }
 

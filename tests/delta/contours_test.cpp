@@ -8,10 +8,11 @@
 #include <tuple>
 
 #include "fuzz/generators/random_scenes.h"
+#include "fuzz/trials/deltas_trial.h"
 #include "reference/contours/contour_code.h"
 #include "reference/contours/list_contour.h"
 #include "scene/messages/error.h"
-#include "tests/delta/halves.h"
+#include "tests/delta/plates.h"
 #include "tests/reference/support.h"
 #include "tests/seed.h"
 
@@ -99,7 +100,7 @@ void expect_codes_of_random_scenes(std::uint64_t first, std::uint64_t end) {
       SCOPED_TRACE(scene.name);
       const auto cell = exact::ConvexCell::from_doubles(scene.cell);
       ContourLabel label;
-      for (const auto& half : halves_of(cell)) code_of(scene.mesh, cell, half, label, sums);
+      for (const auto& half : fuzz::halves_of(cell)) code_of(scene.mesh, cell, half, label, sums);
     }
   }
   std::cout << sums.labels << " boundaries, " << sums.planes << " planes and " << sums.left_out << " without a label, "

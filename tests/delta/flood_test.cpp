@@ -6,8 +6,9 @@
 #include <iostream>
 
 #include "fuzz/generators/random_scenes.h"
+#include "fuzz/trials/deltas_trial.h"
 #include "reference/contours/flood.h"
-#include "tests/delta/halves.h"
+#include "tests/delta/plates.h"
 #include "tests/reference/support.h"
 #include "tests/seed.h"
 
@@ -103,7 +104,7 @@ void expect_floods(const Seen& seen, const std::vector<FlatSet>& known, const st
 
 // Parent to child, and both rows of Table XIV within what the parent of both sees.
 void expect_table_xiv(const scene::TriangleMesh& mesh, const exact::ConvexCell& parent, FloodSums& sums) {
-  const auto halves = halves_of(parent);
+  const auto halves = fuzz::halves_of(parent);
   if (halves.empty()) return;
   const Seen seen(mesh);
   const auto known = seen.from(parent), a = seen.from(halves[0]), b = seen.from(halves[1]);

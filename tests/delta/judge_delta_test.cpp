@@ -6,8 +6,8 @@
 #include <iostream>
 
 #include "fuzz/generators/random_scenes.h"
+#include "fuzz/trials/deltas_trial.h"
 #include "reference/delta/delta.h"
-#include "tests/delta/halves.h"
 #include "tests/reference/support.h"
 #include "tests/seed.h"
 #include "validate/stream/judge_delta.h"
@@ -16,28 +16,11 @@
 namespace clues::test {
 namespace {
 
+using fuzz::halves_of;
+using fuzz::map_file_of;
 using reference::SeenFrom;
 using validate::DeltaRecord;
 using validate::MapFile;
-
-// As read_map_file() reads it from the file of the map.
-MapFile map_file_of(const reference::VisibilityMap& map) {
-  MapFile file;
-  file.visible = map.visible;
-  const scene::Result result = reference::to_result(map, {}, true);
-  for (const scene::MapRegion& r : result.regions) {
-    if (!r.visible) continue;
-    validate::MapFileRegion region{r.triangle, r.front, {}};
-    for (const auto& ring : r.rings_exact) {
-      region.rings.emplace_back();
-      for (const auto& p : ring) {
-        region.rings.back().push_back({validate::Rational(p[0]), validate::Rational(p[1]), validate::Rational(p[2])});
-      }
-    }
-    file.regions.push_back(std::move(region));
-  }
-  return file;
-}
 
 struct Sums {
   std::uint64_t transitions = 0, sides = 0, exposed = 0, occluded = 0, packets = 0;

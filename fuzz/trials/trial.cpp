@@ -1,0 +1,75 @@
+#include "fuzz/trials/trial.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "scene/messages/error.h"
+
+namespace clues::fuzz {
+namespace {
+
+template <class Named>
+std::vector<Named> those_named(const std::vector<Named>& all, const std::vector<std::string>& names,
+                               const char* option) {
+  for (const std::string& name : names) {
+    if (std::none_of(all.begin(), all.end(), [&](const Named& n) { return n.name == name; }))
+      throw scene::Error(
+          scene::ErrorCode::bad_argument,
+          fmt::format("{} {}: this subject has none of this name; `clues fuzz --help` lists them", option, name));
+  }
+  std::vector<Named> chosen;
+  for (const Named& n : all) {
+    if (names.empty() || std::find(names.begin(), names.end(), n.name) != names.end()) chosen.push_back(n);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<NamedGenerator> generators_named(const Trial& trial, const std::vector<std::string>& names) {
+  return those_named(trial.generators(), names, "--generator");
+}
+
+std::vector<Trial::Check> checks_named(const Trial& trial, const std::vector<std::string>& names) {
+  return those_named(trial.checks(), names, "--oracle");
+}
+
+Outcome judge_case(const Case& scene, const Trial& trial, const std::vector<Trial::Check>& checks) {
+  Outcome outcome;
+  outcome.counters["cases of " + scene.generator] = 1;
+  std::vector<std::string> asked;
+  for (const auto& check : checks) asked.emplace_back(check.name);
+  try {
+    trial.judge(scene, asked, outcome);
+  } catch (const scene::Error& error) {
+    outcome.contradictions.push_back(
+        fmt::format("{} {} of seed {}: {}", scene.generator, scene.index, scene.seed, error.what()));
+  }
+  return outcome;
+}
+
+std::optional<Finding> found_again(const Finding& finding, const Case& scene, const Trial& trial) {
+  Outcome outcome;
+  trial.judge(scene, {finding.oracle}, outcome);
+  for (Finding& f : outcome.findings) {
+    if (f.oracle == finding.oracle && f.verdict == finding.verdict) return std::move(f);
+  }
+  return std::nullopt;
+}
+
+void file(const Case& scene, const char* check, const std::string& wrong, Outcome& outcome) {
+  if (wrong.empty()) return;
+  Finding f;
+  f.oracle = check;
+  f.verdict = broken_promise;
+  f.where = scene;
+  f.explanation = wrong.substr(0, wrong.find('\n'));
+  outcome.findings.push_back(std::move(f));
+}
+
+bool is_asked(const std::vector<std::string>& asked, const char* check) {
+  return std::find(asked.begin(), asked.end(), check) != asked.end();
+}
+
+}  // namespace clues::fuzz

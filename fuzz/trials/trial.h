@@ -1,0 +1,44 @@
+// What is tested though it answers no scene and cell: hierarchies of surfaces (D31-D34), motion bounds (D28-D30). A trial has cases of its own, and checks in place of
+// oracles; campaigns, findings, shards and replays are those of visibility.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fuzz/findings/finding.h"
+#include "fuzz/findings/named_generator.h"
+
+namespace clues::fuzz {
+
+class Trial {
+ public:
+  struct Check {
+    const char* name;
+    const char* what;                // one line for --help
+    std::vector<const char*> needs;  // counters that must not stay 0 in a campaign
+  };
+
+  virtual ~Trial() = default;
+  virtual const char* what() const = 0;  // one line for --help
+  virtual const std::vector<NamedGenerator>& generators() const = 0;
+  virtual const std::vector<Check>& checks() const = 0;
+  // Whether a case is all in its mesh, so that it can be shrunk; else its name makes it again.
+  virtual bool is_a_mesh(const Case& scene) const = 0;
+  // Makes those of the checks that are asked for. At most one finding of each. What it throws is a contradiction.
+  virtual void judge(const Case& scene, const std::vector<std::string>& asked, Outcome& outcome) const = 0;
+};
+
+// Those with these names, in the trial's order; all without a name. Throws scene::Error bad_argument.
+std::vector<NamedGenerator> generators_named(const Trial& trial, const std::vector<std::string>& names);
+std::vector<Trial::Check> checks_named(const Trial& trial, const std::vector<std::string>& names);
+
+Outcome judge_case(const Case& scene, const Trial& trial, const std::vector<Trial::Check>& checks);
+// What the check of a finding finds in this scene; none: nothing, or the scene is none that the trial takes.
+std::optional<Finding> found_again(const Finding& finding, const Case& scene, const Trial& trial);
+
+// One of those checks: what is wrong is empty where nothing is.
+void file(const Case& scene, const char* check, const std::string& wrong, Outcome& outcome);
+bool is_asked(const std::vector<std::string>& asked, const char* check);
+
+}  // namespace clues::fuzz
