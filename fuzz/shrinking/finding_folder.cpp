@@ -57,7 +57,7 @@ void put_case(scene::FolderUpdate& update, const Finding& f, const std::string& 
     sums[name] = scene::sha256_of(bytes);
   };
   put("scene.off", scene::to_off_text(f.where.mesh));
-  if (!f.where.cell.empty()) put("cell.obj", points_as_obj(f.where.cell));
+  put("cell.obj", points_as_obj(f.where.cell));
   put("witness.json", witness_json(f).dump(2) + "\n");
   update.put(folder + "picture.svg", picture_of(f));
 }
@@ -96,12 +96,12 @@ CaseTexts read_case(const fs::path& folder, const json& sums) {
       throw Error(ErrorCode::malformed, (folder / name).string() + ": was changed after the finding was saved");
     return bytes;
   };
-  return {read("scene.off"), sums.contains("cell.obj") ? read("cell.obj") : "", read("witness.json")};
+  return {read("scene.off"), read("cell.obj"), read("witness.json")};
 }
 
 void parse_case(Finding& f, const CaseTexts& texts, const fs::path& folder) {
   f.where.mesh = scene::read_off(texts.scene_off, (folder / "scene.off").string());
-  if (!texts.cell_obj.empty()) f.where.cell = scene::read_obj(texts.cell_obj, (folder / "cell.obj").string()).points;
+  f.where.cell = scene::read_obj(texts.cell_obj, (folder / "cell.obj").string()).points;
   const std::string place = (folder / "witness.json").string();
   const json w = parsed(texts.witness_json, place);
   if (w.contains("triangle")) f.triangle = whole_number<std::uint32_t>(w, "triangle");
@@ -253,7 +253,7 @@ SavedFinding finding_of_texts(const std::string& finding_json, const CaseTexts& 
 
 std::string picture_of(const Finding& finding) {
   const Case& scene = finding.where;
-  scene::Point low = scene.cell.empty() ? scene.mesh.points.front() : scene.cell.front(), high = low;
+  scene::Point low = scene.cell.front(), high = low;
   for (const auto* points : {&scene.cell, &scene.mesh.points}) {
     for (const scene::Point& p : *points) {
       for (std::size_t i = 0; i < 2; ++i) {

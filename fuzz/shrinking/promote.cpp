@@ -56,8 +56,6 @@ std::string bytes_or_none(const fs::path& file) { return fs::exists(file) ? scen
 void promote(const Finding& finding, const std::string& id, const fs::path& given) {
   if (!validate::is_slug(id))
     throw Error(ErrorCode::bad_argument, "--id " + id + ": lower-case words joined by '-' are needed");
-  if (finding.verdict == broken_promise || finding.where.cell.empty())
-    throw Error(ErrorCode::bad_argument, "--promote: the finding is about no view cell; the suite has no such cases");
   std::error_code error;
   const fs::path suite = fs::canonical(given, error);
   if (error) throw Error(ErrorCode::file_not_found, given.string() + ": no such folder; name the folder of a suite");

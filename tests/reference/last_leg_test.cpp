@@ -59,8 +59,9 @@ TEST_F(LastLeg, IsAskedOnlyAboutNewPiecesForLight) {
   const Point3 m(-5, 0.25, 1), p(0.375, 0.125, 1);
   reference::Walk walk;
   walk.legs.push_back({m, p, 0, true, false, true});
-  EXPECT_EQ(walker_->visible_by_last_leg({p, std::nullopt, nullptr}, walk, *wedges_, wedges_->pieces().size()),
-            Meets::no);
+  const reference::Start start{p, std::nullopt, nullptr};
+  EXPECT_EQ(walker_->visible_by_last_leg(start, walk, *wedges_, 0), Meets::yes);
+  EXPECT_EQ(walker_->visible_by_last_leg(start, walk, *wedges_, wedges_->pieces().size()), Meets::no);
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ class Walker {
   // Whether the start of a walk is visible by the pieces from number `first` on, as far as sight lines tell; touch: make another walk.
   Crossing visible(const Walk& walk, std::size_t first) const;
   // The same by a last leg that comes out of the dark. A sight line that comes into a beam stays in it, as V is on H+ of every wedge; this leg may leave it again.
-  // So the start counts as visible, and is visible if in the end no piece is crossed from H- to H+.
+  // Then a piece is crossed from H- to H+, and it is in doubt whether the start is visible.
   Crossing visible_by_last_leg(const Walk& walk, std::size_t first) const;
   // Whether one is, or may be; the pieces are complete.
   bool last_leg_is_in_doubt(const Walk& walk) const;

@@ -88,11 +88,11 @@ class Search::Work {
 
   // Lights what is visible, and all that follows from it. In doubt: also what counts as visible.
   void spread() {
-    for (std::vector<Job> waiting = light({set.pieces().size(), 0, in_doubt}); !waiting.empty();) {
+    for (std::vector<Job> waiting = light(set.pieces().size()); !waiting.empty();) {
       const std::size_t first = set.pieces().size();
       set.add(build(next_batch(waiting)));
       meet_edges(first);
-      const std::vector<Job> jobs = light({first, first, in_doubt});
+      const std::vector<Job> jobs = light(first);
       waiting.insert(waiting.end(), jobs.begin(), jobs.end());
     }
   }
@@ -127,9 +127,9 @@ class Search::Work {
 
   // --- lighting -----------------------------------------------------------------------------------------------------------------
 
-  // The wedges that sources make which new pieces light: their own (D10, D11), and those at the contour vertices they light (D12).
-  std::vector<Job> light(const Sources::From& from) {
-    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(from);
+  // The wedges that sources make which the pieces from number `first` on light: their own (D10, D11), and those at the contour vertices they light (D12).
+  std::vector<Job> light(std::size_t first) {
+    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first, in_doubt);
     const auto is_doubtful = [this](const auto& source) {
       return in_doubt || source.walk.end == Walk::End::unresolved;
     };
@@ -193,7 +193,7 @@ class Search::Work {
         const std::size_t c = parts[i].contour;
         const bool unproved =
             std::any_of(parts.begin() + static_cast<std::ptrdiff_t>(i), parts.begin() + static_cast<std::ptrdiff_t>(j),
-                        [](const Sources::OfEdge& s) { return s.walk.end == Walk::End::unresolved; });
+                        [](const Sources::OfEdge& s) { return s.doubtful || s.walk.end == Walk::End::unresolved; });
         for (int k = 0; k < static_cast<int>(contours[c].touching.size()); ++k)
           jobs.push_back({c, k, parts[i].part.lo, parts[j - 1].part.hi, nullptr, 0, unproved});
       }

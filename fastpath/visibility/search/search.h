@@ -3,7 +3,7 @@
 // become cuts and the next round starts over; when no new cut appears every part of an edge has one label (D13a). Envelopes, walks and local
 // pictures of contour vertices are kept from round to round.
 //
-// Where a walk does not end its source counts as visible, as do one that only a last leg says so of (walker.h), and the sectors of a contour vertex that is too intricate, and what its wedges light with it. A walk from elsewhere may still call the same space hidden: where only
+// Where a walk does not end its source counts as visible, as do the sectors of a contour vertex that is too intricate, and what its wedges light with it. A walk from elsewhere may still call the same space hidden: where only
 // doubt says that both sides of a wedge are visible, the wedge has to stay. So each round lights what is visible first, with all that follows from it, and then what counts as
 // visible, from which nothing follows that a wedge may be left out for (Probe::doubtful). By induction the first part lights nothing outside of Omega. So a wedge is
 // left out only where both of its sides are in Omega, every border of Omega has its pieces, and no walk that ends calls a point of Omega hidden.

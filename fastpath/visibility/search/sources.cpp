@@ -155,49 +155,48 @@ void Sources::place(OfEdge& s, Pool& pool) {
   }
 }
 
-Crossing Sources::label_of(const Walk& walk, const From& from) const {
-  const Crossing label = walker_.visible(walk, from.sight_lines);
-  if (label == Crossing::yes || !from.in_doubt) return label;
-  const Crossing last = walker_.visible_by_last_leg(walk, from.last_legs);
+Crossing Sources::label_of(const Walk& walk, std::size_t first) const {
+  const Crossing label = walker_.visible(walk, first);
+  if (label == Crossing::yes) return label;
+  const Crossing last = walker_.visible_by_last_leg(walk, first);
   return last == Crossing::no ? label : last;
 }
 
-bool Sources::newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, const From& from, Pool& pool) {
+bool Sources::newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first, Pool& pool) {
   constexpr int kRetries = 12;
-  Crossing c = label_of(w, from);
+  Crossing c = label_of(w, first);
   for (int i = 0; c == Crossing::touch && i < kRetries; ++i) {
     w = walk(p, ++seed, pool);
-    c = label_of(w, {0, 0, from.in_doubt});
+    c = label_of(w, 0);
   }
   if (c == Crossing::touch) w.end = Walk::End::unresolved;
   return c != Crossing::no;
 }
 
-bool Sources::newly_visible(OfEdge& s, From from, Pool& pool) {
-  if (s.beside &&
-      pieces_.may_meet(*s.beside, *s.part.y, from.sight_lines, holds_edge(scene_, contours_[s.contour].edge))) {
+bool Sources::newly_visible(OfEdge& s, std::size_t first, Pool& pool) {
+  if (s.beside && pieces_.may_meet(*s.beside, *s.part.y, first, holds_edge(scene_, contours_[s.contour].edge))) {
     ++s.level;
     place(s, pool);
-    from.sight_lines = from.last_legs = 0;
+    first = 0;
   }
-  return newly_visible(s.beside, s.walk, s.seed, from, pool);
+  return newly_visible(s.beside, s.walk, s.seed, first, pool);
 }
 
-bool Sources::newly_visible(OfVertex& s, const From& from, Pool& pool) {
-  if (newly_visible(s.beside, s.walk, s.seed, from, pool)) return true;
+bool Sources::newly_visible(OfVertex& s, std::size_t first, Pool& pool) {
+  if (newly_visible(s.beside, s.walk, s.seed, first, pool)) return true;
   if (!s.view) return false;
-  if (!piece_between(*s.beside, scene_.points[s.point], from.sight_lines)) return false;
+  if (!piece_between(*s.beside, scene_.points[s.point], first)) return false;
   ++s.level;
   place(s, pool);
-  return newly_visible(s.beside, s.walk, s.seed, {0, 0, from.in_doubt}, pool);
+  return newly_visible(s.beside, s.walk, s.seed, 0, pool);
 }
 
-Sources::Numbers Sources::newly_lit(const From& from) {
+Sources::Numbers Sources::newly_lit(std::size_t first, bool in_doubt) {
   const std::size_t edges = of_edges_.size();
   std::vector<char> visible(edges + of_vertices_.size(), 0);
   workers_.for_each(visible.size(), [&](std::size_t i, Workers::Worker& worker) {
     const auto look = [&](auto& s) {
-      visible[i] = !s.lit && newly_visible(s, from, worker.pool) && (from.in_doubt || !is_in_doubt(s)) ? 1 : 0;
+      visible[i] = !s.lit && newly_visible(s, first, worker.pool) && (in_doubt || !is_in_doubt(s)) ? 1 : 0;
     };
     i < edges ? look(of_edges_[i]) : look(of_vertices_[i - edges]);
   });
@@ -212,17 +211,18 @@ Sources::Numbers Sources::newly_lit(const From& from) {
 
 void Sources::note_doubt() {
   const auto look = [this](auto& s) {
-    if (s.lit && walker_.last_leg_is_in_doubt(s.walk) && walker_.visible(s.walk, 0) != Crossing::yes)
-      s.walk.end = Walk::End::unresolved;
+    s.doubtful = s.lit && walker_.last_leg_is_in_doubt(s.walk) && walker_.visible(s.walk, 0) != Crossing::yes;
   };
   std::for_each(of_edges_.begin(), of_edges_.end(), look);
   std::for_each(of_vertices_.begin(), of_vertices_.end(), look);
 }
 
 std::uint64_t Sources::unresolved() const {
-  const auto in_doubt = [this](const auto& s) { return this->is_in_doubt(s); };
-  const auto edges = std::count_if(of_edges_.begin(), of_edges_.end(), in_doubt);
-  const auto vertices = std::count_if(of_vertices_.begin(), of_vertices_.end(), in_doubt);
+  const auto edges = std::count_if(of_edges_.begin(), of_edges_.end(), [this](const OfEdge& s) {
+    return is_in_doubt(s) || (s.doubtful && !contours_[s.contour].holds_cell);
+  });
+  const auto vertices = std::count_if(of_vertices_.begin(), of_vertices_.end(),
+                                      [](const OfVertex& s) { return is_in_doubt(s) || (s.doubtful && !s.separates); });
   return static_cast<std::uint64_t>(edges + vertices);
 }
 

@@ -26,6 +26,7 @@ class Sources {
     std::uint64_t seed = 0x51;
     Walk walk;
     bool lit = false;
+    bool doubtful = false;  // lit by a last leg alone that is in doubt (walker.h), in the round that ended last
   };
 
   // A mesh vertex and a point beside it on the way to the cell. If that is visible the vertex is, as its sight lines go on
@@ -39,6 +40,7 @@ class Sources {
     std::uint64_t seed = 0xa7;
     Walk walk;
     bool lit = false;
+    bool doubtful = false;   // lit by a last leg alone that is in doubt (walker.h), in the round that ended last
     bool separates = false;  // its wedges do nothing else (T10): in doubt it is lit, and nothing is lost by it
   };
 
@@ -52,21 +54,16 @@ class Sources {
 
   const std::vector<OfEdge>& of_edges() const { return of_edges_; }
   const std::vector<OfVertex>& of_vertices() const { return of_vertices_; }
-  // From which piece on walks are looked at, where they follow sight lines, and last legs, which do not and count in doubt only (walker.h).
-  struct From {
-    std::size_t sight_lines = 0, last_legs = 0;
-    bool in_doubt = false;
-  };
-  // Those that become visible by new pieces, ascending; from here on they are lit. In doubt: also those that count as visible.
+  // Those that become visible by the pieces from number `first` on, ascending; from here on they are lit. In doubt: also those that count as visible.
   struct Numbers {
     std::vector<std::size_t> of_edges, of_vertices;
   };
-  Numbers newly_lit(const From& from);
+  Numbers newly_lit(std::size_t first, bool in_doubt);
   // When a round has all its pieces: what is lit by its last leg alone may be so for want of an answer.
   void note_doubt();
 
   std::uint64_t walks() const { return walks_; }
-  std::uint64_t unresolved() const;  // sources that count as visible without a proof: is_in_doubt
+  std::uint64_t unresolved() const;  // sources that count as visible without a proof: is_in_doubt, or doubtful
   // A wedge that only separates (T10) makes nothing visible, also where it should not exist: no doubt comes of it.
   bool is_in_doubt(const OfEdge& s) const {
     return s.walk.end == Walk::End::unresolved && !contours_[s.contour].holds_cell;
@@ -81,10 +78,10 @@ class Sources {
   void place(OfVertex& source, Pool& pool);
   bool piece_between(const ExactPoint& beside, const ExactPoint& x, std::size_t first) const;
   static OfVertex unresolved(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
-  bool newly_visible(OfEdge& source, From from, Pool& pool);
-  bool newly_visible(OfVertex& source, const From& from, Pool& pool);
-  bool newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, const From& from, Pool& pool);
-  Crossing label_of(const Walk& walk, const From& from) const;
+  bool newly_visible(OfEdge& source, std::size_t first, Pool& pool);
+  bool newly_visible(OfVertex& source, std::size_t first, Pool& pool);
+  bool newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first, Pool& pool);
+  Crossing label_of(const Walk& walk, std::size_t first) const;
 
   const LocalScene& scene_;
   const std::vector<ContourEdge>& contours_;

@@ -65,7 +65,7 @@ class PieceSet {
     return result;
   }
 
-  // Whether the way from m to p, which lies on no piece, crosses one from H- to H+, or may.
+  // Whether the way from m to p crosses a piece from H- to H+, or may.
   bool may_leave(const ExactPoint& m, const ExactPoint& p) const {
     return any(SegmentTest(m, p), [&](std::size_t i) {
       const Plane& h = *pieces_[i].on->plane;

@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::int64_t kLongestWalk = 64;  // legs; what is longer has lost its way in a corner of several walls
 constexpr int kCoincidences = 4;           // this many in a row, and a plane in common may be the reason
+constexpr int kDoubtful = 12;              // walks to a point before it counts as visible
 constexpr int kAttempts = 200;  // sight lines in special position come from coincidences; this many in a row mean a bug
 
 std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
@@ -362,12 +363,17 @@ Meets Walker::crossed(const Start& start, const Walk& walk, const Leg& leg, cons
 
 Walker::Label Walker::label(const Start& start, const WedgeSet& wedges, const LeftOut& left_out,
                             std::uint64_t seed) const {
+  int doubtful = 0;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     const Walk made = walk(start, seed + static_cast<std::uint64_t>(attempt) * 7919);
     const Meets m = visible(start, made, wedges, 0);
     if (m == Meets::yes) return {true, made.unresolved};
     const Meets counts = visible_by_last_leg(start, made, wedges, 0);
-    if (counts == Meets::yes) return {true, last_leg_is_in_doubt(start, made, wedges)};
+    if (counts == Meets::yes) {  // another walk may have no doubt
+      if (!last_leg_is_in_doubt(start, made, wedges)) return {true, false};
+      if (++doubtful == kDoubtful) return {true, true};
+      continue;
+    }
     if (m == Meets::no && counts == Meets::no) {
       bool in_doubt = false;
       for (std::size_t i = 0; !in_doubt && i < left_out.size(); ++i) in_doubt = made.runs_through(left_out, i);

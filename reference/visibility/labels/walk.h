@@ -23,8 +23,7 @@
 //
 // That last leg comes out of the dark, and is no part of a sight line. Where no valid piece crosses it, its end is as dark as its start. Where one
 // does from H+ to H-, there is light behind; but while a sight line that comes into a beam stays in it, as V is on H+ of every wedge, this leg may
-// leave the beam again, through a piece that it crosses from H- to H+. Only if none does, of all pieces that there are in the end, its end is visible. Until
-// then it counts as visible.
+// leave the beam again, through a piece that it crosses from H- to H+. If one does, of all pieces that there are in the end, it is in doubt whether its end is visible.
 //
 // So walks are made once, and only their legs are looked at again when new wedge pieces appear (D17a).
 #pragma once
@@ -91,7 +90,7 @@ class Walker {
 
   // Whether the walk's start is visible by the wedge pieces from index `first` on, as far as sight lines tell; degenerate: walk again with another seed.
   Meets visible(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const;
-  // The same by a last leg that comes out of the dark, which counts as visible (see above).
+  // The same by a last leg that comes out of the dark (see above).
   Meets visible_by_last_leg(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const;
   // Whether that is in doubt when `wedges` are complete: a piece may cross that leg the other way. False without such a leg.
   bool last_leg_is_in_doubt(const Start& start, const Walk& walk, const WedgeSet& wedges) const;

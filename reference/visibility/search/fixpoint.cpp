@@ -48,7 +48,9 @@ class Search {
       ++statistics_.rounds;
       changed = round();
     }
-    Fixpoint out{std::move(wedges_), {}, counts_as_visible(), {}, {}};
+    const std::size_t in_doubt = that_count_as_visible(sources_) + that_count_as_visible(vertex_sources_);
+    statistics_.conservative_fallbacks += in_doubt;
+    Fixpoint out{std::move(wedges_), {}, in_doubt > 0, {}, {}};
     for (const Apex* apex : left_out_) out.left_out.add(apex->x(), scene_.cell());
     if (!out.left_out.empty()) leave_out_doubtful_sources(out.left_out);
     count(out);
@@ -95,48 +97,40 @@ class Search {
 
   // Lights what is visible, and all that follows from it. In doubt: also what counts as visible.
   void spread() {
-    std::vector<Job> waiting = light_new({wedges_.pieces().size(), 0});
+    std::vector<Job> waiting = light_new(wedges_.pieces().size());
     while (!waiting.empty()) {
       report();
       const std::size_t first = wedges_.pieces().size();
       wedges_.add(maker_.build(next_batch(waiting)));
       for (std::size_t i = first; i < wedges_.pieces().size(); ++i) meet_edges(i);
-      const std::vector<Job> jobs = light_new({first, first});
+      const std::vector<Job> jobs = light_new(first);
       waiting.insert(waiting.end(), jobs.begin(), jobs.end());
     }
   }
 
-  // From which piece on walks are looked at: what is a part of a sight line, and last legs that are not. These count in doubt only.
-  struct From {
-    std::size_t sight_lines, last_legs;
-  };
-
-  std::vector<Job> light_new(From from) {
+  // What the pieces from index `first` on light.
+  std::vector<Job> light_new(std::size_t first) {
     for (VertexSource& s : vertex_sources_) {
-      if (!s.lit && reached(s, from)) light_vertex(s);
+      if (!s.lit && reached(s, first)) light_vertex(s);
     }
-    return light(newly_lit(from));
+    return light(newly_lit(first));
   }
 
-  Meets label_of(const Start& start, const Walk& walk, From from) const {
-    const Meets label = walker_.visible(start, walk, wedges_, from.sight_lines);
-    if (label == Meets::yes || !in_doubt_) return label;
-    const Meets last = walker_.visible_by_last_leg(start, walk, wedges_, from.last_legs);
+  Meets label_of(const Start& start, const Walk& walk, std::size_t first) const {
+    const Meets label = walker_.visible(start, walk, wedges_, first);
+    if (label == Meets::yes) return label;
+    const Meets last = walker_.visible_by_last_leg(start, walk, wedges_, first);
     return last == Meets::no ? label : last;
   }
 
   // When a round has all its pieces: what is lit by its last leg alone may be so for want of an answer (walk.h).
   void note_doubt() {
-    const auto look = [this](const Start& start, Walk& walk) {
-      walk.unresolved |=
-          walker_.last_leg_is_in_doubt(start, walk, wedges_) && walker_.visible(start, walk, wedges_, 0) != Meets::yes;
+    const auto is_doubtful = [this](bool lit, const Start& start, const Walk& walk) {
+      return lit && walker_.last_leg_is_in_doubt(start, walk, wedges_) &&
+             walker_.visible(start, walk, wedges_, 0) != Meets::yes;
     };
-    for (Source& s : sources_) {
-      if (s.lit) look(start_of(s, contours_), s.walk);
-    }
-    for (VertexSource& s : vertex_sources_) {
-      if (s.lit) look(start_of(s), s.walk);
-    }
+    for (Source& s : sources_) s.doubtful = is_doubtful(s.lit, start_of(s, contours_), s.walk);
+    for (VertexSource& s : vertex_sources_) s.doubtful = is_doubtful(s.lit, start_of(s), s.walk);
   }
 
   // A wedge that only separates (T10) makes nothing visible, also where it should not exist.
@@ -148,19 +142,24 @@ class Search {
     return !in_doubt_ && s.walk.unresolved && !separates(s);
   }
 
-  bool counts_as_visible() const {
-    const auto counts = [this](const auto& s) { return s.walk.unresolved && !this->separates(s); };
-    return std::any_of(sources_.begin(), sources_.end(), counts) ||
-           std::any_of(vertex_sources_.begin(), vertex_sources_.end(), counts);
+  // Visible for want of an answer, in the end.
+  template <class Any>
+  bool counts_as_visible(const Any& s) const {
+    return (s.walk.unresolved || s.doubtful) && !separates(s);
+  }
+  template <class Any>
+  std::size_t that_count_as_visible(const std::vector<Any>& sources) const {
+    return static_cast<std::size_t>(
+        std::count_if(sources.begin(), sources.end(), [this](const Any& s) { return this->counts_as_visible(s); }));
   }
 
-  // Whether new pieces make the source visible.
-  bool reached(VertexSource& s, From from) {
-    Meets label = label_of(start_of(s), s.walk, from);
+  // Whether the pieces from index `first` on make the source visible.
+  bool reached(VertexSource& s, std::size_t first) {
+    Meets label = label_of(start_of(s), s.walk, first);
     for (int attempt = 1; label == Meets::degenerate && !s.separates && attempt < kViews; ++attempt) {
       if (!look_again(scene_, *corner(s.point), s, attempt)) continue;
       s.walk = walker_.walk(start_of(s), kSourceSeed);
-      label = label_of(start_of(s), s.walk, {0, 0});
+      label = label_of(start_of(s), s.walk, 0);
     }
     s.walk.unresolved |= label == Meets::degenerate;
     return label != Meets::no && !waits(s);
@@ -185,13 +184,13 @@ class Search {
     touched_.insert(apex);
   }
 
-  // Sources that are not lit and that new pieces make visible.
-  std::vector<std::size_t> newly_lit(From from) {
+  // Sources that are not lit and that the pieces from index `first` on make visible.
+  std::vector<std::size_t> newly_lit(std::size_t first) {
     std::vector<Meets> label(sources_.size(), Meets::no);
     tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
       Source& s = sources_[i];
       if (s.lit) return;
-      label[i] = label_of(start_of(s, contours_), s.walk, from);
+      label[i] = label_of(start_of(s, contours_), s.walk, first);
       for (int attempt = 0; label[i] == Meets::degenerate; ++attempt) {  // walk elsewhere, and ask all pieces
         if (attempt == kOtherWalks) {
           s.walk.unresolved = true;
@@ -200,7 +199,7 @@ class Search {
         }
         if (attempt % 4 == 3) ask_elsewhere(s, attempt);
         s.walk = walker_.walk(start_of(s, contours_), ++s.seed);
-        label[i] = label_of(start_of(s, contours_), s.walk, {0, 0});
+        label[i] = label_of(start_of(s, contours_), s.walk, 0);
       }
       if (waits(s)) label[i] = Meets::no;
     });
@@ -407,9 +406,6 @@ class Search {
           std::any_of(apex->sectors().begin(), apex->sectors().end(), [](const auto& s) { return s.built; });
     for (const ContourEdge& c : contours_) statistics_.parallel_edges += c.touching.size() > 1;
     statistics_.conservative_fallbacks += out.left_out.size();
-    for (const Source& s : sources_) statistics_.conservative_fallbacks += s.walk.unresolved && !separates(s);
-    for (const VertexSource& s : vertex_sources_)
-      statistics_.conservative_fallbacks += s.walk.unresolved && !separates(s);
   }
 
   void find_lit(Fixpoint& out) const {

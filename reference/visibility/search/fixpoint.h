@@ -5,7 +5,7 @@
 // CSVs met become cuts, and the next round starts over with them: a piece of an edge then has one label (D13a). When a round
 // makes no new cut, every label was taken with all event surfaces in place. Wedge geometry and walks are kept between rounds.
 //
-// Where a walk does not end its source counts as visible, as does one that only a last leg says so of (walk.h), and what its wedges light with it. A walk from elsewhere may still call the same space hidden: where only
+// Where a walk does not end its source counts as visible, and what its wedges light with it. A walk from elsewhere may still call the same space hidden: where only
 // doubt says that both sides of a wedge are visible, the wedge has to stay. So each round lights what is visible first, with all that follows from it, and then what counts as
 // visible, from which nothing follows that a wedge may be left out for (Probe::doubtful). By induction the first part lights nothing outside of Omega. So a wedge is
 // left out only where both of its sides are in Omega, every border of Omega has its pieces, and no walk that ends calls a point of Omega hidden.

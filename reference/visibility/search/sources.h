@@ -24,6 +24,7 @@ struct Source {
   std::uint64_t seed = kSourceSeed;
   Walk walk;
   bool lit = false;
+  bool doubtful = false;  // lit by a last leg alone that is in doubt (walk.h), in the round that ended last
 };
 
 // A mesh vertex seen from v in int V: a source of SE-MV wedges even where no contour edge ends (a corner whose edges all point away
@@ -36,6 +37,7 @@ struct VertexSource {
   Probe probe;
   Walk walk;
   bool lit = false;
+  bool doubtful = false;   // lit by a last leg alone that is in doubt (walk.h), in the round that ended last
   bool separates = false;  // its wedges do nothing else (T10): in doubt it is lit, and nothing is lost by it
 };
 
