@@ -134,6 +134,8 @@ int run_replay(const FolderRequest& request) {
   const auto saved = fuzz::load_finding(request.folder);
   const auto subject = subject_of(request, saved);
   if (!request.suite.empty()) {
+    if (subject->trial())
+      throw Error(ErrorCode::bad_argument, "--promote: the finding is about no view cell; the suite has no such cases");
     fuzz::promote(saved.finding, request.id, request.suite);
     std::printf("%s: has the case %s now, with proofs\n", scene::printable(request.suite).c_str(), request.id.c_str());
   }
@@ -183,9 +185,8 @@ std::string fuzz_footer() {
       "                 the reference refined to depth 2, its hidden regions included\n"
       "  fast:subdivided, fast:backprojected\n"
       "                 the fast path refined to depth 3\n"
-      "  maps           hierarchies and remeshes of clues maps, both kernels, on surfaces of their own\n"
-      "  motion         motion bounds of both kernels, and walks of clues motion\n"
-      "  deltas         transitions of clues delta between the halves of a cell\n"
+      "  maps, motion, deltas\n"
+      "                 what answers no cell, see below\n"
       "  COMMAND LINE   a program, run once for each scene; {scene}, {cell} and {pvs} stand for an OFF file, an OBJ "
       "file of\n"
       "                 the cell's points, and the list of visible triangle ids that it has to write, one a line;\n"
@@ -197,9 +198,11 @@ std::string fuzz_footer() {
   for (const auto& d : fuzz::all_dials()) text += fmt::format("  {:<22} {}\n", d.name, d.what);
   text += "\nORACLES\n";
   for (const auto& o : fuzz::all_oracles()) text += fmt::format("  {:<22} {}\n", o->name(), o->what());
-  for (const char* name : {"maps", "motion", "deltas"}) {
+  for (const char* name : fuzz::trial_names) {
     const auto subject = fuzz::make_subject(name);
-    text += fmt::format("\nGENERATORS AND ORACLES OF --subject {} (no --scenes, no dials)\n", name);
+    text +=
+        fmt::format("\nSUBJECT {}: {}\n  Its generators and oracles; it takes no --scenes, and no dials are turned\n",
+                    name, subject->trial()->what());
     for (const auto& g : subject->trial()->generators()) text += fmt::format("  {:<22} {}\n", g.name, g.degeneracy);
     for (const auto& c : subject->trial()->checks()) text += fmt::format("  {:<22} {}\n", c.name, c.what);
   }

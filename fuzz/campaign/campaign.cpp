@@ -33,11 +33,11 @@ constexpr std::chrono::milliseconds look_up{200};
 constexpr std::uint64_t rounds_to_judge = 4, least_to_judge = 100;
 
 std::string plan_of(const CampaignOptions& options, const std::vector<NamedGenerator>& generators,
-                    const std::vector<std::string>& oracles, const Subject& subject, std::uint64_t shard,
+                    const std::vector<std::string>& oracles, const Subject& subject, bool dials, std::uint64_t shard,
                     std::uint64_t shards) {
   json plan{
       {"seed", options.seed}, {"first", options.first}, {"subject", subject.name()}, {"scenes", options.given.hashes}};
-  if (options.dials) plan["dials"] = true;
+  if (dials) plan["dials"] = true;
   if (shards > 1) plan["shard"] = fmt::format("{}/{}", shard + 1, shards);
   for (const auto& g : generators) plan["generators"].push_back(g.name);
   for (const auto& name : oracles) plan["oracles"].push_back(name);
@@ -48,25 +48,23 @@ std::string plan_of(const CampaignOptions& options, const std::vector<NamedGener
 class Cases {
  public:
   Cases(const CampaignOptions& options, const Subject& subject)
-      : options_(options),
-        subject_(subject),
-        trial_(subject.trial()),
-        generators_(trial_ ? generators_named(*trial_, options.generators)
-                           : generators_named(options.generators, options.given)) {
-    if (trial_) {
-      if (!options.given.paths.empty())
-        throw Error(ErrorCode::bad_argument, "--scenes: the subject " + subject.name() + " takes none");
-      checks_ = checks_named(*trial_, options.oracles);
-    } else {
+      : options_(options), subject_(subject), trial_(subject.trial()) {
+    if (!trial_) {
+      generators_ = generators_named(options.generators, options.given);
       oracles_ = oracles_named(options.oracles);
+      return;
     }
+    if (!options.given.paths.empty())
+      throw Error(ErrorCode::bad_argument, "--scenes: the subject " + subject.name() + " takes none");
+    checks_ = checks_named(*trial_, options.oracles);
+    generators_ = generators_named(*trial_, options.generators, checks_);
   }
 
   std::string plan(std::uint64_t shard, std::uint64_t shards) const {
     std::vector<std::string> names;
     for (const Oracle* o : oracles_) names.emplace_back(o->name());
     for (const auto& check : checks_) names.emplace_back(check.name);
-    return plan_of(options_, generators_, names, subject_, shard, shards);
+    return plan_of(options_, generators_, names, subject_, turns_dials(), shard, shards);
   }
 
   Case make(std::uint64_t number) const {
@@ -92,7 +90,11 @@ class Cases {
     for (const Oracle* o : oracles_) {
       for (const char* name : o->needs()) needed.emplace_back(name);
     }
-    for (const auto& check : checks_) needed.insert(needed.end(), check.needs.begin(), check.needs.end());
+    for (const auto& check : checks_) {
+      const bool looks = std::any_of(generators_.begin(), generators_.end(),
+                                     [&](const auto& g) { return trial_->looks_at(check.name, g.name); });
+      if (looks) needed.insert(needed.end(), check.needs.begin(), check.needs.end());
+    }
     for (const NamedDial& d : all_dials()) {
       if (turns_dials() && (d.of == NamedDial::Of::scene || subject_.takes_dials()))
         needed.push_back(std::string("dial ") + d.name);
@@ -127,6 +129,7 @@ class Campaign {
     run_cases();
     CampaignSummary summary;
     summary.is_shard = options_.shards > 1;
+    summary.is_trial = subject_.trial() != nullptr;
     summary.subject = subject_.name();
     summary.seconds_now = std::chrono::duration<double>(Clock::now() - begin).count();
     if (!stopped() && !summary.is_shard) save_findings();
@@ -399,9 +402,7 @@ std::string to_text(const CampaignSummary& s, const fs::path& out) {
   for (const auto& [name, value] : s.counters) {
     if (!is_a_pair(name)) text += fmt::format("{:>14}  {}\n", value, scene::printable(name));
   }
-  const bool has_rules = std::any_of(s.counters.begin(), s.counters.end(),
-                                     [](const auto& counter) { return counter.first.starts_with("rule "); });
-  if (has_rules) text += rules_text(s.counters);
+  if (!s.is_trial) text += rules_text(s.counters);
   for (const auto& name : s.never_occurred) text += "NEVER OCCURRED: " + scene::printable(name) + "\n";
   text += fmt::format("{} cases, {} of them in this run; {} different findings{}\n", s.cases, s.cases_now,
                       s.findings.size(), s.interrupted ? "; interrupted: the same command goes on" : "");

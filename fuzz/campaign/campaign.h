@@ -55,7 +55,7 @@ struct CampaignSummary {
   bool judged = false;       // it has them, or was asked to be judged all the same
   double seconds_now = 0;
   bool interrupted = false;
-  bool is_shard = false;
+  bool is_shard = false, is_trial = false;
   Counters counters;
   std::vector<StoredFinding> findings;
   std::vector<std::string> contradictions;

@@ -106,10 +106,7 @@ void require_whole(const Finding& f, const std::string& place) {
   const auto& mesh = f.where.mesh;
   require(is_about_a_triangle(f.verdict) || is_about_the_answer(f.verdict),
           fmt::format("'{}' is no verdict of the fuzzer", scene::printable(f.verdict, 40)));
-  // Of a trial that has no cell (trials/trial.h), what crashes too.
-  const bool needs_cell = is_about_a_triangle(f.verdict) || f.verdict.starts_with("label/");
-  require(!mesh.triangles.empty() && !(needs_cell && f.where.cell.empty()),
-          "the scene has no triangle, or the cell no point");
+  require(!mesh.triangles.empty() && !f.where.cell.empty(), "the scene has no triangle, or the cell no point");
   for (const auto& [name, value] : f.where.dials)
     require(is_a_setting(name, value),
             fmt::format("no dial '{}' can be turned to {}", scene::printable(name, 40), value));

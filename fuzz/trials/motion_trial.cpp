@@ -135,6 +135,9 @@ class MotionTrial : public Trial {
         {frames_hold, "in each frame of a walk every constraint holds", {"frames checked", "samples taken out"}}};
     return all;
   }
+  bool looks_at(const std::string& check, const std::string& generator) const override {
+    return (check == frames_hold) == (generator == walks);
+  }
   bool is_a_mesh(const Case& scene) const override { return scene.generator == walks; }
 
   void judge(const Case& scene, const std::vector<std::string>& asked, Outcome& outcome) const override {

@@ -27,12 +27,23 @@ std::vector<Named> those_named(const std::vector<Named>& all, const std::vector<
 
 }  // namespace
 
-std::vector<NamedGenerator> generators_named(const Trial& trial, const std::vector<std::string>& names) {
-  return those_named(trial.generators(), names, "--generator");
-}
-
 std::vector<Trial::Check> checks_named(const Trial& trial, const std::vector<std::string>& names) {
   return those_named(trial.checks(), names, "--oracle");
+}
+
+std::vector<NamedGenerator> generators_named(const Trial& trial, const std::vector<std::string>& names,
+                                             const std::vector<Trial::Check>& checks) {
+  auto chosen = those_named(trial.generators(), names, "--generator");
+  const auto is_idle = [&](const NamedGenerator& g) {
+    return std::none_of(checks.begin(), checks.end(),
+                        [&](const Trial::Check& check) { return trial.looks_at(check.name, g.name); });
+  };
+  const auto idle = std::find_if(chosen.begin(), chosen.end(), is_idle);
+  if (!names.empty() && idle != chosen.end())
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       fmt::format("--generator {}: none of the oracles that are asked for looks at it", idle->name));
+  std::erase_if(chosen, is_idle);
+  return chosen;
 }
 
 Outcome judge_case(const Case& scene, const Trial& trial, const std::vector<Trial::Check>& checks) {
@@ -43,15 +54,23 @@ Outcome judge_case(const Case& scene, const Trial& trial, const std::vector<Tria
   try {
     trial.judge(scene, asked, outcome);
   } catch (const scene::Error& error) {
-    outcome.contradictions.push_back(
-        fmt::format("{} {} of seed {}: {}", scene.generator, scene.index, scene.seed, error.what()));
+    Finding f;
+    f.oracle = "subject";
+    f.verdict = "no-answer/answer";
+    f.where = scene;
+    f.explanation = error.what();
+    outcome.findings.push_back(std::move(f));
   }
   return outcome;
 }
 
 std::optional<Finding> found_again(const Finding& finding, const Case& scene, const Trial& trial) {
   Outcome outcome;
-  trial.judge(scene, {finding.oracle}, outcome);
+  if (finding.oracle == "subject") {  // it gave no answer
+    outcome = judge_case(scene, trial, trial.checks());
+  } else {
+    trial.judge(scene, {finding.oracle}, outcome);
+  }
   for (Finding& f : outcome.findings) {
     if (f.oracle == finding.oracle && f.verdict == finding.verdict) return std::move(f);
   }

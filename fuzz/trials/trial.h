@@ -1,7 +1,8 @@
-// What is tested though it answers no scene and cell: hierarchies of surfaces (D31-D34), motion bounds (D28-D30). A trial has cases of its own, and checks in place of
+// What is tested though it answers no scene and cell: hierarchies of surfaces (D31-D34), motion bounds (D28-D30), transitions (D24). A trial has cases of its own, and checks in place of
 // oracles; campaigns, findings, shards and replays are those of visibility.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,18 +24,25 @@ class Trial {
   virtual const char* what() const = 0;  // one line for --help
   virtual const std::vector<NamedGenerator>& generators() const = 0;
   virtual const std::vector<Check>& checks() const = 0;
+  // Whether the check looks at the cases of this generator.
+  virtual bool looks_at(const std::string& /*check*/, const std::string& /*generator*/) const { return true; }
   // Whether a case is all in its mesh, so that it can be shrunk; else its name makes it again.
   virtual bool is_a_mesh(const Case& scene) const = 0;
-  // Makes those of the checks that are asked for. At most one finding of each. What it throws is a contradiction.
+  // Makes those of the checks that are asked for. At most one finding of each. Throws scene::Error where a kernel does.
   virtual void judge(const Case& scene, const std::vector<std::string>& asked, Outcome& outcome) const = 0;
 };
 
-// Those with these names, in the trial's order; all without a name. Throws scene::Error bad_argument.
-std::vector<NamedGenerator> generators_named(const Trial& trial, const std::vector<std::string>& names);
-std::vector<Trial::Check> checks_named(const Trial& trial, const std::vector<std::string>& names);
+// The subjects that are trials, as make_subject() knows them.
+inline constexpr std::array trial_names{"maps", "motion", "deltas"};
 
+// Checks with these names, in the trial's order; all without a name. Generators likewise, of those that one of the checks looks at. Throw scene::Error bad_argument.
+std::vector<Trial::Check> checks_named(const Trial& trial, const std::vector<std::string>& names);
+std::vector<NamedGenerator> generators_named(const Trial& trial, const std::vector<std::string>& names,
+                                             const std::vector<Trial::Check>& checks);
+
+// What a kernel throws is a finding: it gave no answer.
 Outcome judge_case(const Case& scene, const Trial& trial, const std::vector<Trial::Check>& checks);
-// What the check of a finding finds in this scene; none: nothing, or the scene is none that the trial takes.
+// What the check of a finding finds in this scene. Throws scene::Error where a kernel does, unless that is the finding.
 std::optional<Finding> found_again(const Finding& finding, const Case& scene, const Trial& trial);
 
 // One of those checks: what is wrong is empty where nothing is.

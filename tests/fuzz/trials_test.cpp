@@ -78,7 +78,6 @@ TEST(Trials, AWrongHierarchyIsFoundShrunkAndFoundAgain) {
   ASSERT_TRUE(found.folder);
   const auto saved = load_finding(folder.path() / *found.folder);
   EXPECT_LT(saved.finding.where.mesh.triangles.size(), saved.original.where.mesh.triangles.size());
-  EXPECT_TRUE(saved.finding.where.cell.empty());
   EXPECT_EQ(flaw_of(saved.finding, *wrong), "");
   EXPECT_NE(flaw_of(saved.finding, *make_subject("maps")), "") << "ours has no such flaw";
 }
@@ -130,6 +129,34 @@ TEST(Trials, AWrongTransitionIsFoundAndShrunk) {
   EXPECT_EQ(saved.finding.oracle, "transition-judged");
   EXPECT_LE(saved.finding.where.mesh.triangles.size(), 2U);
   EXPECT_EQ(flaw_of(saved.finding, *wrong), "");
+}
+
+TEST(Trials, AKernelThatEndsInAnErrorIsAFinding) {
+  const scene::TemporaryFolder folder;
+  const auto wrong = subject_of("maps", make_maps_trial([](const auto&, const auto&, auto) -> scene::Hierarchy {
+                                  throw scene::Error(scene::ErrorCode::internal, "the fast path is lost");
+                                }));
+  const auto summary = campaign(*wrong, 3, folder.path());
+  ASSERT_EQ(summary.exit_code(), 1) << to_text(summary, folder.path());
+  EXPECT_EQ(summary.findings.front().finding.signature(), "subject no-answer/answer surfaces");
+  const auto saved = load_finding(folder.path() / summary.findings.front().folder.value());
+  EXPECT_EQ(saved.steps, 0U) << "a smaller surface may be none, and rightly refused";
+  EXPECT_EQ(flaw_of(saved.finding, *wrong), "");
+  EXPECT_NE(flaw_of(saved.finding, *make_subject("maps")), "");
+}
+
+TEST(Trials, WhatNoOracleLooksAtIsNotMade) {
+  const scene::TemporaryFolder folder;
+  CampaignOptions options;
+  options.cases = 8;
+  options.out = folder.path();
+  options.oracles = {"frames-hold"};
+  options.require_coverage = true;
+  const auto summary = run_campaign(options, *make_subject("motion"));
+  EXPECT_EQ(summary.counters.at("cases of walks"), 8U);
+  EXPECT_EQ(summary.exit_code(), 0) << to_text(summary, folder.path());
+  options.generators = {"bounds_wall"};
+  EXPECT_THROW(run_campaign(options, *make_subject("motion")), scene::Error);
 }
 
 TEST(Trials, TakeOnlyTheirOwnNames) {

@@ -447,7 +447,7 @@ def umbra(s: Scene, u: Json, o: Opinion, listed: list[int] | None) -> None:
         found.examine(f"triangle {t}", "hidden triangles", check_enclosed, s, facets, t)
     if listed is None: o.confirmed += found.confirmed
 NO_SIGHT_LINE = ("answer/other-answer", "label/other-label", "hidden/first-order-visible", "visible/first-order-hidden",
-                 "hidden/seen-through", "no-answer/answer", "crash/answer", "no-end/answer")
+                 "hidden/seen-through", "no-answer/answer", "crash/answer", "no-end/answer", "promise/broken")
 def finding(folder: pathlib.Path, o: Opinion) -> None:
     about = load(folder / "finding.json", "clues-finding/2")
     said, text = about.pop("checksum"), json.dumps(about, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
