@@ -65,8 +65,8 @@ function(clues_chapters name)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${chapter}_${part})
   endforeach()
   set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # To GCC a class of a source that is included looks like one of a header; and a name of another source is none that is shadowed.
-  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage> -Wno-shadow)
+  # To GCC a class of a source that is included looks like one of a header.
+  target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # What `clues demo` needs, as folders and single sources: a quarter of all. Each library keeps the objects of these in a target of its
