@@ -40,8 +40,8 @@ class Sources {
     std::uint64_t seed = 0xa7;
     Walk walk;
     bool lit = false;
-    bool doubtful = false;   // lit by a last leg alone that is in doubt (walker.h), in the round that ended last
     bool separates = false;  // its wedges do nothing else (T10): in doubt it is lit, and nothing is lost by it
+    bool doubtful = false;   // lit by a last leg alone that is in doubt (walker.h), in the round that ended last
   };
 
   // Keeps references, but for `is_vertex`: which points are vertices of the surface (surface_vertices.h). `pieces` must be empty until the

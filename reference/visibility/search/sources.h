@@ -37,8 +37,8 @@ struct VertexSource {
   Probe probe;
   Walk walk;
   bool lit = false;
-  bool doubtful = false;   // lit by a last leg alone that is in doubt (walk.h), in the round that ended last
   bool separates = false;  // its wedges do nothing else (T10): in doubt it is lit, and nothing is lost by it
+  bool doubtful = false;   // lit by a last leg alone that is in doubt (walk.h), in the round that ended last
 };
 
 inline Start start_of(const Source& s, const std::vector<ContourEdge>& contours) {
