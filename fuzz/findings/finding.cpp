@@ -92,6 +92,15 @@ bool is_about_the_answer(const std::string& verdict) {
 
 }  // namespace
 
+Finding without_answer(const Case& scene, const std::string& why) {
+  Finding f;
+  f.oracle = "subject";
+  f.verdict = "no-answer/answer";
+  f.where = scene;
+  f.explanation = why;
+  return f;
+}
+
 void require_whole(const Finding& f, const std::string& place) {
   const auto require = [&](bool holds, const std::string& what) {
     if (!holds)

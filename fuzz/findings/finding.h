@@ -45,6 +45,9 @@ struct Finding {
   std::string signature() const { return oracle + " " + verdict + " " + where.generator; }
 };
 
+// That the subject did not answer.
+Finding without_answer(const Case& scene, const std::string& why);
+
 // The verdict of the checks of a trial: something was promised and does not hold.
 inline constexpr const char* broken_promise = "promise/broken";
 

@@ -84,9 +84,6 @@ std::vector<const Oracle*> oracles_named(const std::vector<std::string>& names);
 // One case from beginning to end. What an oracle throws is a contradiction.
 Outcome judge_case(const Case& scene, const Subject& subject, const std::vector<const Oracle*>& oracles);
 
-// The finding that the subject did not answer.
-Finding without_answer(const Case& scene, const std::string& why);
-
 // Between text and exact numbers. to_witness throws scene::Error malformed.
 WitnessText to_text(const validate::Witness& witness);
 validate::Witness to_witness(const WitnessText& text);

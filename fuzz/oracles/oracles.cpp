@@ -180,15 +180,6 @@ std::vector<const Oracle*> oracles_named(const std::vector<std::string>& names) 
   return chosen;
 }
 
-Finding without_answer(const Case& scene, const std::string& why) {
-  Finding f;
-  f.oracle = "subject";
-  f.verdict = "no-answer/answer";
-  f.where = scene;
-  f.explanation = why;
-  return f;
-}
-
 Outcome judge_case(const Case& scene, const Subject& subject, const std::vector<const Oracle*>& oracles) {
   Outcome outcome;
   outcome.counters["cases of " + scene.generator] = 1;

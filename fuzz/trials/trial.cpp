@@ -54,12 +54,7 @@ Outcome judge_case(const Case& scene, const Trial& trial, const std::vector<Tria
   try {
     trial.judge(scene, asked, outcome);
   } catch (const scene::Error& error) {
-    Finding f;
-    f.oracle = "subject";
-    f.verdict = "no-answer/answer";
-    f.where = scene;
-    f.explanation = error.what();
-    outcome.findings.push_back(std::move(f));
+    outcome.findings.push_back(without_answer(scene, error.what()));
   }
   return outcome;
 }
