@@ -17,6 +17,7 @@ FirstOrder by_closure(const Bvh& bvh, const std::vector<Point>& cell, const Loca
   const LocalMap& map = closed.map();
   FirstOrder result;
   for (const std::uint32_t t : map.visible()) result.visible.push_back(closed.closure.part[t]);
+  for (const std::uint32_t t : map.in_doubt()) result.in_doubt.push_back(closed.closure.part[t]);
   if (regions) result.regions = map.regions();
   for (LocalRegion& region : result.regions) region.triangle = closed.closure.part[region.triangle];
   result.counts = map.counts();

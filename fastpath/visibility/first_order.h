@@ -18,6 +18,7 @@ struct FirstOrder {
   LocalMapCounts counts;             // of the last map
   ClosureCounts closure;
   std::uint64_t conservative_fallbacks = 0;
+  std::vector<std::uint32_t> in_doubt;  // D17b: visible triangles of which no point is known to be in Omega or in V
 };
 
 // One tree serves many cells at once. The same answer for any number of threads. Solid mode takes the mesh as

@@ -67,6 +67,7 @@ Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Option
   });
   assert(map.statistics.walk_disagreements == 0);  // D14
   find_visible(*scene_, map);
+  find_in_doubt(*scene_, map);
 }
 
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,
@@ -120,6 +121,7 @@ scene::Result to_result(const VisibilityMap& map, const scene::CellSpec& cell, b
   put("csv", s.csv);
   put("degenerate_triangles", map.complex.degenerate.size());
   put("generations", static_cast<std::uint64_t>(s.generations));
+  if (map.method == "first-order") put("in_doubt", map.in_doubt.size());
   put("inside_corners", s.inside_corners);
   put("parallel_edges", s.parallel_edges);
   put("refined_triangles", s.refined_triangles);

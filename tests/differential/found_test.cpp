@@ -50,6 +50,11 @@ TEST(Found, AVertexOnTheRimOfAFlatCell) {
   expect_list("vertex-on-the-rim-of-a-flat-cell.obj", "box:2.5,2,-2,3.5,3,-2", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
 }
 
+// An umbra ends between the edge of triangle 2, which is dark, and the place where the fast path asked. It was lit before the wedge was there that ends it, and triangle 3 with it.
+TEST(Found, AnUmbraThatEndsBesideAnEdge) {
+  expect_list("an-umbra-that-ends-beside-an-edge.obj", "box:-1,-1,-2,1,1,-1", {0, 1});
+}
+
 TEST(Found, CurtainsThatStandOnAFlatCell) {
   expect_list("curtains-that-stand-on-a-flat-cell.off", "box:0,-1,0,1,1,0", {0, 1});
 }

@@ -1,4 +1,4 @@
-// D14: the last leg of a walk that comes out of a groove or a corner is no part of a sight line. It may leave the beam again that it comes into.
+// D14: the last leg of a walk that comes out of a groove or a corner is no part of a sight line, nor is the way from a place beside a surface. They may leave the beam again that they come into.
 #include <gtest/gtest.h>
 
 #include "fastpath/visibility/labels/walker.h"
@@ -61,6 +61,18 @@ TEST_F(LastLegFast, EndsInABeam) {
 
 TEST_F(LastLegFast, ThatLeavesABeamAgainIsInDoubt) {
   EXPECT_EQ(out_of_the_dark({-5, 0.25, 1}, {5, 0.125, 1}), std::pair(Crossing::yes, true));
+}
+
+// A walk goes on from a place beside a surface. If a piece that came later divides that from the point before, what follows says nothing about the start.
+TEST_F(LastLegFast, APlaceInABeamSaysNothingOfAPointBeside) {
+  const ExactPoint p(Point{5, 0.125, 1}), m(Point{6, 0.125, 1});
+  const ExactPoint in_the_dark(Point{5.5, 0.125, 1}), in_the_beam(Point{0.375, 0.125, 1});
+  Walk walk;
+  walk.end = Walk::End::cell;
+  walk.legs.push_back({&m, &p, &in_the_dark, 0, 1, false, false});
+  EXPECT_EQ(search_->walker().visible(walk, 0), Crossing::yes);
+  walk.legs[0].next = &in_the_beam;
+  EXPECT_EQ(search_->walker().visible(walk, 0), Crossing::touch);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::int64_t kLongestWalk = 48;  // legs
 constexpr int kAttempts = 40;              // sight lines in special position in a row
+constexpr std::size_t kLegsInGroove = 4;   // before it is taken for one
 
 std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
   x += 0x9e3779b97f4a7c15ULL;
@@ -89,7 +90,7 @@ const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::
   return nullptr;
 }
 
-Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
+Walk Walker::walk(const ExactPoint* p, Pool& pool, const Manner& manner) const {
   Walk walk;
   if (scene_->cell.contains(*p)) {
     walk.end = Walk::End::cell;
@@ -97,7 +98,7 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
   }
   std::optional<Surface> on, before;
   for (std::int64_t depth = 0; depth < longest_; ++depth) {
-    if (corner_leg(walk)) {
+    if (walk.legs.size() >= manner.least && corner_leg(walk)) {
       walk.end = Walk::End::surface;
       return walk;
     }
@@ -106,7 +107,7 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
     if (before) {
       const Both how = in_front_of_both(*on, *before, std::nullopt);
       both = how == Both::meet;
-      if (!both && walk.legs.size() >= 4) {  // by now it may be a groove
+      if (!both && walk.legs.size() >= std::max(manner.least, kLegsInGroove)) {  // by now it may be one
         if (groove_leg(walk, *on, *before, how, pool)) {
           walk.end = Walk::End::surface;
           return walk;
@@ -126,7 +127,7 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
     }
     bool found = false;
     for (int attempt = 0; attempt < kAttempts && !found; ++attempt) {
-      const std::uint64_t number = mix(seed * 1000003 + static_cast<std::uint64_t>(depth * 1009 + attempt));
+      const std::uint64_t number = mix(manner.seed * 1000003 + static_cast<std::uint64_t>(depth * 1009 + attempt));
       const ExactPoint* v = viewpoint(number);
       if (on) {
         v = both ? in_front(*on, &*before, number, pool) : attempt == 0 ? along : nullptr;
@@ -154,10 +155,13 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const {
         return walk;
       }
       if (crossed == Crossing::touch) continue;
-      const auto next = near_enough(*m, *p, [&](const ExactPoint& x) {
-        return h.side(x) == side && !scene_->may_meet(x, *p) && !scene_->is_on_surface(x) &&
-               !pieces_->may_meet(x, *p, 0, kNothing);
-      });
+      int level = manner.near;
+      const auto next = near_enough(
+          level, kPointNearLevels, [&](int at) { return point_near(*m, *p, at); },
+          [&](const ExactPoint& x) {
+            return h.side(x) == side && !scene_->may_meet(x, *p) && !scene_->is_on_surface(x) &&
+                   !pieces_->may_meet(x, *p, 0, kNothing);
+          });
       found = next.has_value();
       if (found) walk.legs.push_back({m, p, pool.keep(*next), *last.piece, side, false});
     }
@@ -187,16 +191,16 @@ Crossing Walker::leg_crossed(const Leg& leg, std::size_t first) const {
 }
 
 Crossing Walker::visible(const Walk& walk, std::size_t first) const {
-  if (walk.end != Walk::End::surface) return Crossing::yes;
+  if (walk.end == Walk::End::unresolved) return Crossing::yes;
   Crossing result = Crossing::no;
   for (const Leg& leg : walk.legs) {
-    if (!leg.is_sight_line()) break;
+    if (!leg.is_sight_line()) return result;
     const Crossing c = leg_crossed(leg, first);
     if (c == Crossing::yes) return c;
     if (c == Crossing::touch) result = c;
-    if (leg.next && pieces_->may_meet(*leg.next, *leg.p, first, kNothing)) result = Crossing::touch;
+    if (leg.next && pieces_->may_meet(*leg.next, *leg.p, first, kNothing)) return Crossing::touch;
   }
-  return result;
+  return walk.end == Walk::End::surface ? result : Crossing::yes;
 }
 
 Crossing Walker::visible_by_last_leg(const Walk& walk, std::size_t first) const {
@@ -209,7 +213,7 @@ bool Walker::last_leg_is_in_doubt(const Walk& walk) const {
 
 Walker::Label Walker::label(const ExactPoint* p, const LeftOut& left_out, Pool& pool, std::uint64_t seed) const {
   for (std::uint64_t attempt = 0; attempt < 12; ++attempt) {
-    const Walk made = walk(p, pool, seed + attempt * 7919);
+    const Walk made = walk(p, pool, {seed + attempt * 7919});
     if (made.end == Walk::End::unresolved) continue;
     const Crossing c = visible(made, 0);
     if (c == Crossing::yes) return Label::visible;

@@ -49,11 +49,17 @@ class Walker {
 
   enum class Label : std::uint8_t { hidden, visible, unresolved };
 
-  // Points of the walk are kept in `pool`. Another seed, other sight lines. Deterministic.
-  Walk walk(const ExactPoint* p, Pool& pool, std::uint64_t seed) const;
+  struct Manner {
+    std::uint64_t seed = 0;  // another seed, other sight lines
+    int near = 0;            // level of nearness from which on points beside surfaces are looked for
+    std::size_t least = 0;   // legs along sight lines before the walk may end with one that comes out of the dark
+  };
+  // Points of the walk are kept in `pool`. Deterministic.
+  Walk walk(const ExactPoint* p, Pool& pool, const Manner& manner) const;
   // Whether the pieces from number `first` on cross a leg from H+ to H-; touch: some coincidence.
   Crossing leg_crossed(const Leg& leg, std::size_t first) const;
-  // Whether the start of a walk is visible by the pieces from number `first` on, as far as sight lines tell; touch: make another walk.
+  // Whether the start of a walk is visible by the pieces from number `first` on, as far as sight lines tell; touch: make another walk. Where a piece divides a point of the walk from the
+  // one before, what the walk comes to after that says nothing.
   Crossing visible(const Walk& walk, std::size_t first) const;
   // The same by a last leg that comes out of the dark. A sight line that comes into a beam stays in it, as V is on H+ of every wedge; this leg may leave it again.
   // Then a piece is crossed from H- to H+, and it is in doubt whether the start is visible.
@@ -98,7 +104,7 @@ class Walker {
   // Whether something stands between a place where walls meet and q, or may; without the pieces that `skip` says.
   template <class Skip>
   bool is_blocked(const ExactPoint& y, const ExactPoint& q, const Skip& skip) const;
-  // Each adds the last leg of a walk that has none, if it can; groove_leg() to four legs or more.
+  // Each adds the last leg of a walk that has none, if it can.
   bool corner_leg(Walk& walk) const;
   bool groove_leg(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
   bool leg_from_edge(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;

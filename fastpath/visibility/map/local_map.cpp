@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <optional>
 
 #include "fastpath/visibility/labels/one_label.h"
@@ -86,6 +87,19 @@ class LocalMap::Parts {
     counts.exact_decisions = exact_decisions() - before;
   }
 
+  // Found when it is first asked for: most maps, of passes and of parts, never are.
+  const std::vector<std::uint32_t>& in_doubt() const {
+    std::call_once(looked_for_doubt, [&] {
+      if (counts.conservative_fallbacks == 0) return;
+      const RoundedUp rounded_up;
+      const PieceSet known = search.find_known();
+      const Walker by_known(scene, known);
+      const Sides sides(scene, search.pieces(), *one_label, options.mode, wanted);
+      found_in_doubt = sides.in_doubt_of(visible, by_known, known, workers);
+    });
+    return found_in_doubt;
+  }
+
   WedgePiece estimated(ValidPiece p) const {
     set_box(p, bounds);
     WedgePiece out;
@@ -105,14 +119,17 @@ class LocalMap::Parts {
   LocalScene scene;
   const std::vector<bool> wanted;  // by triangle
   IntervalBox bounds;              // of scene and cell, and of what the caller asks about
-  Workers workers;
+  mutable Workers workers;
   IntervalBox bounds_asked;
-  Search search;
+  mutable Search search;  // but for what is known all that is asked of it stays
   std::vector<std::uint32_t> visible, lit;
   std::optional<OneLabel> one_label;
   std::uint64_t labels_of_sides = 0;  // that are visible because nothing is known
 
  private:
+  mutable std::once_flag looked_for_doubt;
+  mutable std::vector<std::uint32_t> found_in_doubt;
+
   // Where the ray from the centre through r crosses the near edge.
   static Point near_end(const ValidPiece& p, const Point& r) {
     const Point c = p.on->center->estimate(), a = p.near0->estimate(), b = p.near1->estimate();
@@ -169,6 +186,7 @@ std::vector<WedgePiece> LocalMap::pieces() const {
   return out;
 }
 const std::vector<std::uint32_t>& LocalMap::lit() const { return parts_->lit; }
+const std::vector<std::uint32_t>& LocalMap::in_doubt() const { return parts_->in_doubt(); }
 const LocalMapCounts& LocalMap::counts() const { return parts_->counts; }
 std::uint64_t LocalMap::conservative_labels() const {
   return parts_->one_label->unresolved() - parts_->labels_of_sides;

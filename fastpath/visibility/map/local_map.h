@@ -49,6 +49,8 @@ class LocalMap {
   const std::vector<std::uint32_t>& visible() const;
   // Those that light meets on either side: in solid mode they may be more.
   const std::vector<std::uint32_t>& lit() const;
+  // D17b: those of the visible ones of which no point is known to be in Omega or in V; none without a fallback. Found when first asked for.
+  const std::vector<std::uint32_t>& in_doubt() const;
   // The valid pieces in order of their making, which is the same in every run; made anew at each call.
   std::vector<WedgePiece> pieces() const;
   // The regions of all sides that count, made anew at each call. O(k^2) labels for k pieces that cross a triangle.

@@ -10,13 +10,29 @@
 namespace clues::fastpath {
 namespace {
 
+using CornerPoints = std::array<const ExactPoint*, 3>;
+
+CornerPoints corners_of(const LocalScene& scene, std::uint32_t t) {
+  return {&scene.corner(t, 0), &scene.corner(t, 1), &scene.corner(t, 2)};
+}
+
+// Sums of 1.
+constexpr std::array<std::array<double, 3>, 4> kWeights{{{0.3671875, 0.3359375, 0.296875},
+                                                         {0.203125, 0.484375, 0.3125},
+                                                         {0.28125, 0.1875, 0.53125},
+                                                         {0.5625, 0.25, 0.1875}}};
+
+Exact3 inner_point(const CornerPoints& corners, const std::array<double, 3>& weights) {
+  return Rational(weights[0]) * corners[0]->exact() + Rational(weights[1]) * corners[1]->exact() +
+         Rational(weights[2]) * corners[2]->exact();
+}
+
 // Places beside a point of the inside of a piece, nearer and nearer: first with double coordinates, then exactly.
 class PlacesBeside {
  public:
   static constexpr int kDoubles = 3, kLevels = 2 * kDoubles;
 
-  PlacesBeside(const LocalScene& scene, std::uint32_t t)
-      : plane_(scene.planes[t]), corners_{&scene.corner(t, 0), &scene.corner(t, 1), &scene.corner(t, 2)} {
+  PlacesBeside(const LocalScene& scene, std::uint32_t t) : plane_(scene.planes[t]), corners_(corners_of(scene, t)) {
     const Vec3<Interval>& n = plane_.normal_approximate();
     up_ = {n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
     up_size_ = length_estimate(up_);
@@ -30,7 +46,7 @@ class PlacesBeside {
   // In front (way = 1) of the point with these weights, or behind it (-1).
   ExactPoint place(const std::array<double, 3>& weights, int way, int level) const {
     if (level >= kDoubles)
-      return ExactPoint::lifted(ExactPoint(inner_point(weights)), *corners_[0],
+      return ExactPoint::lifted(ExactPoint(inner_point(corners_, weights)), *corners_[0],
                                 std::ldexp(1.0, -24 * (level - kDoubles + 1)), plane_, way);
     const double step = std::ldexp(extent_, -4 - 8 * level) * way;
     Point x;
@@ -40,13 +56,8 @@ class PlacesBeside {
   }
 
  private:
-  Exact3 inner_point(const std::array<double, 3>& w) const {
-    return Rational(w[0]) * corners_[0]->exact() + Rational(w[1]) * corners_[1]->exact() +
-           Rational(w[2]) * corners_[2]->exact();
-  }
-
   const Plane& plane_;
-  std::array<const ExactPoint*, 3> corners_;
+  CornerPoints corners_;
   std::array<Point, 3> at_{};  // estimates
   Point up_{};
   double up_size_ = 0, extent_ = 0;
@@ -57,6 +68,7 @@ class PlacesBeside {
 void Sides::find_visible(Workers& workers) {
   Cuts cut(scene_.pieces.size());
   for (const ValidPiece& piece : pieces_.pieces()) mark_traces(piece, cut);
+  // A piece of several triangles is looked at once, for all of them.
   std::vector<std::vector<std::uint32_t>> pieces_of(scene_.triangles);
   for (std::uint32_t t = 0; t < scene_.pieces.size(); ++t)
     pieces_of[scene_.pieces[t].origins.front().triangle].push_back(t);
@@ -73,6 +85,66 @@ void Sides::find_visible(Workers& workers) {
     if (seen[t] && wanted_[t]) visible.push_back(t);
     if (met[t] && wanted_[t]) lit.push_back(t);
   }
+}
+
+std::vector<std::uint32_t> Sides::in_doubt_of(const std::vector<std::uint32_t>& listed, const Walker& by_known,
+                                              const PieceSet& known, Workers& workers) const {
+  Cuts cut(scene_.pieces.size());
+  for (const ValidPiece& piece : known.pieces()) mark_traces(piece, cut);
+  std::vector<std::vector<std::uint32_t>> pieces_of(scene_.triangles);
+  for (std::uint32_t t = 0; t < scene_.pieces.size(); ++t) {
+    for (const LocalOrigin& o : scene_.pieces[t].origins) pieces_of[o.triangle].push_back(t);
+  }
+  const auto shows = [&](std::uint32_t t, std::uint32_t triangle) {
+    const LocalPiece& piece = scene_.pieces[t];
+    if (piece.meets_cell) return true;
+    return std::any_of(piece.origins.begin(), piece.origins.end(), [&](const LocalOrigin& o) {
+      if (o.triangle != triangle) return false;
+      for (const bool front : {true, false}) {
+        if (!counts_for(mode_, o, front)) continue;
+        if (piece.in_cell) return true;
+        if (faces_cell(t, front) && (cut[t][front ? 0 : 1].lit || is_known(t, front, by_known))) return true;
+      }
+      return false;
+    });
+  };
+  std::vector<char> shown(listed.size(), 0);
+  workers.for_each(listed.size(), [&](std::size_t i, Workers::Worker&) {
+    const auto& pieces = pieces_of[listed[i]];
+    shown[i] = std::any_of(pieces.begin(), pieces.end(), [&](std::uint32_t t) { return shows(t, listed[i]); }) ? 1 : 0;
+  });
+  std::vector<std::uint32_t> in_doubt;
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    if (shown[i] == 0) in_doubt.push_back(listed[i]);
+  }
+  return in_doubt;
+}
+
+// A side that no point of V is strictly in front of is reached by no sight line and no continuation (D8).
+bool Sides::faces_cell(std::uint32_t t, bool front) const {
+  const auto& s = scene_.cell.vertices;
+  const int side = front ? 1 : -1;
+  return std::any_of(s.begin(), s.end(), [&](const ExactPoint& v) { return scene_.planes[t].side(v) == side; });
+}
+
+// Whether a sight line that is free, or comes through one of the pieces that are known into their light, ends inside a piece.
+bool Sides::is_known(std::uint32_t t, bool front, const Walker& by_known) const {
+  constexpr std::uint64_t kViewpoints = 8;
+  for (const std::array<double, 3>& w : kWeights) {
+    const ExactPoint q(inner_point(corners_of(scene_, t), w));
+    for (std::uint64_t i = 0; i < kViewpoints; ++i) {
+      const ExactPoint& v = *by_known.viewpoint(i);
+      if (scene_.planes[t].side(v) != (front ? 1 : -1)) continue;
+      const LocalScene::Last last = scene_.last_crossing(v, q);
+      if (last.degenerate) continue;
+      if (!last.piece) return true;
+      const Plane& h = scene_.planes[*last.piece];
+      const ExactPoint m = ExactPoint::on_plane(v, q, h);
+      if (by_known.leg_crossed({&m, &q, nullptr, *last.piece, h.side(q), false, false}, 0) == Crossing::yes)
+        return true;
+    }
+  }
+  return false;
 }
 
 // By these pieces, one after the other, until nothing more can be learnt from them.
@@ -131,10 +203,7 @@ void Sides::mark_traces(const ValidPiece& piece, Cuts& cut) const {
 
 bool Sides::is_visible(std::uint32_t t, bool front, const Cut& cut) {
   const int side = front ? 1 : -1;
-  // A side that no point of V is strictly in front of is reached by no sight line and no continuation (D8).
-  const auto& s = scene_.cell.vertices;
-  if (std::none_of(s.begin(), s.end(), [&](const ExactPoint& v) { return scene_.planes[t].side(v) == side; }))
-    return false;
+  if (!faces_cell(t, front)) return false;
   if (cut.lit) return true;
   if (cut.planes.empty()) return whole_side_visible(t, side);
   const std::vector<std::vector<Exact3>> parts = parts_between(t, cut.planes);
@@ -162,10 +231,6 @@ bool Sides::whole_side_visible(std::uint32_t t, int side) {
     return wedge.side(scene_.corner(t, 0)) == 0 && wedge.side(scene_.corner(t, 1)) == 0 &&
            wedge.side(scene_.corner(t, 2)) == 0;
   };
-  constexpr std::array<std::array<double, 3>, 4> kWeights{{{0.3671875, 0.3359375, 0.296875},
-                                                           {0.203125, 0.484375, 0.3125},
-                                                           {0.28125, 0.1875, 0.53125},
-                                                           {0.5625, 0.25, 0.1875}}};
   const PlacesBeside places(scene_, t);
   for (const std::array<double, 3>& w : kWeights) {
     int level = places.first_level();

@@ -24,12 +24,6 @@ std::optional<ExactPoint> near_enough(int levels, const Place& place, const Good
   return near_enough(level, levels, place, good);
 }
 
-// From x on the way to another, as point_near() places it.
-inline constexpr int kPointNearLevels = 7;
-template <class Good>
-std::optional<ExactPoint> near_enough(const ExactPoint& x, const ExactPoint& to, const Good& good) {
-  return near_enough(
-      kPointNearLevels, [&](int level) { return point_near(x, to, level); }, good);
-}
+inline constexpr int kPointNearLevels = 7;  // that point_near() has
 
 }  // namespace clues::fastpath

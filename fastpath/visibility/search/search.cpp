@@ -67,16 +67,15 @@ class Search::Work {
     counts.sources = std::max<std::uint64_t>(counts.sources, sources.of_edges().size());
     new_cuts.assign(scene.edges.size(), {});
     too_intricate.clear();
-    in_doubt = false;
+    light_of = Sources::Light::sure;
     spread();
-    in_doubt = true;
+    light_of = Sources::Light::in_doubt;
     spread();
-    sources.note_doubt();
+    bool changed = sources.ask_nearer();
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     std::vector<ValidPiece> merged = build(merged_jobs());
     cut_coplanar(merged);
 
-    bool changed = false;
     for (std::uint32_t e = 0; e < cuts.size(); ++e) {
       if (!is_contour[e]) continue;
       for (const ExactPoint* p : new_cuts[e]) changed |= insert_cut(e, p);
@@ -84,6 +83,18 @@ class Search::Work {
     set.clear();
     if (!changed) set.add(std::move(merged));
     return changed;
+  }
+
+  // D17b.
+  PieceSet find_known() {
+    PieceSet all = std::exchange(set, {});
+    contacts.start_round();
+    sources.start_known(left_out);
+    csvs_met.clear();
+    too_intricate.clear();
+    light_of = Sources::Light::known;
+    spread();
+    return std::exchange(set, std::move(all));
   }
 
   // Lights what is visible, and all that follows from it. In doubt: also what counts as visible.
@@ -125,13 +136,16 @@ class Search::Work {
     return true;
   }
 
+  // What is lit now is lit because something counts as visible.
+  bool in_doubt() const { return light_of == Sources::Light::in_doubt; }
+
   // --- lighting -----------------------------------------------------------------------------------------------------------------
 
   // The wedges that sources make which the pieces from number `first` on light: their own (D10, D11), and those at the contour vertices they light (D12).
   std::vector<Job> light(std::size_t first) {
-    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first, in_doubt);
+    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first, light_of);
     const auto is_doubtful = [this](const auto& source) {
-      return in_doubt || source.walk.end == Walk::End::unresolved;
+      return in_doubt() || source.walk.end == Walk::End::unresolved;
     };
     for (const std::size_t i : newly_lit_vertices) {
       const Sources::OfVertex& v = sources.of_vertices()[i];
@@ -159,7 +173,8 @@ class Search::Work {
     const bool too_many = csvs_met.size() > dials.csv_limit + dials.csv_limit_per_edge * scene.edges.size();
     std::erase_if(lit, [&](const Contact* c) {
       const bool out = c->generation > dials.generation_limit || (too_many && c->on_edge);
-      if (out && left_out_contacts.insert(c).second) left_out.add(LeftOut::around(*c->apex));
+      if (out && light_of != Sources::Light::known && left_out_contacts.insert(c).second)
+        left_out.add(LeftOut::around(*c->apex));
       return out;
     });
     contacts.find_sectors(lit);
@@ -168,7 +183,7 @@ class Search::Work {
         std::stable_partition(lit.begin(), lit.end(), [](const Contact* c) { return !c->has_all_sectors; });
     too_intricate.insert(too_intricate.end(), known, lit.end());
     lit.erase(known, lit.end());
-    if (in_doubt) {
+    if (in_doubt()) {
       std::copy_if(too_intricate.begin(), too_intricate.end(), std::back_inserter(lit),
                    [&](const Contact* c) { return !left_out_contacts.contains(c); });
     }
@@ -193,7 +208,7 @@ class Search::Work {
         const std::size_t c = parts[i].contour;
         const bool unproved =
             std::any_of(parts.begin() + static_cast<std::ptrdiff_t>(i), parts.begin() + static_cast<std::ptrdiff_t>(j),
-                        [](const Sources::OfEdge& s) { return s.doubtful || s.walk.end == Walk::End::unresolved; });
+                        [](const Sources::OfEdge& s) { return s.walk.end == Walk::End::unresolved; });
         for (int k = 0; k < static_cast<int>(contours[c].touching.size()); ++k)
           jobs.push_back({c, k, parts[i].part.lo, parts[j - 1].part.hi, nullptr, 0, unproved});
       }
@@ -326,7 +341,7 @@ class Search::Work {
   void meet(const ValidPiece& piece, const Meeting& m, bool after, bool before) {
     const OnWedge& on = *piece.on;
     Contact* c = m.at_vertex ? contacts.corner(m.id) : contacts.csv(m.at);
-    Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr, in_doubt};
+    Probe probe{Probe::Kind::csv, on.center, on.apex, on.plane, 0, nullptr, in_doubt()};
     if (!m.at_vertex) {
       new_cuts[m.id].push_back(c->x);
       const int generation = piece.generation + 1;
@@ -417,8 +432,8 @@ class Search::Work {
   Sources sources;
   std::vector<std::vector<std::unique_ptr<OnWedge>>> edge_wedges;  // per contour edge and touching vertex
   std::vector<bool> is_contour;
-  bool in_doubt = false;                // what is lit now is lit because something counts as visible
-  std::vector<Contact*> too_intricate;  // lit in this round
+  Sources::Light light_of = Sources::Light::sure;              // that spreads now
+  std::vector<Contact*> too_intricate;                         // lit in this round
   std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
   std::map<std::tuple<const OnWedge*, const ExactPoint*, std::uint32_t>, const ExactPoint*> coplanar_cuts;
   std::set<const Contact*> csvs_met;  // in this round
@@ -436,6 +451,7 @@ void Search::run() {
   work_->run();
 }
 const PieceSet& Search::pieces() const { return work_->set; }
+PieceSet Search::find_known() { return work_->find_known(); }
 const Walker& Search::walker() const { return work_->walker; }
 const LeftOut& Search::left_out() const { return work_->left_out; }
 

@@ -90,7 +90,7 @@ void Sources::place(OfVertex& s, Pool& pool) {
   }
   s.beside = beside ? pool.keep(*beside) : s.view;
   if (beside) {
-    s.walk = walk(s.beside, s.seed, pool);
+    walk_from_place(s, pool);
   } else {
     s.walk = Walk{};
     s.walk.end = Walk::End::unresolved;
@@ -106,9 +106,10 @@ Sources::OfVertex Sources::unresolved(std::uint32_t v, const ExactPoint& view, P
   return s;
 }
 
-Walk Sources::walk(const ExactPoint* p, std::uint64_t seed, Pool& pool) {
+template <class Source>
+void Sources::walk_from_place(Source& s, Pool& pool) {
   ++walks_;
-  return walker_.walk(p, pool, seed);
+  s.walk = walker_.walk(s.beside, pool, {s.seed, s.near, s.least});
 }
 
 void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cuts) {
@@ -133,12 +134,12 @@ void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cut
   const std::size_t edges = of_edges_.size();
   workers_.for_each(edges + of_vertices_.size(), [&](std::size_t i, Workers::Worker& worker) {
     const auto walk_again = [&](auto& s) {
-      if (s.walk.end == Walk::End::crossed) s.walk = walk(s.beside, s.seed, worker.pool);
+      if (s.walk.end == Walk::End::crossed) walk_from_place(s, worker.pool);
     };
     if (i >= edges) return walk_again(of_vertices_[i - edges]);
     OfEdge& s = of_edges_[i];
-    if (s.part.y) return walk_again(s);
-    s.part.y = worker.pool.keep(ExactPoint::between(*s.part.lo, *s.part.hi, 0.4716796875));
+    if (s.part.y && s.beside) return walk_again(s);
+    if (!s.part.y) s.part.y = worker.pool.keep(ExactPoint::between(*s.part.lo, *s.part.hi, 0.4716796875));
     place(s, worker.pool);
   });
 }
@@ -148,55 +149,65 @@ void Sources::place(OfEdge& s, Pool& pool) {
   const std::optional<ExactPoint> beside = beside_edge(scene_, pieces_, contours_[s.contour], s.part, s.level);
   s.beside = beside ? pool.keep(*beside) : nullptr;
   if (beside) {
-    s.walk = walk(s.beside, s.seed, pool);
+    walk_from_place(s, pool);
   } else {
     s.walk = Walk{};
     s.walk.end = Walk::End::unresolved;
   }
 }
 
-Crossing Sources::label_of(const Walk& walk, std::size_t first) const {
-  const Crossing label = walker_.visible(walk, first);
-  if (label == Crossing::yes) return label;
-  const Crossing last = walker_.visible_by_last_leg(walk, first);
-  return last == Crossing::no ? label : last;
+template <class Source>
+bool Sources::newly_visible_by_walk(Source& s, std::size_t first, Pool& pool) {
+  constexpr int kRetries = 12;
+  constexpr std::size_t kLeast = 8, kMost = 32;
+  for (int i = 0;; ++i) {
+    const Crossing c = walker_.visible(s.walk, first);
+    if (c == Crossing::yes) return true;
+    const bool by_last_leg = c == Crossing::no && walker_.visible_by_last_leg(s.walk, first) != Crossing::no;
+    if (c == Crossing::no && !by_last_leg) return false;
+    if (i == kRetries || (by_last_leg && s.least == kMost)) break;
+    if (by_last_leg) s.least = std::max(kLeast, 2 * s.least);
+    ++s.seed;
+    walk_from_place(s, pool);
+    first = 0;
+  }
+  s.walk.end = Walk::End::unresolved;
+  return true;
 }
 
-bool Sources::newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first, Pool& pool) {
-  constexpr int kRetries = 12;
-  Crossing c = label_of(w, first);
-  for (int i = 0; c == Crossing::touch && i < kRetries; ++i) {
-    w = walk(p, ++seed, pool);
-    c = label_of(w, 0);
-  }
-  if (c == Crossing::touch) w.end = Walk::End::unresolved;
-  return c != Crossing::no;
+// Whether a piece from number `first` on may divide the place from the part of the edge.
+bool Sources::is_cut_off(const OfEdge& s, std::size_t first) const {
+  return s.beside && pieces_.may_meet(*s.beside, *s.part.y, first, holds_edge(scene_, contours_[s.contour].edge));
 }
 
 bool Sources::newly_visible(OfEdge& s, std::size_t first, Pool& pool) {
-  if (s.beside && pieces_.may_meet(*s.beside, *s.part.y, first, holds_edge(scene_, contours_[s.contour].edge))) {
+  if (is_cut_off(s, first)) {
     ++s.level;
     place(s, pool);
     first = 0;
   }
-  return newly_visible(s.beside, s.walk, s.seed, first, pool);
+  return newly_visible_by_walk(s, first, pool);
 }
 
 bool Sources::newly_visible(OfVertex& s, std::size_t first, Pool& pool) {
-  if (newly_visible(s.beside, s.walk, s.seed, first, pool)) return true;
+  if (newly_visible_by_walk(s, first, pool)) return true;
   if (!s.view) return false;
   if (!piece_between(*s.beside, scene_.points[s.point], first)) return false;
   ++s.level;
   place(s, pool);
-  return newly_visible(s.beside, s.walk, s.seed, 0, pool);
+  return newly_visible_by_walk(s, 0, pool);
 }
 
-Sources::Numbers Sources::newly_lit(std::size_t first, bool in_doubt) {
+Sources::Numbers Sources::newly_lit(std::size_t first, Light light) {
   const std::size_t edges = of_edges_.size();
   std::vector<char> visible(edges + of_vertices_.size(), 0);
   workers_.for_each(visible.size(), [&](std::size_t i, Workers::Worker& worker) {
     const auto look = [&](auto& s) {
-      visible[i] = !s.lit && newly_visible(s, first, worker.pool) && (in_doubt || !is_in_doubt(s)) ? 1 : 0;
+      if (s.lit) return;
+      const bool lit = light == Light::known
+                           ? s.known && walker_.visible(s.walk, first) == Crossing::yes
+                           : newly_visible(s, first, worker.pool) && (light == Light::in_doubt || !is_in_doubt(s));
+      visible[i] = lit ? 1 : 0;
     };
     i < edges ? look(of_edges_[i]) : look(of_vertices_[i - edges]);
   });
@@ -209,20 +220,65 @@ Sources::Numbers Sources::newly_lit(std::size_t first, bool in_doubt) {
   return lit;
 }
 
-void Sources::note_doubt() {
-  const auto look = [this](auto& s) {
-    s.doubtful = s.lit && walker_.last_leg_is_in_doubt(s.walk) && walker_.visible(s.walk, 0) != Crossing::yes;
+bool Sources::ask_nearer() {
+  const std::size_t edges = of_edges_.size();
+  std::vector<char> nearer(edges + of_vertices_.size(), 0);
+  workers_.for_each(nearer.size(), [&](std::size_t i, Workers::Worker&) {
+    const auto look = [&](auto& s) {
+      if (!s.lit || walker_.visible(s.walk, 0) == Crossing::yes) return;
+      ++s.seed;
+      s.walk.end = ++s.near < kPointNearLevels ? Walk::End::crossed : Walk::End::unresolved;  // made anew, or given up
+      nearer[i] = 1;
+    };
+    if (i >= edges) return look(of_vertices_[i - edges]);
+    OfEdge& s = of_edges_[i];
+    if (!s.lit || !is_cut_off(s, 0)) return look(s);
+    ++s.level;
+    s.beside = nullptr;
+    nearer[i] = 1;
+  });
+  if (std::find(nearer.begin(), nearer.end(), 1) == nearer.end()) return false;
+  constexpr int kTimes = 4;
+  if (++times_nearer_ > kTimes) return true;
+  const auto ask_again = [](auto& s) {
+    if (s.beside && s.walk.end == Walk::End::unresolved && s.near < kPointNearLevels) s.walk.end = Walk::End::crossed;
+    s.least = 0;
   };
-  std::for_each(of_edges_.begin(), of_edges_.end(), look);
-  std::for_each(of_vertices_.begin(), of_vertices_.end(), look);
+  std::for_each(of_edges_.begin(), of_edges_.end(), ask_again);
+  for (OfVertex& s : of_vertices_) {
+    if (s.view) ask_again(s);
+  }
+  return true;
+}
+
+void Sources::start_known(const LeftOut& left_out) {
+  const auto keeps_out_of_all = [&](const Walk& walk, const auto& figure_keeps_out_of) {
+    for (std::size_t i = 0; i < left_out.size(); ++i) {
+      if (!keeps_out(walk, left_out, i) || !figure_keeps_out_of(i)) return false;
+    }
+    return true;
+  };
+  const auto may_be_known = [](const auto& s) {
+    return s.lit && (s.walk.end == Walk::End::cell || s.walk.end == Walk::End::surface);
+  };
+  for (OfEdge& s : of_edges_) {
+    s.known = may_be_known(s) && keeps_out_of_all(s.walk, [&](std::size_t i) {
+                return left_out.surely_misses(i, s.part.lo->approximate(), s.part.hi->approximate()) &&
+                       left_out.surely_misses(i, s.part.y->approximate(), s.beside->approximate());
+              });
+    s.lit = false;
+  }
+  for (OfVertex& s : of_vertices_) {  // where its place is visible it is: the place's sight lines go on to it
+    s.known = may_be_known(s) && keeps_out_of_all(s.walk, [](std::size_t) { return true; });
+    s.lit = false;
+  }
 }
 
 std::uint64_t Sources::unresolved() const {
-  const auto edges = std::count_if(of_edges_.begin(), of_edges_.end(), [this](const OfEdge& s) {
-    return is_in_doubt(s) || (s.doubtful && !contours_[s.contour].holds_cell);
-  });
-  const auto vertices = std::count_if(of_vertices_.begin(), of_vertices_.end(),
-                                      [](const OfVertex& s) { return is_in_doubt(s) || (s.doubtful && !s.separates); });
+  const auto edges =
+      std::count_if(of_edges_.begin(), of_edges_.end(), [this](const OfEdge& s) { return is_in_doubt(s); });
+  const auto vertices =
+      std::count_if(of_vertices_.begin(), of_vertices_.end(), [](const OfVertex& s) { return is_in_doubt(s); });
   return static_cast<std::uint64_t>(edges + vertices);
 }
 

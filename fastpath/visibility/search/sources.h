@@ -1,6 +1,13 @@
 // D17: what has to be visible for a wedge to be there. A part of a contour edge between neighbouring cuts has wedges where the space beside it is visible (D13a), and a
 // mesh vertex where the space beside it on the way to the cell is. Each source keeps a walk (D14) from one round to the next, and is asked again only about
 // new wedge pieces.
+//
+// A source is asked at a place beside it, and its walk goes on from places beside surfaces, with nothing between that was known then. What is lit is not asked again in its round. But a piece that comes later
+// may divide a place from what it stands for; then another label is known, and the source may be dark. So when a round has all its pieces what is lit is looked at once more, and what a piece
+// divides is asked nearer in another round (ask_nearer).
+//
+// The last leg of a walk that ends in a groove or a corner is no part of a sight line, and light that it comes into it may leave again (walker.h). So it lights no source: the walk is made
+// anew, with more legs before it may end like that. They come ever nearer to where it is dark, so the light begins on one of them; if none says so the source is in doubt.
 #pragma once
 
 #include <atomic>
@@ -8,6 +15,7 @@
 #include <optional>
 #include <vector>
 
+#include "fastpath/visibility/labels/left_out.h"
 #include "fastpath/visibility/labels/walker.h"
 #include "fastpath/visibility/wedges/beside.h"
 #include "fastpath/visibility/wedges/contacts.h"
@@ -26,7 +34,9 @@ class Sources {
     std::uint64_t seed = 0x51;
     Walk walk;
     bool lit = false;
-    bool doubtful = false;  // lit by a last leg alone that is in doubt (walker.h), in the round that ended last
+    int near = 0;           // level of nearness of the places of its walk
+    std::size_t least = 0;  // legs of its walk before one out of the dark
+    bool known = false;     // see start_known()
   };
 
   // A mesh vertex and a point beside it on the way to the cell. If that is visible the vertex is, as its sight lines go on
@@ -41,7 +51,9 @@ class Sources {
     Walk walk;
     bool lit = false;
     bool separates = false;  // its wedges do nothing else (T10): in doubt it is lit, and nothing is lost by it
-    bool doubtful = false;   // lit by a last leg alone that is in doubt (walker.h), in the round that ended last
+    int near = 0;            // level of nearness of the places of its walk
+    std::size_t least = 0;   // legs of its walk before one out of the dark
+    bool known = false;      // see start_known()
   };
 
   // Keeps references, but for `is_vertex`: which points are vertices of the surface (surface_vertices.h). `pieces` must be empty until the
@@ -54,16 +66,26 @@ class Sources {
 
   const std::vector<OfEdge>& of_edges() const { return of_edges_; }
   const std::vector<OfVertex>& of_vertices() const { return of_vertices_; }
-  // Those that become visible by the pieces from number `first` on, ascending; from here on they are lit. In doubt: also those that count as visible.
+  // Those that become visible by the pieces from number `first` on, ascending; from here on they are lit.
+  enum class Light : std::uint8_t {
+    sure,      // what is visible
+    in_doubt,  // and what counts as visible
+    known      // what is visible whatever is in doubt: see start_known()
+  };
   struct Numbers {
     std::vector<std::size_t> of_edges, of_vertices;
   };
-  Numbers newly_lit(std::size_t first, bool in_doubt);
-  // When a round has all its pieces: what is lit by its last leg alone may be so for want of an answer.
-  void note_doubt();
+  Numbers newly_lit(std::size_t first, Light light);
+  // When a round has all its pieces: what is lit though a piece divides one of its places from what that stands for is asked nearer in the next round. Whether there is any. Then the round had
+  // light that is not there, and what it left undecided is asked again, too; the first few times.
+  bool ask_nearer();
+
+  // When the rounds are over (D17b): nothing is lit. From here on only that can be which was, which keeps out of all that was left out, with its place and where its walk goes beside a sight line,
+  // and which sight lines show. Needs RoundedUp in scope. O(sources * what is left out).
+  void start_known(const LeftOut& left_out);
 
   std::uint64_t walks() const { return walks_; }
-  std::uint64_t unresolved() const;  // sources that count as visible without a proof: is_in_doubt, or doubtful
+  std::uint64_t unresolved() const;  // sources that count as visible without a proof: is_in_doubt
   // A wedge that only separates (T10) makes nothing visible, also where it should not exist: no doubt comes of it.
   bool is_in_doubt(const OfEdge& s) const {
     return s.walk.end == Walk::End::unresolved && !contours_[s.contour].holds_cell;
@@ -71,7 +93,8 @@ class Sources {
   static bool is_in_doubt(const OfVertex& s) { return s.walk.end == Walk::End::unresolved && !s.separates; }
 
  private:
-  Walk walk(const ExactPoint* p, std::uint64_t seed, Pool& pool);
+  template <class Source>
+  void walk_from_place(Source& source, Pool& pool);
   void place(OfEdge& source, Pool& pool);
   std::vector<OfVertex> beside_vertex(std::uint32_t vertex, Pool& pool);
   OfVertex towards(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
@@ -80,8 +103,9 @@ class Sources {
   static OfVertex unresolved(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
   bool newly_visible(OfEdge& source, std::size_t first, Pool& pool);
   bool newly_visible(OfVertex& source, std::size_t first, Pool& pool);
-  bool newly_visible(const ExactPoint* p, Walk& w, std::uint64_t& seed, std::size_t first, Pool& pool);
-  Crossing label_of(const Walk& walk, std::size_t first) const;
+  template <class Source>
+  bool newly_visible_by_walk(Source& source, std::size_t first, Pool& pool);
+  bool is_cut_off(const OfEdge& source, std::size_t first) const;
 
   const LocalScene& scene_;
   const std::vector<ContourEdge>& contours_;
@@ -89,6 +113,7 @@ class Sources {
   const Walker& walker_;
   Contacts& contacts_;
   Workers& workers_;
+  int times_nearer_ = 0;
   std::vector<OfEdge> of_edges_;
   std::vector<OfVertex> of_vertices_;
   std::atomic<std::uint64_t> walks_{0};

@@ -222,6 +222,7 @@ VisibilityMap rebuilt(const VisibilityMap& map, const std::map<std::size_t, std:
   out.statistics.regions_visible = static_cast<std::uint64_t>(visible);
   out.statistics.regions_hidden = out.regions.size() - out.statistics.regions_visible;
   find_visible(exact::SceneQuery(out.complex, out.cell), out);
+  out.in_doubt = map.in_doubt;  // what is listed for want of an occlusion that was given up is in no doubt
   return out;
 }
 

@@ -148,7 +148,7 @@ Point3 Walker::last_crossing(const Point3& v, const Point3& p, const exact::Hit&
   return exact::collapsed(m);
 }
 
-Walk Walker::walk(const Start& start, std::uint64_t seed) const {
+Walk Walker::walk(const Start& start, std::uint64_t seed, std::size_t least) const {
   const exact::Complex& complex = scene_->complex();
   const exact::ConvexCell& cell = scene_->cell();
   Walk walk;
@@ -162,7 +162,8 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
   std::optional<SurfaceSide> surface = start.surface;
   const ContourEdge* contour = start.contour;
   for (int depth = 0;; ++depth) {
-    if (const std::optional<Leg> leg = corner_leg(walk)) {
+    const bool may_end_in_the_dark = walk.legs.size() >= least;
+    if (const std::optional<Leg> leg = may_end_in_the_dark ? corner_leg(walk) : std::nullopt) {
       walk.legs.push_back(*leg);
       return walk;
     }
@@ -189,7 +190,7 @@ Walk Walker::walk(const Start& start, std::uint64_t seed) const {
           anchor = both;
         } else {
           const std::optional<Point3> end = end_of_groove(*surface, *before);
-          if (const std::optional<Leg> leg = groove_leg(walk, !end)) {
+          if (const std::optional<Leg> leg = may_end_in_the_dark ? groove_leg(walk, !end) : std::nullopt) {
             walk.legs.push_back(*leg);
             return walk;
           }

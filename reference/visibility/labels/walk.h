@@ -85,8 +85,9 @@ class Walker {
   // `longest`: legs after which a walk is given up (Dials).
   explicit Walker(const exact::SceneQuery& scene, std::int64_t longest = exact::Dials::kOwn);
 
-  // Different seeds use different sight lines; the label must not depend on the seed (D14). Deterministic.
-  Walk walk(const Start& start, std::uint64_t seed) const;
+  // Different seeds use different sight lines; the label must not depend on the seed (D14). `least`: legs along sight lines before the walk may end with one that comes out of the dark.
+  // Deterministic.
+  Walk walk(const Start& start, std::uint64_t seed, std::size_t least = 0) const;
 
   // Whether the walk's start is visible by the wedge pieces from index `first` on, as far as sight lines tell; degenerate: walk again with another seed.
   Meets visible(const Start& start, const Walk& walk, const WedgeSet& wedges, std::size_t first) const;

@@ -25,7 +25,7 @@ using exact::Point3;
 namespace {
 
 constexpr std::size_t kSamples = 8;  // points of a region that are asked before it counts as visible
-constexpr std::uint64_t kRegionSeed = 0x1d, kSecondSeed = 0x7a3;
+constexpr std::uint64_t kRegionSeed = 0x1d, kSecondSeed = 0x7a3, kKnownSeed = 0x2b9;
 
 using Segment3 = std::pair<Point3, Point3>;
 using SideKey = std::pair<std::uint32_t, bool>;  // piece, front
@@ -99,7 +99,7 @@ class SideMapper {
       return out;
     }
     if (complex.in_cell[t]) {  // D3
-      Region r{t, front, true, {{p[0], p[1], p[2]}}, FT(1), CGAL::centroid(p[0], p[1], p[2])};
+      Region r{t, front, true, {{p[0], p[1], p[2]}}, FT(1), CGAL::centroid(p[0], p[1], p[2]), true};
       out.regions.push_back(std::move(r));
       return out;
     }
@@ -211,6 +211,7 @@ class SideMapper {
     if (fixpoint_.left_out.may_reach(r.rings[0])) {
       r.visible = true;
       r.sample = lift(inner_point(rings, 0));
+      r.known = is_known_visible(r, rings, lift);
       return;
     }
     for (std::size_t which = 0;; ++which) {
@@ -221,6 +222,7 @@ class SideMapper {
         const Walker::Label label = walker_.label(start, fixpoint_.wedges, fixpoint_.left_out, kRegionSeed + which);
         if (label.fallback && which < kSamples) continue;  // another point of the region may be easier to decide
         r.visible = label.visible;
+        r.known = label.visible && (fixpoint_.known ? is_known_visible(r, rings, lift) : !label.fallback);
         out.fallbacks += label.fallback;
         if (options_.check_two_walks) {
           ++out.walks;
@@ -235,6 +237,20 @@ class SideMapper {
       }
       break;
     }
+  }
+
+  // D17b: whether sight lines alone, and wedges that are known, say so of one of its points.
+  template <class Lift>
+  bool is_known_visible(const Region& r, const std::vector<std::vector<Point2>>& rings, const Lift& lift) const {
+    for (std::size_t which = 0; which < kSamples; ++which) {
+      const Start start{lift(inner_point(rings, which)), SurfaceSide{r.piece, r.front}, nullptr};
+      try {
+        const Walk walk = walker_.walk(start, kKnownSeed + which);
+        if (!walk.unresolved && walker_.visible(start, walk, *fixpoint_.known, 0) == Meets::yes) return true;
+      } catch (const scene::Error&) {  // the sample lies in special position
+      }
+    }
+    return false;
   }
 
   const exact::SceneQuery& scene_;

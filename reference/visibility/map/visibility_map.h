@@ -23,6 +23,7 @@ struct Region {
   std::vector<std::vector<exact::Point3>> rings;  // outer boundary first, then holes
   exact::FT area_fraction;                        // of the piece's own area, exactly
   exact::Point3 sample;                           // the interior point whose label this is
+  bool known = false;  // visible at a point for which that is known (D17b); in maps that are not refined
 };
 
 struct DmSegment {
@@ -46,6 +47,8 @@ struct VisibilityMap {
   Statistics statistics;
   std::string method = "first-order";  // or how it was refined (D20, D21)
   exact::StandardRange range = {};
+  // D17b: those of `visible` of which no point is known to be in Omega; ascending. Not of a refined map.
+  std::vector<std::uint32_t> in_doubt = {};
 };
 
 // The sides of the pieces of a complex, numbered.
@@ -53,5 +56,7 @@ inline std::size_t side_index(std::uint32_t piece, bool front) { return 2 * std:
 
 // D15: the PVS by the map's regions. D3: a triangle that meets the cell is visible.
 void find_visible(const exact::SceneQuery& scene, VisibilityMap& map);
+// D17b. After find_visible().
+void find_in_doubt(const exact::SceneQuery& scene, VisibilityMap& map);
 
 }  // namespace clues::reference

@@ -24,7 +24,8 @@ namespace {
 
 using Job = PieceMaker::Job;
 
-constexpr int kOtherWalks = 100;  // for the label of an edge piece; then it counts as visible
+constexpr int kOtherWalks = 100;               // for the label of an edge piece; then it counts as visible
+constexpr std::size_t kLeast = 8, kMost = 32;  // legs of a walk, where the last one says more than sight lines do
 
 class Search {
  public:
@@ -55,6 +56,7 @@ class Search {
     if (!out.left_out.empty()) leave_out_doubtful_sources(out.left_out);
     count(out);
     find_lit(out);
+    if (in_doubt > 0 || !out.left_out.empty()) out.known = known_wedges();
     return out;
   }
 
@@ -75,7 +77,6 @@ class Search {
     spread();
     in_doubt_ = true;
     spread();
-    note_doubt();
 
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     wedges_ = WedgeSet(scene_);
@@ -93,6 +94,20 @@ class Search {
       if (is_contour_.contains(static_cast<std::uint32_t>(e))) changed = true;
     }
     return changed;
+  }
+
+  // D17b, when the rounds are over.
+  WedgeSet known_wedges() {
+    known_only_ = true;
+    wedges_ = WedgeSet(scene_);
+    csvs_met_.clear();
+    for (auto& [key, apex] : csvs_) apex->start_round();
+    for (auto& [key, apex] : corners_) apex->start_round();
+    for (Source& s : sources_) s.lit = false;
+    for (VertexSource& s : vertex_sources_) s.lit = false;
+    in_doubt_ = false;
+    spread();
+    return std::move(wedges_);
   }
 
   // Lights what is visible, and all that follows from it. In doubt: also what counts as visible.
@@ -116,21 +131,21 @@ class Search {
     return light(newly_lit(first));
   }
 
-  Meets label_of(const Start& start, const Walk& walk, std::size_t first) const {
-    const Meets label = walker_.visible(start, walk, wedges_, first);
-    if (label == Meets::yes) return label;
-    const Meets last = walker_.visible_by_last_leg(start, walk, wedges_, first);
-    return last == Meets::no ? label : last;
-  }
-
-  // When a round has all its pieces: what is lit by its last leg alone may be so for want of an answer (walk.h).
-  void note_doubt() {
-    const auto is_doubtful = [this](bool lit, const Start& start, const Walk& walk) {
-      return lit && walker_.last_leg_is_in_doubt(start, walk, wedges_) &&
-             walker_.visible(start, walk, wedges_, 0) != Meets::yes;
-    };
-    for (Source& s : sources_) s.doubtful = is_doubtful(s.lit, start_of(s, contours_), s.walk);
-    for (VertexSource& s : vertex_sources_) s.doubtful = is_doubtful(s.lit, start_of(s), s.walk);
+  // By the pieces from index `first` on, along sight lines. Where the walk's last leg says more, other walks are made, by `seed`, with ever more legs.
+  template <class Any>
+  Meets label_of(Any& s, const Start& start, std::uint64_t seed, std::size_t first) const {
+    for (;;) {
+      const Meets label = walker_.visible(start, s.walk, wedges_, first);
+      if (label != Meets::no || known_only_) return label;
+      if (walker_.visible_by_last_leg(start, s.walk, wedges_, first) == Meets::no) return label;
+      if (s.least == kMost) {
+        s.walk.unresolved = true;
+        return Meets::yes;
+      }
+      s.least = std::max(kLeast, 2 * s.least);
+      s.walk = walker_.walk(start, seed, s.least);
+      first = 0;
+    }
   }
 
   // A wedge that only separates (T10) makes nothing visible, also where it should not exist.
@@ -139,13 +154,16 @@ class Search {
   // Whether a source that counts as visible for want of an answer is left for later.
   template <class Any>
   bool waits(const Any& s) const {
+    if (known_only_) return s.walk.unresolved || !keeps_out(s);
     return !in_doubt_ && s.walk.unresolved && !separates(s);
   }
+  static bool keeps_out(const Source& s) { return s.keeps_out; }
+  static bool keeps_out(const VertexSource&) { return true; }  // it is one point
 
   // Visible for want of an answer, in the end.
   template <class Any>
   bool counts_as_visible(const Any& s) const {
-    return (s.walk.unresolved || s.doubtful) && !separates(s);
+    return s.walk.unresolved && !separates(s);
   }
   template <class Any>
   std::size_t that_count_as_visible(const std::vector<Any>& sources) const {
@@ -155,11 +173,11 @@ class Search {
 
   // Whether the pieces from index `first` on make the source visible.
   bool reached(VertexSource& s, std::size_t first) {
-    Meets label = label_of(start_of(s), s.walk, first);
+    Meets label = label_of(s, start_of(s), kSourceSeed, first);
     for (int attempt = 1; label == Meets::degenerate && !s.separates && attempt < kViews; ++attempt) {
       if (!look_again(scene_, *corner(s.point), s, attempt)) continue;
-      s.walk = walker_.walk(start_of(s), kSourceSeed);
-      label = label_of(start_of(s), s.walk, 0);
+      s.walk = walker_.walk(start_of(s), kSourceSeed, s.least);
+      label = label_of(s, start_of(s), kSourceSeed, 0);
     }
     s.walk.unresolved |= label == Meets::degenerate;
     return label != Meets::no && !waits(s);
@@ -190,7 +208,7 @@ class Search {
     tbb::parallel_for(std::size_t{0}, sources_.size(), [&](std::size_t i) {
       Source& s = sources_[i];
       if (s.lit) return;
-      label[i] = label_of(start_of(s, contours_), s.walk, first);
+      label[i] = label_of(s, start_of(s, contours_), s.seed, first);
       for (int attempt = 0; label[i] == Meets::degenerate; ++attempt) {  // walk elsewhere, and ask all pieces
         if (attempt == kOtherWalks) {
           s.walk.unresolved = true;
@@ -198,8 +216,8 @@ class Search {
           break;
         }
         if (attempt % 4 == 3) ask_elsewhere(s, attempt);
-        s.walk = walker_.walk(start_of(s, contours_), ++s.seed);
-        label[i] = label_of(start_of(s, contours_), s.walk, 0);
+        s.walk = walker_.walk(start_of(s, contours_), ++s.seed, s.least);
+        label[i] = label_of(s, start_of(s, contours_), s.seed, 0);
       }
       if (waits(s)) label[i] = Meets::no;
     });
@@ -344,31 +362,34 @@ class Search {
     const ContourEdge* contour = nullptr;  // none: a vertex
     std::size_t looked_at = 0;             // how many of what is left out
     bool settled = false;                  // no matter what else is left out
+    bool* keeps_out = nullptr;             // Source::keeps_out
   };
-  enum class Doubt { none, settled, left_out };
+  enum class Doubt { none, none_outside, settled, left_out };  // none_outside: of what is outside of the anti-cone
   static Doubt doubt_of(const Figure& f, const LeftOut& left_out, std::size_t i) {
     const bool walk_counts = !f.walk->runs_through(left_out, i);
     if (walk_counts && !left_out.meets(i, f.lo, f.hi)) return Doubt::none;
     const bool holds_lo = left_out.holds(i, f.lo), holds_hi = left_out.holds(i, f.hi);
     if (holds_lo && holds_hi) return Doubt::settled;
-    return walk_counts && (holds_lo || holds_hi) && !left_out.holds(i, f.y) ? Doubt::none : Doubt::left_out;
+    return walk_counts && (holds_lo || holds_hi) && !left_out.holds(i, f.y) ? Doubt::none_outside : Doubt::left_out;
   }
 
   // Until there is none that what was added last concerns. O(sources * what is left out in the end).
-  void leave_out_doubtful_sources(LeftOut& left_out) const {
+  void leave_out_doubtful_sources(LeftOut& left_out) {
     std::vector<Figure> figures;
-    for (const Source& s : sources_) {
-      if (!s.walk.unresolved) figures.push_back({s.lo, s.hi, s.y, &s.walk, &contours_[s.contour], 0, false});
+    for (Source& s : sources_) {
+      if (!s.walk.unresolved)
+        figures.push_back({s.lo, s.hi, s.y, &s.walk, &contours_[s.contour], 0, false, &s.keeps_out});
     }
     for (const VertexSource& s : vertex_sources_) {
-      if (!s.walk.unresolved) figures.push_back({s.x, s.x, s.x, &s.walk, nullptr, 0, false});
+      if (!s.walk.unresolved) figures.push_back({s.x, s.x, s.x, &s.walk, nullptr, 0, false, nullptr});
     }
     for (bool more = true; more;) {
       more = false;
       for (Figure& f : figures) {
         for (; !f.settled && f.looked_at < left_out.size(); ++f.looked_at) {
           const Doubt doubt = doubt_of(f, left_out, f.looked_at);
-          f.settled = doubt != Doubt::none;
+          if (doubt != Doubt::none && f.keeps_out) *f.keeps_out = false;
+          f.settled = doubt == Doubt::settled || doubt == Doubt::left_out;
           if (doubt != Doubt::left_out) continue;
           if (f.contour) {
             left_out.add(f.lo, f.hi, f.contour->plane, scene_.cell());
@@ -440,7 +461,8 @@ class Search {
   std::vector<Source> sources_;
   std::vector<VertexSource> vertex_sources_;
   WedgeSet wedges_;
-  bool in_doubt_ = false;  // what is lit now is lit because something counts as visible
+  bool in_doubt_ = false;    // what is lit now is lit because something counts as visible
+  bool known_only_ = false;  // the rounds are over: only what is known is lit
   std::map<std::pair<std::uint32_t, Point3>, std::unique_ptr<Apex>, CsvLess> csvs_;
   std::map<std::uint32_t, std::unique_ptr<Apex>> corners_;
   std::set<Apex*> touched_;

@@ -9,9 +9,13 @@
 // doubt says that both sides of a wedge are visible, the wedge has to stay. So each round lights what is visible first, with all that follows from it, and then what counts as
 // visible, from which nothing follows that a wedge may be left out for (Probe::doubtful). By induction the first part lights nothing outside of Omega. So a wedge is
 // left out only where both of its sides are in Omega, every border of Omega has its pieces, and no walk that ends calls a point of Omega hidden.
+//
+// Nor does the last leg of a walk light a source that ends in a groove or a corner: it is no part of a sight line, and light that it comes into it may leave again (walk.h). The walk is made anew, with more legs
+// before it may end like that. They come ever nearer to where it is dark, so the light begins on one of them; if none says so the source is in doubt.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "exact/sight/scene_query.h"
@@ -28,6 +32,8 @@ struct Fixpoint {
   bool in_doubt = false;
   // Edges and points of the complex at which a visible source lies or a valid wedge piece arrives.
   std::vector<std::uint32_t> lit_edges, lit_points;
+  // Where something is in doubt or left out: pieces that light Omega whatever is true of that (D17b). None: all of them do.
+  std::optional<WedgeSet> known = std::nullopt;
 };
 
 Fixpoint find_wedges(const exact::SceneQuery& scene, const Options& options, Statistics& statistics);

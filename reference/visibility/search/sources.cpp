@@ -84,6 +84,7 @@ std::vector<Source> edge_sources(const exact::SceneQuery& scene, const Walker& w
     } else {
       s.walk = std::move(it->second.walk);
       s.seed = it->second.seed;
+      s.least = it->second.least;
     }
   }
   tbb::parallel_for(std::size_t{0}, unknown.size(), [&](std::size_t i) {

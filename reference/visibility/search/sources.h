@@ -24,7 +24,8 @@ struct Source {
   std::uint64_t seed = kSourceSeed;
   Walk walk;
   bool lit = false;
-  bool doubtful = false;  // lit by a last leg alone that is in doubt (walk.h), in the round that ended last
+  std::size_t least = 0;  // legs of its walk before one out of the dark
+  bool keeps_out = true;  // of the anti-cones of all that was left out: so it has one label, as a whole
 };
 
 // A mesh vertex seen from v in int V: a source of SE-MV wedges even where no contour edge ends (a corner whose edges all point away
@@ -38,7 +39,7 @@ struct VertexSource {
   Walk walk;
   bool lit = false;
   bool separates = false;  // its wedges do nothing else (T10): in doubt it is lit, and nothing is lost by it
-  bool doubtful = false;   // lit by a last leg alone that is in doubt (walk.h), in the round that ended last
+  std::size_t least = 0;   // legs of its walk before one out of the dark
 };
 
 inline Start start_of(const Source& s, const std::vector<ContourEdge>& contours) {
