@@ -18,8 +18,10 @@ namespace {
 std::string table_line(const std::string& name, const reference::VisibilityMap& map) {
   const auto census = take_census(map);
   const std::string share = scene::percent(census.area_visible_estimate, census.area_facing_estimate, 2);
-  return fmt::format("{:>9}  {:>6}  {:>6}  {:>6}  {:>10} %  {:>9}  {}\n", map.complex.input_triangles, census.wholly,
-                     census.partly, census.hidden, share, map.statistics.conservative_fallbacks, name);
+  const std::string in_doubt = map.method == "first-order" ? std::to_string(map.in_doubt.size()) : "-";
+  return fmt::format("{:>9}  {:>6}  {:>6}  {:>6}  {:>10} %  {:>9}  {:>8}  {}\n", map.complex.input_triangles,
+                     census.wholly, census.partly, census.hidden, share, map.statistics.conservative_fallbacks,
+                     in_doubt, name);
 }
 
 std::string overlap_graph_of(const reference::VisibilityMap& map) {
@@ -49,7 +51,7 @@ class ExactMapper : public CellMapper {
     return out;
   }
   const char* table_head() const override {
-    return "triangles  wholly  partly  hidden  visible area  fallbacks  cell\n";
+    return "triangles  wholly  partly  hidden  visible area  fallbacks  in doubt  cell\n";
   }
 
  private:

@@ -34,15 +34,15 @@ class FastMapper : public CellMapper {
     MappedCell mapped;
     mapped.name = cell.name;
     const std::size_t triangles = bvh_.mesh().triangles.size();
-    mapped.summary =
-        fmt::format("{:>9}  {:>7}  {:>9}  {:>6}  {:>9}  {}\n", triangles, found.visible.size(),
-                    triangles - found.visible.size(), found.part.size(), found.conservative_fallbacks, cell.name);
+    mapped.summary = fmt::format("{:>9}  {:>7}  {:>9}  {:>6}  {:>9}  {:>8}  {}\n", triangles, found.visible.size(),
+                                 triangles - found.visible.size(), found.part.size(), found.conservative_fallbacks,
+                                 found.in_doubt.size(), cell.name);
     put_result(mapped, to_result(found, cell), request_, sha256_);
     return mapped;
   }
   const char* table_head() const override {
     return request_.refinement == validate::Refinement::none
-               ? "triangles  visible     hidden  mapped  fallbacks  cell\n"
+               ? "triangles  visible     hidden  mapped  fallbacks  in doubt  cell\n"
                : "triangles  first-order  refined  witnessed  maps  fallbacks  cell\n";
   }
 
@@ -110,6 +110,7 @@ class FastMapper : public CellMapper {
     put("csv", found.counts.csv);
     put("degenerate_triangles", bvh_.degenerate().size());
     put("exact_decisions", found.counts.exact_decisions);
+    put("in_doubt", found.in_doubt.size());
     put("mapped_triangles", found.part.size());
     put("passes", found.closure.passes);
     put("rounds", found.counts.rounds);

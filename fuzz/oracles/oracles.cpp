@@ -102,27 +102,29 @@ class ExactVisibleSet : public Oracle {
   }
 };
 
-// D9, D15: the reference's PVS and that of another computation of the same set.
+// D9, D15: the reference's PVS and that of another computation of the same set. What one of the two knows to be in Omega the other has to list (D17b).
 class Agreement : public Oracle {
  public:
   const char* name() const override { return "agreement"; }
   const char* what() const override { return "the PVS is the reference's, triangle by triangle (fast path only)"; }
   void examine(Exam& exam) const override {
-    if (!exam.answer().fallbacks || !exam.is_compared() || is_limited(exam.scene().dials)) return;
+    if (!exam.answer().in_doubt || !exam.is_compared()) return;
     exam.count("answers compared with the reference");
-    exam.count("fallbacks of the subject", *exam.answer().fallbacks);
-    const std::vector<std::uint32_t>& omega = exam.map().visible;
-    const bool omega_is_certain = exam.map().statistics.conservative_fallbacks == 0;
+    const std::vector<std::uint32_t>&in_doubt = *exam.answer().in_doubt, &omega = exam.map().visible;
+    exam.count("triangles in doubt", in_doubt.size());
+    exam.count("triangles in doubt in the reference", exam.map().in_doubt.size());
+    const auto has = [](const std::vector<std::uint32_t>& list, std::uint32_t t) {
+      return std::binary_search(list.begin(), list.end(), t);
+    };
     std::optional<std::uint32_t> less, more;
     for (std::uint32_t t = 0; t < exam.scene().mesh.triangles.size(); ++t) {
-      const bool known = std::binary_search(omega.begin(), omega.end(), t);
-      if (known == exam.lists(t)) continue;
-      if (known) {
-        exam.count(omega_is_certain ? "triangles less than the reference" : "triangles less than its fallbacks");
-        if (omega_is_certain && !less) less = t;
-      } else {
+      if (has(omega, t) == exam.lists(t)) continue;
+      if (exam.lists(t)) {
         exam.count("triangles more than the reference");
-        if (*exam.answer().fallbacks == 0 && !more) more = t;
+        if (!has(in_doubt, t) && !more) more = t;
+      } else {
+        exam.count("triangles less than the reference");
+        if (!has(exam.map().in_doubt, t) && !less) less = t;
       }
     }
     if (less)
@@ -130,7 +132,7 @@ class Agreement : public Oracle {
               "has a visible region in the reference's map, and is not listed");
     if (more)
       differs(exam, *more, "visible/first-order-hidden",
-              "is hidden in the reference's map, and listed without a counted fallback");
+              "is hidden in the reference's map, and listed without a doubt");
   }
 
  private:

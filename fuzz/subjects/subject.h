@@ -18,8 +18,8 @@ namespace clues::fuzz {
 struct Answer {
   std::vector<std::uint32_t> pvs;               // ascending
   std::optional<reference::VisibilityMap> map;  // where the subject computes one, its hidden regions are tested too
-  // Of a subject that promises exactly the triangles of Omega (D9): how often it said visible without knowing.
-  std::optional<std::uint64_t> fallbacks;
+  // Of a subject that promises exactly the triangles of Omega (D9): those that it lists without knowing (D17b); ascending.
+  std::optional<std::vector<std::uint32_t>> in_doubt;
 };
 
 // The subject gave no answer: it crashed, took too long, or wrote something that is no PVS. what() is one line.

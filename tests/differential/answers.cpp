@@ -42,7 +42,8 @@ Answer reference_answer(const fuzz::Case& scene, const exact::Dials& dials, refe
   Answer out{formulation == reference::Formulation::plain ? "reference" : "traversal",
              map.visible,
              map.statistics.conservative_fallbacks,
-             {}};
+             {},
+             map.in_doubt};
   for (const reference::Region& r : map.regions) {
     if (!r.visible) continue;
     const exact::Piece& piece = map.complex.pieces[r.piece];
@@ -56,7 +57,7 @@ Answer reference_answer(const fuzz::Case& scene, const exact::Dials& dials, refe
 Answer fast_answer(const fuzz::Case& scene, const exact::Dials& dials) {
   const fastpath::Bvh bvh(scene.mesh);
   const auto found = fastpath::first_order_visibility(bvh, scene.cell, fast_options(dials), true);
-  Answer out{"fast", found.visible, found.conservative_fallbacks, {}};
+  Answer out{"fast", found.visible, found.conservative_fallbacks, {}, found.in_doubt};
   for (const fastpath::LocalRegion& r : found.regions) {
     if (r.visible) out.areas[{r.triangle, r.front}] += r.area_estimate;
   }

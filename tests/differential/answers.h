@@ -21,7 +21,8 @@ struct Answer {
   std::vector<std::uint32_t> visible;  // ascending
   std::uint64_t fallbacks = 0;
   std::map<std::pair<std::uint32_t, bool>, double>
-      areas;  // visible, by triangle and side; none in answers without regions
+      areas;                                 // visible, by triangle and side; none in answers without regions
+  std::vector<std::uint32_t> in_doubt = {};  // of the visible ones (D17b); none in refined answers
 };
 
 Answer reference_answer(const fuzz::Case& scene, const exact::Dials& dials,

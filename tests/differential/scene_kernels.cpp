@@ -29,6 +29,7 @@ class Kernels {
       a.visible = map.visible;
       a.fallbacks = map.statistics.conservative_fallbacks;
       a.first_order = first_order;
+      a.in_doubt = map.in_doubt;
       if (first_order && map.statistics.walk_disagreements > 0)
         out_.flaw("walks of the reference disagree", std::to_string(map.statistics.walk_disagreements) + " times");
       a.map = std::move(map);
@@ -54,7 +55,9 @@ class Kernels {
     };
     ask_kernel("fast path", [&] {
       fastpath::FirstOrder found = fastpath::first_order_visibility(bvh, scene_.cell, fast_options(), true);
-      return from_fast(found.visible, found.conservative_fallbacks, true, std::move(found.regions));
+      KernelAnswer a = from_fast(found.visible, found.conservative_fallbacks, true, std::move(found.regions));
+      a.in_doubt = std::move(found.in_doubt);
+      return a;
     });
     if (!settings_.refined) return std::move(answers_);
     const bool by_planes = scene_.index % 2 == 1;
@@ -92,6 +95,8 @@ class Kernels {
       out_.count("answers of " + kernel);
       if (answer.fallbacks > 0) {
         out_.count("scenes with fallbacks of " + kernel);
+        if (!answer.in_doubt.empty()) out_.count("scenes with triangles in doubt of " + kernel);
+        out_.count("triangles in doubt of " + kernel, answer.in_doubt.size());
         if (settings_.no_fallbacks && !fuzz::is_limited(scene_.dials) && answer.first_order &&
             scene_.mesh.triangles.size() <= 10)
           out_.flaw("fallback of " + kernel, std::to_string(answer.fallbacks) + " of them");

@@ -24,6 +24,7 @@ struct KernelAnswer {
   bool first_order = true;                      // promises exactly Omega where it has no fallback; else any sound list
   std::optional<reference::VisibilityMap> map;  // of the reference
   std::optional<std::vector<fastpath::LocalRegion>> regions;  // of the fast path
+  std::vector<std::uint32_t> in_doubt = {};                   // of `visible`, first order (D17b); ascending
 };
 
 struct KernelSettings {

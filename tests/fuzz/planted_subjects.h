@@ -65,7 +65,7 @@ class ClaimsOmega : public Subject {
   Answer answer(const Case& scene) const override {
     Answer out = make_subject("reference")->answer(scene);
     out.map.reset();
-    out.fallbacks = 0;
+    out.in_doubt.emplace();
     if (all_) {
       out.pvs.resize(scene.mesh.triangles.size());
       std::iota(out.pvs.begin(), out.pvs.end(), 0U);
