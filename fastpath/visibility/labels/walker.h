@@ -35,6 +35,8 @@ struct Walk {
   End end = End::surface;
   std::vector<Leg> legs;  // from p towards the cell
 
+  // It comes to a place beside a surface, and what it comes to after that may count.
+  bool has_places() const { return legs.size() > (end == End::surface ? 1 : 0); }
   // Its last leg comes out of a groove or a corner.
   bool ends_in_the_dark() const { return !legs.empty() && !legs.back().is_sight_line(); }
 };

@@ -71,17 +71,19 @@ class Search::Work {
     spread();
     light_of = Sources::Light::in_doubt;
     spread();
-    bool changed = sources.ask_nearer();
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     std::vector<ValidPiece> merged = build(merged_jobs());
     cut_coplanar(merged);
 
+    bool changed = false;
     for (std::uint32_t e = 0; e < cuts.size(); ++e) {
       if (!is_contour[e]) continue;
       for (const ExactPoint* p : new_cuts[e]) changed |= insert_cut(e, p);
     }
     set.clear();
-    if (!changed) set.add(std::move(merged));
+    set.add(std::move(merged));
+    if (sources.ask_nearer()) changed = true;
+    if (changed) set.clear();
     return changed;
   }
 

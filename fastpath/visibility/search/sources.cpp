@@ -223,9 +223,9 @@ Sources::Numbers Sources::newly_lit(std::size_t first, Light light) {
 bool Sources::ask_nearer() {
   const std::size_t edges = of_edges_.size();
   std::vector<char> nearer(edges + of_vertices_.size(), 0);
-  workers_.for_each(nearer.size(), [&](std::size_t i, Workers::Worker&) {
+  workers_.for_each(nearer.size(), [&](std::size_t i, Workers::Worker& worker) {
     const auto look = [&](auto& s) {
-      if (!s.lit || walker_.visible(s.walk, 0) == Crossing::yes) return;
+      if (!s.lit || !s.walk.has_places() || walker_.visible(s.walk, 0) == Crossing::yes) return;
       ++s.seed;
       s.walk.end = ++s.near < kPointNearLevels ? Walk::End::crossed : Walk::End::unresolved;  // made anew, or given up
       nearer[i] = 1;
@@ -234,7 +234,8 @@ bool Sources::ask_nearer() {
     OfEdge& s = of_edges_[i];
     if (!s.lit || !is_cut_off(s, 0)) return look(s);
     ++s.level;
-    s.beside = nullptr;
+    place(s, worker.pool);                          // where none of the pieces that are there now is between
+    if (s.beside) s.walk.end = Walk::End::crossed;  // by pieces that the next round may not have: to be made anew
     nearer[i] = 1;
   });
   if (std::find(nearer.begin(), nearer.end(), 1) == nearer.end()) return false;
