@@ -247,7 +247,7 @@ bool Sources::ask_nearer() {
   };
   std::for_each(of_edges_.begin(), of_edges_.end(), ask_again);
   for (OfVertex& s : of_vertices_) {
-    if (s.view) ask_again(s);
+    if (s.view && s.beside != s.view) ask_again(s);  // it has a place
   }
   return true;
 }
