@@ -38,6 +38,7 @@ fastpath::LocalMapOptions fast_options(const exact::Dials& dials) {
 Answer reference_answer(const fuzz::Case& scene, const exact::Dials& dials, reference::Formulation formulation) {
   reference::Options options = reference_options(dials);
   options.formulation = formulation;
+  if (scene.solid) options.mode = reference::Mode::solid;
   const auto map = reference::first_order_visibility(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), options);
   Answer out{formulation == reference::Formulation::plain ? "reference" : "traversal",
              map.visible,
@@ -56,7 +57,9 @@ Answer reference_answer(const fuzz::Case& scene, const exact::Dials& dials, refe
 
 Answer fast_answer(const fuzz::Case& scene, const exact::Dials& dials) {
   const fastpath::Bvh bvh(scene.mesh);
-  const auto found = fastpath::first_order_visibility(bvh, scene.cell, fast_options(dials), true);
+  fastpath::LocalMapOptions options = fast_options(dials);
+  if (scene.solid) options.mode = fastpath::SideMode::solid;
+  const auto found = fastpath::first_order_visibility(bvh, scene.cell, options, true);
   Answer out{"fast", found.visible, found.conservative_fallbacks, {}, found.in_doubt};
   for (const fastpath::LocalRegion& r : found.regions) {
     if (r.visible) out.areas[{r.triangle, r.front}] += r.area_estimate;

@@ -25,6 +25,7 @@ struct Answer {
   std::vector<std::uint32_t> in_doubt = {};  // of the visible ones (D17b); none in refined answers
 };
 
+// In solid mode if the scene is meant for it.
 Answer reference_answer(const fuzz::Case& scene, const exact::Dials& dials,
                         reference::Formulation formulation = reference::Formulation::plain);
 // Through the closure, regions and all.

@@ -9,6 +9,7 @@
 #include "fastpath/queries/bvh.h"
 #include "fastpath/visibility/first_order.h"
 #include "fastpath/visibility/map/local_map.h"
+#include "fuzz/campaign/generators.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh_io.h"
 #include "tests/differential/answers.h"
@@ -137,6 +138,33 @@ TEST(LimitsSoundness, NothingVisibleIsMissingWhateverIsLeftOut) {
   }
   EXPECT_GT(tally.limited, 0U);
   EXPECT_GT(tally.points, 0U);
+}
+
+// In solid mode only fronts count (D4): light on the back of a triangle, or on a side that faces away, does not make it known.
+TEST(LimitsSoundness, InSolidModeNothingIsMissingAndWhatIsKnownIsInOmega) {
+  std::uint64_t lists = 0, known_of_limited = 0;
+  for (const auto& generator : fuzz::generators_named({"solids", "polytopes"}, fuzz::GivenScenes{})) {
+    for (std::uint64_t i = 0, found = 0; found < 3 && i < 200; ++i) {
+      const fuzz::Case scene = generator.make(11, i);
+      if (!scene.solid || scene.mesh.triangles.size() > 40) continue;
+      ++found;
+      SCOPED_TRACE(name_of(scene));
+      const Answer omega = reference_answer(scene, {});
+      ASSERT_EQ(omega.in_doubt, Ids{});
+      for (const Setting& setting : limits()) {
+        SCOPED_TRACE(setting.name);
+        for (const Answer& answer : {reference_answer(scene, setting.dials), fast_answer(scene, setting.dials)}) {
+          const Ids known = missing_from(answer.visible, answer.in_doubt);
+          EXPECT_EQ(missing_from(omega.visible, answer.visible), Ids{}) << answer.by;
+          EXPECT_EQ(missing_from(known, omega.visible), Ids{}) << answer.by;
+          ++lists;
+          if (answer.fallbacks > 0) known_of_limited += known.size();
+        }
+      }
+    }
+  }
+  std::cout << lists << " lists; " << known_of_limited << " triangles are known in those with fallbacks\n";
+  EXPECT_GT(known_of_limited, 0U);
 }
 
 TEST(LimitsSoundness, NothingVisibleIsMissingFromRefinedLists) {
