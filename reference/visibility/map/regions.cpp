@@ -25,6 +25,7 @@ using exact::Point3;
 namespace {
 
 constexpr std::size_t kSamples = 8;  // points of a region that are asked before it counts as visible
+constexpr int kLooks = 16;           // for a point of a side that is known to be visible
 constexpr std::uint64_t kRegionSeed = 0x1d, kSecondSeed = 0x7a3, kKnownSeed = 0x2b9;
 
 using Segment3 = std::pair<Point3, Point3>;
@@ -82,6 +83,7 @@ class SideMapper {
 
   struct Output : SideFaces {
     std::uint64_t walks = 0, disagreements = 0, fallbacks = 0;
+    int looks = 0;  // for a region that is known; no more of them than kLooks, and none once there is one
   };
 
   Output map_side(std::uint32_t t, bool front) const {
@@ -211,7 +213,7 @@ class SideMapper {
     if (fixpoint_.left_out.may_reach(r.rings[0])) {
       r.visible = true;
       r.sample = lift(inner_point(rings, 0));
-      r.known = is_known_visible(r, rings, lift);
+      r.known = is_known_visible(r, rings, lift, out);
       return;
     }
     for (std::size_t which = 0;; ++which) {
@@ -222,7 +224,7 @@ class SideMapper {
         const Walker::Label label = walker_.label(start, fixpoint_.wedges, fixpoint_.left_out, kRegionSeed + which);
         if (label.fallback && which < kSamples) continue;  // another point of the region may be easier to decide
         r.visible = label.visible;
-        r.known = label.visible && (fixpoint_.known ? is_known_visible(r, rings, lift) : !label.fallback);
+        r.known = label.visible && (fixpoint_.known ? is_known_visible(r, rings, lift, out) : !label.fallback);
         out.fallbacks += label.fallback;
         if (options_.check_two_walks) {
           ++out.walks;
@@ -239,14 +241,19 @@ class SideMapper {
     }
   }
 
-  // D17b: whether sight lines alone, and wedges that are known, say so of one of its points.
+  // D17b: whether sight lines alone, and wedges that are known, say so of one of its points. One region of a side is enough.
   template <class Lift>
-  bool is_known_visible(const Region& r, const std::vector<std::vector<Point2>>& rings, const Lift& lift) const {
-    for (std::size_t which = 0; which < kSamples; ++which) {
+  bool is_known_visible(const Region& r, const std::vector<std::vector<Point2>>& rings, const Lift& lift,
+                        Output& out) const {
+    for (std::size_t which = 0; which < 2 && out.looks < kLooks; ++which) {
+      ++out.looks;
       const Start start{lift(inner_point(rings, which)), SurfaceSide{r.piece, r.front}, nullptr};
       try {
         const Walk walk = walker_.walk(start, kKnownSeed + which);
-        if (!walk.unresolved && walker_.visible(start, walk, *fixpoint_.known, 0) == Meets::yes) return true;
+        if (!walk.unresolved && walker_.visible(start, walk, *fixpoint_.known, 0) == Meets::yes) {
+          out.looks = kLooks;
+          return true;
+        }
       } catch (const scene::Error&) {  // the sample lies in special position
       }
     }

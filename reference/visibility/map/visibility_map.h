@@ -23,7 +23,8 @@ struct Region {
   std::vector<std::vector<exact::Point3>> rings;  // outer boundary first, then holes
   exact::FT area_fraction;                        // of the piece's own area, exactly
   exact::Point3 sample;                           // the interior point whose label this is
-  bool known = false;  // visible at a point for which that is known (D17b); in maps that are not refined
+  bool known =
+      false;  // visible at a point for which that is known (D17b): one of a side, at least; in maps that are not refined
 };
 
 struct DmSegment {
