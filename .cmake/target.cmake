@@ -76,8 +76,8 @@ set(demo_sources
   exact exact/cell exact/complex exact/sight
   reference/visibility reference/visibility/planar/plane_frame.cpp reference/visibility/planar/flat_faces.cpp
   reference/visibility/wedges reference/visibility/labels reference/visibility/search reference/visibility/traversal
-  reference/visibility/map/discontinuity_mesh.cpp reference/visibility/map/omega.cpp reference/visibility/map/regions.cpp
-  reference/visibility/map/side_faces.cpp reference/visibility/map/visibility_map.cpp
+  reference/visibility/map/discontinuity_mesh.cpp reference/visibility/map/in_doubt.cpp reference/visibility/map/omega.cpp
+  reference/visibility/map/regions.cpp reference/visibility/map/side_faces.cpp reference/visibility/map/visibility_map.cpp
   reference/visibility/hidden/render_states.cpp
   validate/certificates/chain.cpp validate/certificates/chain_search.cpp validate/certificates/region_points.cpp
   validate/verdicts/area.cpp validate/verdicts/judge.cpp validate/verdicts/judge_report.cpp validate/verdicts/measures.cpp

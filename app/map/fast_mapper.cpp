@@ -29,15 +29,18 @@ class FastMapper : public CellMapper {
   MappedCell map(const scene::CellSpec& cell, int threads, const reference::Progress& progress) const override {
     if (progress) progress("cell", 0, 1);
     if (request_.refinement != validate::Refinement::none) return refined(cell, threads);
-    const fastpath::FirstOrder found = exact::by_threads(
-        threads, [&] { return fastpath::first_order_visibility(bvh_, cell.points, options_, request_.with_map); });
+    const fastpath::FirstOrder found = exact::by_threads(threads, [&] {
+      return fastpath::first_order_visibility(bvh_, cell.points, options_, request_.with_map, true);
+    });
     MappedCell mapped;
     mapped.name = cell.name;
     const std::size_t triangles = bvh_.mesh().triangles.size();
     mapped.summary = fmt::format("{:>9}  {:>7}  {:>9}  {:>6}  {:>9}  {:>8}  {}\n", triangles, found.visible.size(),
                                  triangles - found.visible.size(), found.part.size(), found.conservative_fallbacks,
                                  found.in_doubt.size(), cell.name);
-    put_result(mapped, to_result(found, cell), request_, sha256_);
+    scene::Result result = to_result(found, cell);
+    result.stats["in_doubt"] = static_cast<std::int64_t>(found.in_doubt.size());
+    put_result(mapped, std::move(result), request_, sha256_);
     return mapped;
   }
   const char* table_head() const override {
@@ -110,7 +113,6 @@ class FastMapper : public CellMapper {
     put("csv", found.counts.csv);
     put("degenerate_triangles", bvh_.degenerate().size());
     put("exact_decisions", found.counts.exact_decisions);
-    put("in_doubt", found.in_doubt.size());
     put("mapped_triangles", found.part.size());
     put("passes", found.closure.passes);
     put("rounds", found.counts.rounds);

@@ -18,7 +18,8 @@ struct FirstOrder {
   LocalMapCounts counts;             // of the last map
   ClosureCounts closure;
   std::uint64_t conservative_fallbacks = 0;
-  std::vector<std::uint32_t> in_doubt;  // D17b: visible triangles of which no point is known to be in Omega or in V
+  std::vector<std::uint32_t>
+      in_doubt;  // D17b, when asked for: visible triangles of which no point is known to be in Omega or in V
 };
 
 // One tree serves many cells at once. The same answer for any number of threads. Solid mode takes the mesh as
@@ -26,7 +27,7 @@ struct FirstOrder {
 // gets a tree of its own; regions are moved back. Throws scene::Error for coordinates that are not finite,
 // and unsupported as StandardRange does.
 FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
-                                  bool regions = false);
+                                  bool regions = false, bool in_doubt = false);
 
 // Back into the coordinates of the scene.
 void move_back(std::vector<LocalRegion>& regions, const exact::StandardRange& range);

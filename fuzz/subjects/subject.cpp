@@ -111,8 +111,7 @@ class ComparedSubject : public FunctionSubject {
   ComparedSubject(std::string name, std::uint64_t one_in, std::function<Answer(const Case&)> answer)
       : FunctionSubject(std::move(name), true, std::move(answer)), one_in_(one_in) {}
   bool is_compared(const Case& scene) const override {
-    // Where the dials limit both, less is known.
-    return one_in_ == 1 || (!is_limited(scene.dials) && random_for(scene, "comparison").next() % one_in_ == 0);
+    return one_in_ == 1 || random_for(scene, "comparison").next() % one_in_ == 0;
   }
 
  private:
@@ -122,7 +121,7 @@ class ComparedSubject : public FunctionSubject {
 std::unique_ptr<Subject> fast_subject(const std::string& name) {
   return std::make_unique<ComparedSubject>(name, *cases_for_a_comparison(name), [](const Case& scene) {
     const fastpath::FirstOrder found =
-        fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene));
+        fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene), false, true);
     return Answer{found.visible, std::nullopt, found.in_doubt};
   });
 }

@@ -9,6 +9,7 @@
 #include "exact/threads.h"
 #include "reference/visibility/hidden/render_states.h"
 #include "reference/visibility/map/discontinuity_mesh.h"
+#include "reference/visibility/map/in_doubt.h"
 #include "reference/visibility/map/omega.h"
 #include "reference/visibility/map/regions.h"
 #include "reference/visibility/map/sides.h"
@@ -41,6 +42,8 @@ Omega::Omega(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, con
              const exact::StandardRange& range)
     : Omega(complex_for(mesh, cell, options, range), range.moved_in(cell), options, {}) {
   map_->range = range;
+  exact::by_threads(threads_of(options), [&] { map_->in_doubt = find_in_doubt(*scene_, *fixpoint_, options, *map_); });
+  fixpoint_->find_known = nullptr;
 }
 
 Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Options& options,
@@ -67,7 +70,6 @@ Omega::Omega(exact::Complex complex, const exact::ConvexCell& cell, const Option
   });
   assert(map.statistics.walk_disagreements == 0);  // D14
   find_visible(*scene_, map);
-  find_in_doubt(*scene_, map);
 }
 
 VisibilityMap first_order_visibility(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell,

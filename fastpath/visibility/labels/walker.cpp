@@ -133,10 +133,7 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, const Manner& manner) const {
         v = both ? in_front(*on, &*before, number, pool) : attempt == 0 ? along : nullptr;
         if (!v) v = in_front(*on, nullptr, number, pool);
         if (!v) {
-          const auto& s = scene_->cell.vertices;
-          const bool faced =
-              std::any_of(s.begin(), s.end(), [&](const ExactPoint& x) { return height_sign(*on, x) > 0; });
-          walk.end = faced ? Walk::End::unresolved : Walk::End::surface;
+          walk.end = scene_->faces_cell(on->piece, on->side) ? Walk::End::unresolved : Walk::End::surface;
           return walk;
         }
       }
@@ -156,12 +153,10 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, const Manner& manner) const {
       }
       if (crossed == Crossing::touch) continue;
       int level = manner.near;
-      const auto next = near_enough(
-          level, kPointNearLevels, [&](int at) { return point_near(*m, *p, at); },
-          [&](const ExactPoint& x) {
-            return h.side(x) == side && !scene_->may_meet(x, *p) && !scene_->is_on_surface(x) &&
-                   !pieces_->may_meet(x, *p, 0, kNothing);
-          });
+      const auto next = near_enough(level, *m, *p, [&](const ExactPoint& x) {
+        return h.side(x) == side && !scene_->may_meet(x, *p) && !scene_->is_on_surface(x) &&
+               !pieces_->may_meet(x, *p, 0, kNothing);
+      });
       found = next.has_value();
       if (found) walk.legs.push_back({m, p, pool.keep(*next), *last.piece, side, false});
     }
@@ -215,11 +210,10 @@ Walker::Label Walker::label(const ExactPoint* p, const LeftOut& left_out, Pool& 
   for (std::uint64_t attempt = 0; attempt < 12; ++attempt) {
     const Walk made = walk(p, pool, {seed + attempt * 7919});
     if (made.end == Walk::End::unresolved) continue;
-    const Crossing c = visible(made, 0);
-    if (c == Crossing::yes) return Label::visible;
-    const Crossing last = visible_by_last_leg(made, 0);
+    if (made.end != Walk::End::surface) return Label::visible;
+    const Crossing last = visible_by_last_leg(made, 0);  // no other leg is crossed: the walk went on
     if (last == Crossing::yes && !last_leg_is_in_doubt(made)) return Label::visible;
-    if (c == Crossing::touch || last != Crossing::no) continue;
+    if (last != Crossing::no) continue;
     bool counts = true;
     for (std::size_t i = 0; counts && i < left_out.size(); ++i) counts = keeps_out(made, left_out, i);
     if (counts) return Label::hidden;

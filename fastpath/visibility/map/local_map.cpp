@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <optional>
 
 #include "fastpath/visibility/labels/one_label.h"
@@ -87,17 +86,12 @@ class LocalMap::Parts {
     counts.exact_decisions = exact_decisions() - before;
   }
 
-  // Found when it is first asked for: most maps, of passes and of parts, never are.
-  const std::vector<std::uint32_t>& in_doubt() const {
-    std::call_once(looked_for_doubt, [&] {
-      if (counts.conservative_fallbacks == 0) return;
-      const RoundedUp rounded_up;
-      const PieceSet known = search.find_known();
-      const Walker by_known(scene, known);
-      const Sides sides(scene, search.pieces(), *one_label, options.mode, wanted);
-      found_in_doubt = sides.in_doubt_of(visible, by_known, known, workers);
-    });
-    return found_in_doubt;
+  std::vector<std::uint32_t> find_in_doubt() {
+    if (counts.conservative_fallbacks == 0) return {};
+    const RoundedUp rounded_up;
+    search.keep_known();
+    const Sides sides(scene, search.pieces(), *one_label, options.mode, wanted);
+    return sides.in_doubt_of(visible, search.walker(), workers);
   }
 
   WedgePiece estimated(ValidPiece p) const {
@@ -119,17 +113,14 @@ class LocalMap::Parts {
   LocalScene scene;
   const std::vector<bool> wanted;  // by triangle
   IntervalBox bounds;              // of scene and cell, and of what the caller asks about
-  mutable Workers workers;
+  Workers workers;
   IntervalBox bounds_asked;
-  mutable Search search;  // but for what is known all that is asked of it stays
+  Search search;
   std::vector<std::uint32_t> visible, lit;
   std::optional<OneLabel> one_label;
   std::uint64_t labels_of_sides = 0;  // that are visible because nothing is known
 
  private:
-  mutable std::once_flag looked_for_doubt;
-  mutable std::vector<std::uint32_t> found_in_doubt;
-
   // Where the ray from the centre through r crosses the near edge.
   static Point near_end(const ValidPiece& p, const Point& r) {
     const Point c = p.on->center->estimate(), a = p.near0->estimate(), b = p.near1->estimate();
@@ -186,7 +177,7 @@ std::vector<WedgePiece> LocalMap::pieces() const {
   return out;
 }
 const std::vector<std::uint32_t>& LocalMap::lit() const { return parts_->lit; }
-const std::vector<std::uint32_t>& LocalMap::in_doubt() const { return parts_->in_doubt(); }
+std::vector<std::uint32_t> LocalMap::find_in_doubt() { return parts_->find_in_doubt(); }
 const LocalMapCounts& LocalMap::counts() const { return parts_->counts; }
 std::uint64_t LocalMap::conservative_labels() const {
   return parts_->one_label->unresolved() - parts_->labels_of_sides;
@@ -248,7 +239,7 @@ void require_standard_range(const scene::TriangleMesh& mesh) {
 LocalMap map_of_all(const exact::Complex& complex, const exact::ConvexCell& cell, const LocalMapOptions& options,
                     const Box* outside) {
   const std::vector<bool> all(complex.input_triangles, true);
-  return LocalMap(std::make_shared<const LocalMap::Parts>(complex, cell, cell, options, all, outside));
+  return LocalMap(std::make_shared<LocalMap::Parts>(complex, cell, cell, options, all, outside));
 }
 
 }  // namespace
@@ -267,7 +258,7 @@ LocalMap make_local_map(const PartOfScene& part, const exact::ConvexCell& cell, 
 
 LocalMap make_local_map_in(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part,
                            const LocalMapOptions& options, const std::vector<bool>& wanted) {
-  return LocalMap(std::make_shared<const LocalMap::Parts>(complex, whole, part, options, wanted, nullptr));
+  return LocalMap(std::make_shared<LocalMap::Parts>(complex, whole, part, options, wanted, nullptr));
 }
 
 }  // namespace clues::fastpath

@@ -49,8 +49,6 @@ class LocalMap {
   const std::vector<std::uint32_t>& visible() const;
   // Those that light meets on either side: in solid mode they may be more.
   const std::vector<std::uint32_t>& lit() const;
-  // D17b: those of the visible ones of which no point is known to be in Omega or in V; none without a fallback. Found when first asked for.
-  const std::vector<std::uint32_t>& in_doubt() const;
   // The valid pieces in order of their making, which is the same in every run; made anew at each call.
   std::vector<WedgePiece> pieces() const;
   // The regions of all sides that count, made anew at each call. O(k^2) labels for k pieces that cross a triangle.
@@ -71,11 +69,15 @@ class LocalMap {
 
   const LocalMapCounts& counts() const;
 
+  // D17b: those of the visible ones of which no point is known to be in Omega or in V; none without a fallback. The last question to a map and its copies, as it
+  // leaves only the pieces that are known, and counts in counts(); ask it once, and nothing else at the same time.
+  std::vector<std::uint32_t> find_in_doubt();
+
   class Parts;  // local_map.cpp
-  explicit LocalMap(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+  explicit LocalMap(std::shared_ptr<Parts> parts) : parts_(std::move(parts)) {}
 
  private:
-  std::shared_ptr<const Parts> parts_;
+  std::shared_ptr<Parts> parts_;
 };
 
 // Keeps no reference to its arguments. Throws scene::Error for coordinates that are not finite.

@@ -122,10 +122,7 @@ std::vector<IntervalBox> enclosures(const std::vector<Point>& corners, double ex
 void map_side(const LocalScene& scene, std::uint32_t t, bool front, const LocalOrigin& origin,
               const std::vector<Trace>& traces, const RegionIsVisible& visible, std::vector<LocalRegion>& regions) {
   const int side = front ? 1 : -1;
-  const auto& s = scene.cell.vertices;
-  const bool in_cell = scene.pieces[t].in_cell;
-  const bool faced =
-      std::any_of(s.begin(), s.end(), [&](const ExactPoint& v) { return scene.planes[t].side(v) == side; });
+  const bool in_cell = scene.pieces[t].in_cell, faced = scene.faces_cell(t, side);
   const std::vector<Point> whole{scene.corner(t, 0).estimate(), scene.corner(t, 1).estimate(),
                                  scene.corner(t, 2).estimate()};
   const Point n = cross_of(minus(whole[1], whole[0]), minus(whole[2], whole[0]));

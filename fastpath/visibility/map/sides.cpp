@@ -65,9 +65,14 @@ class PlacesBeside {
 
 }  // namespace
 
-void Sides::find_visible(Workers& workers) {
+Sides::Cuts Sides::cuts() const {
   Cuts cut(scene_.pieces.size());
   for (const ValidPiece& piece : pieces_.pieces()) mark_traces(piece, cut);
+  return cut;
+}
+
+void Sides::find_visible(Workers& workers) {
+  const Cuts cut = cuts();
   // A piece of several triangles is looked at once, for all of them.
   std::vector<std::vector<std::uint32_t>> pieces_of(scene_.triangles);
   for (std::uint32_t t = 0; t < scene_.pieces.size(); ++t)
@@ -87,10 +92,9 @@ void Sides::find_visible(Workers& workers) {
   }
 }
 
-std::vector<std::uint32_t> Sides::in_doubt_of(const std::vector<std::uint32_t>& listed, const Walker& by_known,
-                                              const PieceSet& known, Workers& workers) const {
-  Cuts cut(scene_.pieces.size());
-  for (const ValidPiece& piece : known.pieces()) mark_traces(piece, cut);
+std::vector<std::uint32_t> Sides::in_doubt_of(const std::vector<std::uint32_t>& listed, const Walker& walker,
+                                              Workers& workers) const {
+  const Cuts cut = cuts();
   std::vector<std::vector<std::uint32_t>> pieces_of(scene_.triangles);
   for (std::uint32_t t = 0; t < scene_.pieces.size(); ++t) {
     for (const LocalOrigin& o : scene_.pieces[t].origins) pieces_of[o.triangle].push_back(t);
@@ -103,7 +107,8 @@ std::vector<std::uint32_t> Sides::in_doubt_of(const std::vector<std::uint32_t>& 
       for (const bool front : {true, false}) {
         if (!counts_for(mode_, o, front)) continue;
         if (piece.in_cell) return true;
-        if (faces_cell(t, front) && (cut[t][front ? 0 : 1].lit || is_known(t, front, by_known))) return true;
+        if (!scene_.faces_cell(t, front ? 1 : -1)) continue;
+        if (cut[t][front ? 0 : 1].lit || is_seen_inside(t, front, walker)) return true;
       }
       return false;
     });
@@ -120,28 +125,20 @@ std::vector<std::uint32_t> Sides::in_doubt_of(const std::vector<std::uint32_t>& 
   return in_doubt;
 }
 
-// A side that no point of V is strictly in front of is reached by no sight line and no continuation (D8).
-bool Sides::faces_cell(std::uint32_t t, bool front) const {
-  const auto& s = scene_.cell.vertices;
-  const int side = front ? 1 : -1;
-  return std::any_of(s.begin(), s.end(), [&](const ExactPoint& v) { return scene_.planes[t].side(v) == side; });
-}
-
-// Whether a sight line that is free, or comes through one of the pieces that are known into their light, ends inside a piece.
-bool Sides::is_known(std::uint32_t t, bool front, const Walker& by_known) const {
+// Whether a sight line that is free, or comes through a piece into its light, ends inside a piece of the surface.
+bool Sides::is_seen_inside(std::uint32_t t, bool front, const Walker& walker) const {
   constexpr std::uint64_t kViewpoints = 8;
   for (const std::array<double, 3>& w : kWeights) {
     const ExactPoint q(inner_point(corners_of(scene_, t), w));
     for (std::uint64_t i = 0; i < kViewpoints; ++i) {
-      const ExactPoint& v = *by_known.viewpoint(i);
+      const ExactPoint& v = *walker.viewpoint(i);
       if (scene_.planes[t].side(v) != (front ? 1 : -1)) continue;
       const LocalScene::Last last = scene_.last_crossing(v, q);
       if (last.degenerate) continue;
       if (!last.piece) return true;
       const Plane& h = scene_.planes[*last.piece];
       const ExactPoint m = ExactPoint::on_plane(v, q, h);
-      if (by_known.leg_crossed({&m, &q, nullptr, *last.piece, h.side(q), false, false}, 0) == Crossing::yes)
-        return true;
+      if (walker.leg_crossed({&m, &q, nullptr, *last.piece, h.side(q), false, false}, 0) == Crossing::yes) return true;
     }
   }
   return false;
@@ -203,7 +200,7 @@ void Sides::mark_traces(const ValidPiece& piece, Cuts& cut) const {
 
 bool Sides::is_visible(std::uint32_t t, bool front, const Cut& cut) {
   const int side = front ? 1 : -1;
-  if (!faces_cell(t, front)) return false;
+  if (!scene_.faces_cell(t, side)) return false;
   if (cut.lit) return true;
   if (cut.planes.empty()) return whole_side_visible(t, side);
   const std::vector<std::vector<Exact3>> parts = parts_between(t, cut.planes);

@@ -24,9 +24,9 @@ class Sides {
       : scene_(scene), pieces_(pieces), one_label_(one_label), mode_(mode), wanted_(wanted) {}
 
   void find_visible(Workers& workers);
-  // D17b: those of which single sight lines and `known` pieces, the pieces of `by_known`, show no point.
-  std::vector<std::uint32_t> in_doubt_of(const std::vector<std::uint32_t>& listed, const Walker& by_known,
-                                         const PieceSet& known, Workers& workers) const;
+  // D17b, where the pieces, which are those of `walker`, are the known ones: those that neither they nor single sight lines show a point of.
+  std::vector<std::uint32_t> in_doubt_of(const std::vector<std::uint32_t>& listed, const Walker& walker,
+                                         Workers& workers) const;
 
   std::vector<std::uint32_t> visible,
       lit;  // wanted triangles with a side that counts and is visible; that light meets on either side
@@ -46,8 +46,8 @@ class Sides {
   };
   using Cuts = std::vector<std::array<Cut, 2>>;  // by piece: front, back
 
-  bool faces_cell(std::uint32_t t, bool front) const;
-  bool is_known(std::uint32_t t, bool front, const Walker& by_known) const;
+  bool is_seen_inside(std::uint32_t t, bool front, const Walker& walker) const;
+  Cuts cuts() const;
   std::vector<Lit> lit_of(const std::vector<std::uint32_t>& ids, const Cuts& cut);
   bool runs_along_an_edge(const Plane& plane, std::uint32_t t) const;
   void mark_traces(const ValidPiece& piece, Cuts& cut) const;

@@ -24,6 +24,12 @@ std::optional<ExactPoint> near_enough(int levels, const Place& place, const Good
   return near_enough(level, levels, place, good);
 }
 
-inline constexpr int kPointNearLevels = 7;  // that point_near() has
+// From x on the way to another, as point_near() places it.
+inline constexpr int kPointNearLevels = 7;
+template <class Good>
+std::optional<ExactPoint> near_enough(int& level, const ExactPoint& x, const ExactPoint& to, const Good& good) {
+  return near_enough(
+      level, kPointNearLevels, [&](int at) { return point_near(x, to, at); }, good);
+}
 
 }  // namespace clues::fastpath

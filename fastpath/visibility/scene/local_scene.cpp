@@ -207,6 +207,11 @@ Crossing LocalScene::crosses(const ExactPoint& v, const ExactPoint& p, std::uint
   return touch ? Crossing::touch : Crossing::yes;
 }
 
+bool LocalScene::faces_cell(std::uint32_t t, int side) const {
+  return std::any_of(cell.vertices.begin(), cell.vertices.end(),
+                     [&](const ExactPoint& v) { return planes[t].side(v) == side; });
+}
+
 bool LocalScene::may_meet(const ExactPoint& v, const ExactPoint& p) const {
   return tree.any(SegmentTest(v, p), [&](std::uint32_t i) { return crosses(v, p, occluders[i]) != Crossing::no; });
 }

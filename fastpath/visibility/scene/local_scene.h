@@ -96,6 +96,8 @@ class LocalScene {
   Crossing crosses(const ExactPoint& v, const ExactPoint& p, std::uint32_t piece) const;
   // Whether it meets any piece, or may.
   bool may_meet(const ExactPoint& v, const ExactPoint& p) const;
+  // Whether some point of V is strictly on this side of a piece (1: in front). Another side is reached by no sight line and no continuation (D8).
+  bool faces_cell(std::uint32_t t, int side) const;
   // Whether a closed piece holds x. A place that is chosen to stand for the space beside something must be in free space:
   // the open segment to it does not show that, and its label would be that of one side of what it lies on.
   bool is_on_surface(const ExactPoint& x) const;

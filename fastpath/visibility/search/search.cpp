@@ -61,16 +61,12 @@ class Search::Work {
   bool round() {
     left_out = {};
     left_out_contacts.clear();
-    csvs_met.clear();
-    contacts.start_round();
+    start_light();
     sources.start_round(cuts);
     counts.sources = std::max<std::uint64_t>(counts.sources, sources.of_edges().size());
     new_cuts.assign(scene.edges.size(), {});
-    too_intricate.clear();
-    light_of = Sources::Light::sure;
-    spread();
-    light_of = Sources::Light::in_doubt;
-    spread();
+    spread(Sources::Light::sure);
+    spread(Sources::Light::in_doubt);
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     std::vector<ValidPiece> merged = build(merged_jobs());
     cut_coplanar(merged);
@@ -88,19 +84,23 @@ class Search::Work {
   }
 
   // D17b.
-  PieceSet find_known() {
-    PieceSet all = std::exchange(set, {});
-    contacts.start_round();
+  void keep_known() {
     sources.start_known(left_out);
-    csvs_met.clear();
-    too_intricate.clear();
-    light_of = Sources::Light::known;
-    spread();
-    return std::exchange(set, std::move(all));
+    set.clear();
+    start_light();
+    spread(Sources::Light::known);
   }
 
-  // Lights what is visible, and all that follows from it. In doubt: also what counts as visible.
-  void spread() {
+  // Nothing has been lit yet.
+  void start_light() {
+    contacts.start_round();
+    csvs_met.clear();
+    too_intricate.clear();
+  }
+
+  // Lights sources, and all that follows from it.
+  void spread(Sources::Light light_that_spreads) {
+    light_of = light_that_spreads;
     for (std::vector<Job> waiting = light(set.pieces().size()); !waiting.empty();) {
       const std::size_t first = set.pieces().size();
       set.add(build(next_batch(waiting)));
@@ -453,7 +453,7 @@ void Search::run() {
   work_->run();
 }
 const PieceSet& Search::pieces() const { return work_->set; }
-PieceSet Search::find_known() { return work_->find_known(); }
+void Search::keep_known() { work_->keep_known(); }
 const Walker& Search::walker() const { return work_->walker; }
 const LeftOut& Search::left_out() const { return work_->left_out; }
 

@@ -28,8 +28,8 @@ class Search {
   ~Search();
   // On all threads of the arena; the result is the same for any number. Afterwards pieces() is complete, but for what left_out() says.
   void run();
-  // After run(), once: pieces of light that is there whatever is in doubt or left out (D17b).
-  PieceSet find_known();
+  // After run(), once: from here on pieces() are only those of light that is there whatever is in doubt or left out (D17b).
+  void keep_known();
 
   const PieceSet& pieces() const;
   const Walker& walker() const;

@@ -79,12 +79,10 @@ void Sources::place(OfVertex& s, Pool& pool) {
   const Apex& apex = contacts_.apex_of(s.point, pool);
   std::optional<ExactPoint> beside;
   try {
-    beside = near_enough(
-        s.level, kPointNearLevels, [&](int level) { return point_near(x, *s.view, level); },
-        [&](const ExactPoint& p) {
-          return !equal(p, x) && !scene_.may_meet(p, x) && !scene_.is_on_surface(p) && apex.in_one_face(p, *s.view) &&
-                 !piece_between(p, x, 0);
-        });
+    beside = near_enough(s.level, x, *s.view, [&](const ExactPoint& p) {
+      return !equal(p, x) && !scene_.may_meet(p, x) && !scene_.is_on_surface(p) && apex.in_one_face(p, *s.view) &&
+             !piece_between(p, x, 0);
+    });
   } catch (const scene::Error& error) {  // the vertex is too intricate
     if (error.code() != scene::ErrorCode::internal) throw;
   }
@@ -106,10 +104,10 @@ Sources::OfVertex Sources::unresolved(std::uint32_t v, const ExactPoint& view, P
   return s;
 }
 
-template <class Source>
-void Sources::walk_from_place(Source& s, Pool& pool) {
+void Sources::walk_from_place(Place& s, Pool& pool) {
   ++walks_;
-  s.walk = walker_.walk(s.beside, pool, {s.seed, s.near, s.least});
+  s.walk = walker_.walk(s.beside, pool, s.manner);
+  s.stale = false;
 }
 
 void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cuts) {
@@ -133,31 +131,31 @@ void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cut
   for (OfVertex& s : of_vertices_) s.lit = false;
   const std::size_t edges = of_edges_.size();
   workers_.for_each(edges + of_vertices_.size(), [&](std::size_t i, Workers::Worker& worker) {
-    const auto walk_again = [&](auto& s) {
-      if (s.walk.end == Walk::End::crossed) walk_from_place(s, worker.pool);
-    };
-    if (i >= edges) return walk_again(of_vertices_[i - edges]);
-    OfEdge& s = of_edges_[i];
-    if (s.part.y && s.beside) return walk_again(s);
-    if (!s.part.y) s.part.y = worker.pool.keep(ExactPoint::between(*s.part.lo, *s.part.hi, 0.4716796875));
-    place(s, worker.pool);
+    if (i < edges && !of_edges_[i].part.y) {
+      OfEdge& s = of_edges_[i];
+      s.part.y = worker.pool.keep(ExactPoint::between(*s.part.lo, *s.part.hi, 0.4716796875));
+      place(s, worker.pool);
+    }
+    Place& s = place_of(i);
+    if (s.stale || s.walk.end == Walk::End::crossed) walk_from_place(s, worker.pool);
   });
 }
 
-// Without a place the source counts as visible.
+Sources::Place& Sources::place_of(std::size_t i) {
+  const std::size_t edges = of_edges_.size();
+  return i < edges ? static_cast<Place&>(of_edges_[i]) : of_vertices_[i - edges];
+}
+
 void Sources::place(OfEdge& s, Pool& pool) {
   const std::optional<ExactPoint> beside = beside_edge(scene_, pieces_, contours_[s.contour], s.part, s.level);
   s.beside = beside ? pool.keep(*beside) : nullptr;
-  if (beside) {
-    walk_from_place(s, pool);
-  } else {
-    s.walk = Walk{};
-    s.walk.end = Walk::End::unresolved;
-  }
+  s.stale = beside.has_value();
+  if (beside) return;
+  s.walk = Walk{};
+  s.walk.end = Walk::End::unresolved;
 }
 
-template <class Source>
-bool Sources::newly_visible_by_walk(Source& s, std::size_t first, Pool& pool) {
+bool Sources::newly_visible_by_walk(Place& s, std::size_t first, Pool& pool) {
   constexpr int kRetries = 12;
   constexpr std::size_t kLeast = 8, kMost = 32;
   for (int i = 0;; ++i) {
@@ -165,9 +163,9 @@ bool Sources::newly_visible_by_walk(Source& s, std::size_t first, Pool& pool) {
     if (c == Crossing::yes) return true;
     const bool by_last_leg = c == Crossing::no && walker_.visible_by_last_leg(s.walk, first) != Crossing::no;
     if (c == Crossing::no && !by_last_leg) return false;
-    if (i == kRetries || (by_last_leg && s.least == kMost)) break;
-    if (by_last_leg) s.least = std::max(kLeast, 2 * s.least);
-    ++s.seed;
+    if (i == kRetries || (by_last_leg && s.manner.least == kMost)) break;
+    if (by_last_leg) s.manner.least = std::max(kLeast, 2 * s.manner.least);
+    ++s.manner.seed;
     walk_from_place(s, pool);
     first = 0;
   }
@@ -184,6 +182,7 @@ bool Sources::newly_visible(OfEdge& s, std::size_t first, Pool& pool) {
   if (is_cut_off(s, first)) {
     ++s.level;
     place(s, pool);
+    if (s.stale) walk_from_place(s, pool);
     first = 0;
   }
   return newly_visible_by_walk(s, first, pool);
@@ -224,30 +223,29 @@ bool Sources::ask_nearer() {
   const std::size_t edges = of_edges_.size();
   std::vector<char> nearer(edges + of_vertices_.size(), 0);
   workers_.for_each(nearer.size(), [&](std::size_t i, Workers::Worker& worker) {
-    const auto look = [&](auto& s) {
-      if (!s.lit || !s.walk.has_places() || walker_.visible(s.walk, 0) == Crossing::yes) return;
-      ++s.seed;
-      s.walk.end = ++s.near < kPointNearLevels ? Walk::End::crossed : Walk::End::unresolved;  // made anew, or given up
-      nearer[i] = 1;
-    };
-    if (i >= edges) return look(of_vertices_[i - edges]);
-    OfEdge& s = of_edges_[i];
-    if (!s.lit || !is_cut_off(s, 0)) return look(s);
-    ++s.level;
-    place(s, worker.pool);                          // where none of the pieces that are there now is between
-    if (s.beside) s.walk.end = Walk::End::crossed;  // by pieces that the next round may not have: to be made anew
+    Place& s = place_of(i);
+    if (!s.lit) return;
+    if (i < edges && is_cut_off(of_edges_[i], 0)) {
+      ++s.level;
+      place(of_edges_[i], worker.pool);  // where none of the pieces that are there now is between
+    } else {
+      if (!s.walk.has_places() || walker_.visible(s.walk, 0) == Crossing::yes) return;
+      ++s.manner.seed;
+      s.stale = ++s.manner.near < kPointNearLevels;
+      if (!s.stale) s.walk.end = Walk::End::unresolved;
+    }
     nearer[i] = 1;
   });
   if (std::find(nearer.begin(), nearer.end(), 1) == nearer.end()) return false;
   constexpr int kTimes = 4;
   if (++times_nearer_ > kTimes) return true;
-  const auto ask_again = [](auto& s) {
-    if (s.beside && s.walk.end == Walk::End::unresolved && s.near < kPointNearLevels) s.walk.end = Walk::End::crossed;
-    s.least = 0;
-  };
-  std::for_each(of_edges_.begin(), of_edges_.end(), ask_again);
-  for (OfVertex& s : of_vertices_) {
-    if (s.view && s.beside != s.view) ask_again(s);  // it has a place
+  for (std::size_t i = 0; i < nearer.size(); ++i) {
+    Place& s = place_of(i);
+    const bool has_place =
+        i < edges ? s.beside != nullptr : of_vertices_[i - edges].view && s.beside != of_vertices_[i - edges].view;
+    if (!has_place || s.walk.end != Walk::End::unresolved || s.manner.near >= kPointNearLevels) continue;
+    s.stale = true;
+    s.manner.least = 0;
   }
   return true;
 }
@@ -259,8 +257,11 @@ void Sources::start_known(const LeftOut& left_out) {
     }
     return true;
   };
-  const auto may_be_known = [](const auto& s) {
-    return s.lit && (s.walk.end == Walk::End::cell || s.walk.end == Walk::End::surface);
+  const auto nothing = [](const Plane&) { return false; };
+  const auto is_divided = [&](const Leg& leg) { return leg.next && pieces_.may_meet(*leg.next, *leg.p, 0, nothing); };
+  const auto may_be_known = [&](const Place& s) {
+    return s.lit && (s.walk.end == Walk::End::cell || s.walk.end == Walk::End::surface) &&
+           std::none_of(s.walk.legs.begin(), s.walk.legs.end(), is_divided);
   };
   for (OfEdge& s : of_edges_) {
     s.known = may_be_known(s) && keeps_out_of_all(s.walk, [&](std::size_t i) {

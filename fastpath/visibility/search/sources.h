@@ -25,35 +25,34 @@ namespace clues::fastpath {
 
 class Sources {
  public:
-  // A part of a contour edge, seen from one supporting plane, with a point beside it.
-  struct OfEdge {
-    std::size_t contour = 0;
-    EdgePart part;
-    const ExactPoint* beside = nullptr;
-    int level = 0;  // of nearness of `beside`
-    std::uint64_t seed = 0x51;
+  // What is asked whether light is there.
+  struct Place {
+    const ExactPoint* beside = nullptr;  // where it is asked
+    int level = 0;                       // of nearness of `beside`
+    Walker::Manner manner;               // of the walk from there
     Walk walk;
     bool lit = false;
-    int near = 0;           // level of nearness of the places of its walk
-    std::size_t least = 0;  // legs of its walk before one out of the dark
-    bool known = false;     // see start_known()
+    bool stale = false;  // the walk has to be made anew
+    bool known = false;  // see start_known()
+  };
+
+  // A part of a contour edge, seen from one supporting plane, with a point beside it.
+  struct OfEdge : Place {
+    std::size_t contour = 0;
+    EdgePart part;
+
+    OfEdge() { manner.seed = 0x51; }
   };
 
   // A mesh vertex and a point beside it on the way to the cell. If that is visible the vertex is, as its sight lines go on
   // to it. If it is not, it speaks for the vertex only as long as no surface and no wedge piece is between the two; a piece
   // that comes between moves the point nearer.
-  struct OfVertex {
+  struct OfVertex : Place {
     std::uint32_t point = 0;
-    const ExactPoint* beside = nullptr;
     const ExactPoint* view = nullptr;  // of a part of V that no other source looks at: on the way there
-    int level = 0;                     // of nearness of `beside`
-    std::uint64_t seed = 0xa7;
-    Walk walk;
-    bool lit = false;
     bool separates = false;  // its wedges do nothing else (T10): in doubt it is lit, and nothing is lost by it
-    int near = 0;            // level of nearness of the places of its walk
-    std::size_t least = 0;   // legs of its walk before one out of the dark
-    bool known = false;      // see start_known()
+
+    OfVertex() { manner.seed = 0xa7; }
   };
 
   // Keeps references, but for `is_vertex`: which points are vertices of the surface (surface_vertices.h). `pieces` must be empty until the
@@ -80,8 +79,8 @@ class Sources {
   // light that is not there, and what it left undecided is asked again, too; the first few times.
   bool ask_nearer();
 
-  // When the rounds are over (D17b): nothing is lit. From here on only that can be which was, which keeps out of all that was left out, with its place and where its walk goes beside a sight line,
-  // and which sight lines show. Needs RoundedUp in scope. O(sources * what is left out).
+  // When the rounds are over and all pieces there (D17b): nothing is lit. From here on only that can be which was, which keeps out of all that was left out, with its place and where its walk goes
+  // beside a sight line, which no piece divides, and which sight lines show. Needs RoundedUp in scope. O(sources * what is left out).
   void start_known(const LeftOut& left_out);
 
   std::uint64_t walks() const { return walks_; }
@@ -93,8 +92,8 @@ class Sources {
   static bool is_in_doubt(const OfVertex& s) { return s.walk.end == Walk::End::unresolved && !s.separates; }
 
  private:
-  template <class Source>
-  void walk_from_place(Source& source, Pool& pool);
+  void walk_from_place(Place& source, Pool& pool);
+  // Finds a place; without one the source counts as visible.
   void place(OfEdge& source, Pool& pool);
   std::vector<OfVertex> beside_vertex(std::uint32_t vertex, Pool& pool);
   OfVertex towards(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
@@ -103,8 +102,8 @@ class Sources {
   static OfVertex unresolved(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
   bool newly_visible(OfEdge& source, std::size_t first, Pool& pool);
   bool newly_visible(OfVertex& source, std::size_t first, Pool& pool);
-  template <class Source>
-  bool newly_visible_by_walk(Source& source, std::size_t first, Pool& pool);
+  bool newly_visible_by_walk(Place& source, std::size_t first, Pool& pool);
+  Place& place_of(std::size_t i);  // of edges, then of vertices
   bool is_cut_off(const OfEdge& source, std::size_t first) const;
 
   const LocalScene& scene_;

@@ -25,8 +25,7 @@ using exact::Point3;
 namespace {
 
 constexpr std::size_t kSamples = 8;  // points of a region that are asked before it counts as visible
-constexpr int kLooks = 16;           // for a point of a side that is known to be visible
-constexpr std::uint64_t kRegionSeed = 0x1d, kSecondSeed = 0x7a3, kKnownSeed = 0x2b9;
+constexpr std::uint64_t kRegionSeed = 0x1d, kSecondSeed = 0x7a3;
 
 using Segment3 = std::pair<Point3, Point3>;
 using SideKey = std::pair<std::uint32_t, bool>;  // piece, front
@@ -83,7 +82,6 @@ class SideMapper {
 
   struct Output : SideFaces {
     std::uint64_t walks = 0, disagreements = 0, fallbacks = 0;
-    int looks = 0;  // for a region that is known; no more of them than kLooks, and none once there is one
   };
 
   Output map_side(std::uint32_t t, bool front) const {
@@ -101,7 +99,7 @@ class SideMapper {
       return out;
     }
     if (complex.in_cell[t]) {  // D3
-      Region r{t, front, true, {{p[0], p[1], p[2]}}, FT(1), CGAL::centroid(p[0], p[1], p[2]), true};
+      Region r{t, front, true, {{p[0], p[1], p[2]}}, FT(1), CGAL::centroid(p[0], p[1], p[2])};
       out.regions.push_back(std::move(r));
       return out;
     }
@@ -213,7 +211,6 @@ class SideMapper {
     if (fixpoint_.left_out.may_reach(r.rings[0])) {
       r.visible = true;
       r.sample = lift(inner_point(rings, 0));
-      r.known = is_known_visible(r, rings, lift, out);
       return;
     }
     for (std::size_t which = 0;; ++which) {
@@ -224,7 +221,6 @@ class SideMapper {
         const Walker::Label label = walker_.label(start, fixpoint_.wedges, fixpoint_.left_out, kRegionSeed + which);
         if (label.fallback && which < kSamples) continue;  // another point of the region may be easier to decide
         r.visible = label.visible;
-        r.known = label.visible && (fixpoint_.known ? is_known_visible(r, rings, lift, out) : !label.fallback);
         out.fallbacks += label.fallback;
         if (options_.check_two_walks) {
           ++out.walks;
@@ -239,25 +235,6 @@ class SideMapper {
       }
       break;
     }
-  }
-
-  // D17b: whether sight lines alone, and wedges that are known, say so of one of its points. One region of a side is enough.
-  template <class Lift>
-  bool is_known_visible(const Region& r, const std::vector<std::vector<Point2>>& rings, const Lift& lift,
-                        Output& out) const {
-    for (std::size_t which = 0; which < 2 && out.looks < kLooks; ++which) {
-      ++out.looks;
-      const Start start{lift(inner_point(rings, which)), SurfaceSide{r.piece, r.front}, nullptr};
-      try {
-        const Walk walk = walker_.walk(start, kKnownSeed + which);
-        if (!walk.unresolved && walker_.visible(start, walk, *fixpoint_.known, 0) == Meets::yes) {
-          out.looks = kLooks;
-          return true;
-        }
-      } catch (const scene::Error&) {  // the sample lies in special position
-      }
-    }
-    return false;
   }
 
   const exact::SceneQuery& scene_;

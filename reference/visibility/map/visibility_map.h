@@ -23,8 +23,6 @@ struct Region {
   std::vector<std::vector<exact::Point3>> rings;  // outer boundary first, then holes
   exact::FT area_fraction;                        // of the piece's own area, exactly
   exact::Point3 sample;                           // the interior point whose label this is
-  bool known =
-      false;  // visible at a point for which that is known (D17b): one of a side, at least; in maps that are not refined
 };
 
 struct DmSegment {
@@ -48,7 +46,7 @@ struct VisibilityMap {
   Statistics statistics;
   std::string method = "first-order";  // or how it was refined (D20, D21)
   exact::StandardRange range = {};
-  // D17b: those of `visible` of which no point is known to be in Omega; ascending. Not of a refined map.
+  // D17b: those of `visible` of which no point is known to be in Omega; ascending. Not of a refined map, nor of a part of a cell.
   std::vector<std::uint32_t> in_doubt = {};
 };
 
@@ -57,7 +55,5 @@ inline std::size_t side_index(std::uint32_t piece, bool front) { return 2 * std:
 
 // D15: the PVS by the map's regions. D3: a triangle that meets the cell is visible.
 void find_visible(const exact::SceneQuery& scene, VisibilityMap& map);
-// D17b. After find_visible().
-void find_in_doubt(const exact::SceneQuery& scene, VisibilityMap& map);
 
 }  // namespace clues::reference

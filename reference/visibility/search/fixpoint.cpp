@@ -29,7 +29,7 @@ constexpr std::size_t kLeast = 8, kMost = 32;  // legs of a walk, where the last
 
 class Search {
  public:
-  Search(const exact::SceneQuery& scene, const Options& options, Statistics& statistics)
+  Search(const exact::SceneQuery& scene, const Options& options, const Statistics& statistics)
       : scene_(scene),
         complex_(scene.complex()),
         options_(options),
@@ -51,32 +51,33 @@ class Search {
     }
     const std::size_t in_doubt = that_count_as_visible(sources_) + that_count_as_visible(vertex_sources_);
     statistics_.conservative_fallbacks += in_doubt;
-    Fixpoint out{std::move(wedges_), {}, in_doubt > 0, {}, {}};
+    Fixpoint out{std::move(wedges_), {}, in_doubt > 0, {}, {}, {}};
     for (const Apex* apex : left_out_) out.left_out.add(apex->x(), scene_.cell());
     if (!out.left_out.empty()) leave_out_doubtful_sources(out.left_out);
     count(out);
     find_lit(out);
-    if (in_doubt > 0 || !out.left_out.empty()) out.known = known_wedges();
     return out;
+  }
+
+  const Statistics& statistics() const { return statistics_; }
+
+  // D17b, when the rounds are over.
+  WedgeSet find_known() {
+    start_light();
+    spread(Light::known);
+    return std::move(wedges_);
   }
 
  private:
   // --- one round ------------------------------------------------------------------------------------------------------------
 
   bool round() {
-    wedges_ = WedgeSet(scene_);
     left_out_.clear();
-    csvs_met_.clear();
-    for (auto& [key, apex] : csvs_) apex->start_round();
-    for (auto& [key, apex] : corners_) apex->start_round();
     new_cuts_.assign(complex_.edges.size(), {});
     sources_ = edge_sources(scene_, walker_, contours_, cuts_, std::move(sources_), statistics_.walks);
-
-    for (VertexSource& s : vertex_sources_) s.lit = false;
-    in_doubt_ = false;
-    spread();
-    in_doubt_ = true;
-    spread();
+    start_light();
+    spread(Light::sure);
+    spread(Light::in_doubt);
 
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     wedges_ = WedgeSet(scene_);
@@ -96,22 +97,25 @@ class Search {
     return changed;
   }
 
-  // D17b, when the rounds are over.
-  WedgeSet known_wedges() {
-    known_only_ = true;
+  enum class Light {
+    sure,      // from what is visible
+    in_doubt,  // also from what counts as visible
+    known      // only from what is visible whatever is in doubt or left out
+  };
+
+  // Nothing has been lit yet.
+  void start_light() {
     wedges_ = WedgeSet(scene_);
     csvs_met_.clear();
     for (auto& [key, apex] : csvs_) apex->start_round();
     for (auto& [key, apex] : corners_) apex->start_round();
     for (Source& s : sources_) s.lit = false;
     for (VertexSource& s : vertex_sources_) s.lit = false;
-    in_doubt_ = false;
-    spread();
-    return std::move(wedges_);
   }
 
-  // Lights what is visible, and all that follows from it. In doubt: also what counts as visible.
-  void spread() {
+  // Lights sources, and all that follows from it.
+  void spread(Light light_that_spreads) {
+    light_ = light_that_spreads;
     std::vector<Job> waiting = light_new(wedges_.pieces().size());
     while (!waiting.empty()) {
       report();
@@ -136,7 +140,7 @@ class Search {
   Meets label_of(Any& s, const Start& start, std::uint64_t seed, std::size_t first) const {
     for (;;) {
       const Meets label = walker_.visible(start, s.walk, wedges_, first);
-      if (label != Meets::no || known_only_) return label;
+      if (label != Meets::no || light_ == Light::known) return label;
       if (walker_.visible_by_last_leg(start, s.walk, wedges_, first) == Meets::no) return label;
       if (s.least == kMost) {
         s.walk.unresolved = true;
@@ -148,14 +152,16 @@ class Search {
     }
   }
 
+  bool in_doubt() const { return light_ == Light::in_doubt; }
+
   // A wedge that only separates (T10) makes nothing visible, also where it should not exist.
   bool separates(const Source& s) const { return contours_[s.contour].holds_cell; }
   static bool separates(const VertexSource& s) { return s.separates; }
   // Whether a source that counts as visible for want of an answer is left for later.
   template <class Any>
   bool waits(const Any& s) const {
-    if (known_only_) return s.walk.unresolved || !keeps_out(s);
-    return !in_doubt_ && s.walk.unresolved && !separates(s);
+    if (light_ == Light::known) return s.walk.unresolved || !keeps_out(s);
+    return light_ == Light::sure && s.walk.unresolved && !separates(s);
   }
   static bool keeps_out(const Source& s) { return s.keeps_out; }
   static bool keeps_out(const VertexSource&) { return true; }  // it is one point
@@ -197,7 +203,7 @@ class Search {
   void light_vertex(VertexSource& s) {
     s.lit = true;
     Apex* apex = corner(s.point);
-    s.probe.doubtful = in_doubt_ || s.walk.unresolved;
+    s.probe.doubtful = in_doubt() || s.walk.unresolved;
     apex->add_probe(s.probe);
     touched_.insert(apex);
   }
@@ -243,7 +249,7 @@ class Search {
         Apex* apex = corner(end);
         const Vector3 along = complex_.points[other] - x;
         Probe probe = apex->probe(along, CGAL::NULL_VECTOR, c.plane.orthogonal_vector());
-        probe.doubtful = in_doubt_ || s.walk.unresolved;
+        probe.doubtful = in_doubt() || s.walk.unresolved;
         apex->add_probe(probe);
         touched_.insert(apex);
       }
@@ -317,7 +323,7 @@ class Search {
     const OnWedge& on = *piece.on_wedge;
     const auto add = [&](const Vector3& aside) {
       Probe probe = apex->probe(back, aside, n);
-      probe.doubtful = in_doubt_;
+      probe.doubtful = in_doubt();
       if (apex->on_edge()) {
         const Vector3 along = complex_.points[complex_.edges[c.id].b] - complex_.points[complex_.edges[c.id].a];
         probe.lit_edge = CGAL::is_positive(n * along) ? along : -along;
@@ -451,8 +457,8 @@ class Search {
 
   const exact::SceneQuery& scene_;
   const exact::Complex& complex_;
-  const Options& options_;
-  Statistics& statistics_;
+  const Options options_;
+  Statistics statistics_;
   Walker walker_;
   std::vector<ContourEdge> contours_;
   PieceMaker maker_;
@@ -461,8 +467,7 @@ class Search {
   std::vector<Source> sources_;
   std::vector<VertexSource> vertex_sources_;
   WedgeSet wedges_;
-  bool in_doubt_ = false;    // what is lit now is lit because something counts as visible
-  bool known_only_ = false;  // the rounds are over: only what is known is lit
+  Light light_ = Light::sure;  // that spreads now
   std::map<std::pair<std::uint32_t, Point3>, std::unique_ptr<Apex>, CsvLess> csvs_;
   std::map<std::uint32_t, std::unique_ptr<Apex>> corners_;
   std::set<Apex*> touched_;
@@ -473,7 +478,11 @@ class Search {
 }  // namespace
 
 Fixpoint find_wedges(const exact::SceneQuery& scene, const Options& options, Statistics& statistics) {
-  return Search(scene, options, statistics).run();
+  const auto search = std::make_shared<Search>(scene, options, statistics);
+  Fixpoint out = search->run();
+  statistics = search->statistics();
+  if (out.in_doubt || !out.left_out.empty()) out.find_known = [search] { return search->find_known(); };
+  return out;
 }
 
 }  // namespace clues::reference

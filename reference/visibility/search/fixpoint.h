@@ -15,7 +15,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <functional>
 #include <vector>
 
 #include "exact/sight/scene_query.h"
@@ -32,10 +32,11 @@ struct Fixpoint {
   bool in_doubt = false;
   // Edges and points of the complex at which a visible source lies or a valid wedge piece arrives.
   std::vector<std::uint32_t> lit_edges, lit_points;
-  // Where something is in doubt or left out: pieces that light Omega whatever is true of that (D17b). None: all of them do.
-  std::optional<WedgeSet> known = std::nullopt;
+  // Where something is in doubt or left out: finds the pieces that light Omega whatever is true of that (D17b); once. Empty: all of them do.
+  std::function<WedgeSet()> find_known;
 };
 
+// The answer's find_known() refers to `scene`.
 Fixpoint find_wedges(const exact::SceneQuery& scene, const Options& options, Statistics& statistics);
 
 }  // namespace clues::reference
