@@ -30,7 +30,8 @@ class FastMapper : public CellMapper {
     if (progress) progress("cell", 0, 1);
     if (request_.refinement != validate::Refinement::none) return refined(cell, threads);
     const fastpath::FirstOrder found = exact::by_threads(threads, [&] {
-      return fastpath::first_order_visibility(bvh_, cell.points, options_, request_.with_map, true);
+      return fastpath::first_order_visibility(bvh_, cell.points, options_,
+                                              {.regions = request_.with_map, .in_doubt = true});
     });
     MappedCell mapped;
     mapped.name = cell.name;

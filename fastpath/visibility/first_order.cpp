@@ -12,18 +12,18 @@
 namespace clues::fastpath {
 namespace {
 
-FirstOrder by_closure(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options, bool regions,
-                      bool in_doubt) {
+FirstOrder by_closure(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
+                      const FirstOrderAsked& asked) {
   ClosedScene closed = close_by_engine(bvh, cell, options, outside_of(bvh));
   LocalMap map = closed.map();
   FirstOrder result;
   for (const std::uint32_t t : map.visible()) result.visible.push_back(closed.closure.part[t]);
-  if (regions) result.regions = map.regions();
+  if (asked.regions) result.regions = map.regions();
   for (LocalRegion& region : result.regions) region.triangle = closed.closure.part[region.triangle];
   result.counts = map.counts();
   result.closure = closed.closure.counts;
   result.conservative_fallbacks = closed.fallbacks();
-  if (in_doubt) {
+  if (asked.in_doubt) {
     for (const std::uint32_t t : map.find_in_doubt()) result.in_doubt.push_back(closed.closure.part[t]);
   }
   result.part = std::move(closed.closure.part);
@@ -33,12 +33,12 @@ FirstOrder by_closure(const Bvh& bvh, const std::vector<Point>& cell, const Loca
 }  // namespace
 
 FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
-                                  bool regions, bool in_doubt) {
+                                  const FirstOrderAsked& asked) {
   return exact::by_dialed_threads(options.dials.threads, [&] {
     const exact::StandardRange range(bvh.mesh(), cell);
-    if (!range.moves()) return by_closure(bvh, cell, options, regions, in_doubt);
+    if (!range.moves()) return by_closure(bvh, cell, options, asked);
     const scene::TriangleMesh mesh = range.moved_in(bvh.mesh());
-    FirstOrder result = by_closure(Bvh(mesh), range.moved_in(cell), options, regions, in_doubt);
+    FirstOrder result = by_closure(Bvh(mesh), range.moved_in(cell), options, asked);
     move_back(result.regions, range);
     return result;
   });

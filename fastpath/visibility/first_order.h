@@ -22,12 +22,17 @@ struct FirstOrder {
       in_doubt;  // D17b, when asked for: visible triangles of which no point is known to be in Omega or in V
 };
 
+// What a map is asked for besides its list.
+struct FirstOrderAsked {
+  bool regions = false, in_doubt = false;
+};
+
 // One tree serves many cells at once. The same answer for any number of threads. Solid mode takes the mesh as
 // closed: see require_solid. A scene outside the standard range (exact/cell/standard_range.h) is moved there and
 // gets a tree of its own; regions are moved back. Throws scene::Error for coordinates that are not finite,
 // and unsupported as StandardRange does.
 FirstOrder first_order_visibility(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
-                                  bool regions = false, bool in_doubt = false);
+                                  const FirstOrderAsked& asked = {});
 
 // Back into the coordinates of the scene.
 void move_back(std::vector<LocalRegion>& regions, const exact::StandardRange& range);

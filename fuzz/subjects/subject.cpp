@@ -120,8 +120,8 @@ class ComparedSubject : public FunctionSubject {
 
 std::unique_ptr<Subject> fast_subject(const std::string& name) {
   return std::make_unique<ComparedSubject>(name, *cases_for_a_comparison(name), [](const Case& scene) {
-    const fastpath::FirstOrder found =
-        fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, fast_options(scene), false, true);
+    const fastpath::FirstOrder found = fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell,
+                                                                        fast_options(scene), {.in_doubt = true});
     return Answer{found.visible, std::nullopt, found.in_doubt};
   });
 }

@@ -271,9 +271,7 @@ TEST(Map, TheFastKernelRefusesWhatItCannotDo) {
                                                {"--min-occlusion", "1"},
                                                {"--simplify-boundaries", "0.1"},
                                                {"--overlap-graph", "g.dot"}}) {
-    std::vector<std::string> arguments{"map", "scene.off", "--cell", screen_cell, "--kernel", "fast"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const auto ran = run_clues(arguments, folder.path());
+    const auto ran = run_clues({"map", "scene.off", "--cell", screen_cell, "--kernel", "fast"}, more, folder.path());
     EXPECT_EQ(ran.exit_code, 2);
     EXPECT_THAT(ran.err, HasSubstr("--kernel exact"));
   }

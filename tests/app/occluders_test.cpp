@@ -26,9 +26,7 @@ class Occluders : public testing::Test {
   Occluders() { folder_.write("scene.off", kScene); }
 
   Ran run(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{"occluders", "scene.off", "--cell", kCell};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_clues(arguments, folder_.path());
+    return run_clues({"occluders", "scene.off", "--cell", kCell}, more, folder_.path());
   }
   std::string text(const std::string& name) const { return read_all(folder_.path() / name); }
 

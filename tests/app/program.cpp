@@ -63,4 +63,9 @@ Ran run_clues(const std::vector<std::string>& arguments, const fs::path& folder)
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(out), read_all(err)};
 }
 
+Ran run_clues(std::vector<std::string> arguments, const std::vector<std::string>& more, const fs::path& folder) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_clues(arguments, folder);
+}
+
 }  // namespace clues::tests

@@ -21,6 +21,9 @@ std::string attacked_program();
 
 // `arguments` are given to the program as they are, without a shell.
 Ran run_clues(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+// With `more` arguments behind the others.
+Ran run_clues(std::vector<std::string> arguments, const std::vector<std::string>& more,
+              const std::filesystem::path& folder);
 
 class TestFolder : public scene::TemporaryFolder {
  public:

@@ -19,9 +19,7 @@ class Simplify : public testing::Test {
   Simplify() { folder_.write("scene.off", screen_scene); }
 
   Ran run(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments{"map", "scene.off", "--cell", screen_cell};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run_clues(arguments, folder_.path());
+    return run_clues({"map", "scene.off", "--cell", screen_cell}, more, folder_.path());
   }
   json result(std::vector<std::string> more) const {
     more.emplace_back("--json");

@@ -59,7 +59,7 @@ Answer fast_answer(const fuzz::Case& scene, const exact::Dials& dials) {
   const fastpath::Bvh bvh(scene.mesh);
   fastpath::LocalMapOptions options = fast_options(dials);
   if (scene.solid) options.mode = fastpath::SideMode::solid;
-  const auto found = fastpath::first_order_visibility(bvh, scene.cell, options, true, true);
+  const auto found = fastpath::first_order_visibility(bvh, scene.cell, options, {.regions = true, .in_doubt = true});
   Answer out{"fast", found.visible, found.conservative_fallbacks, {}, found.in_doubt};
   for (const fastpath::LocalRegion& r : found.regions) {
     if (r.visible) out.areas[{r.triangle, r.front}] += r.area_estimate;

@@ -54,7 +54,8 @@ class Kernels {
       return a;
     };
     ask_kernel("fast path", [&] {
-      fastpath::FirstOrder found = fastpath::first_order_visibility(bvh, scene_.cell, fast_options(), true, true);
+      fastpath::FirstOrder found =
+          fastpath::first_order_visibility(bvh, scene_.cell, fast_options(), {.regions = true, .in_doubt = true});
       KernelAnswer a = from_fast(found.visible, found.conservative_fallbacks, true, std::move(found.regions));
       a.in_doubt = std::move(found.in_doubt);
       return a;

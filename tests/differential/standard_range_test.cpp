@@ -166,11 +166,11 @@ TEST(StandardRange, ResultsAreInTheCoordinatesOfTheScene) {
 
 TEST(StandardRange, TheFastPathGivesTheSameMapAtEveryScale) {
   for (const GeneratedScene& scene : scenes(3)) {
-    const auto one = fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, {}, true);
+    const auto one = fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, {}, {.regions = true});
     for (const int power : kPowers) {
       SCOPED_TRACE(scene.name + " times 2^" + std::to_string(power));
       const GeneratedScene moved = scaled(scene, power);
-      const auto map = fastpath::first_order_visibility(fastpath::Bvh(moved.mesh), moved.cell, {}, true);
+      const auto map = fastpath::first_order_visibility(fastpath::Bvh(moved.mesh), moved.cell, {}, {.regions = true});
       EXPECT_EQ(map.visible, one.visible);
       EXPECT_EQ(map.conservative_fallbacks, one.conservative_fallbacks);
       ASSERT_EQ(map.regions.size(), one.regions.size());

@@ -64,7 +64,7 @@ Ids exactly_visible(const TriangleMesh& mesh) {
 Ids by_reference(const TriangleMesh& mesh) { return reference::first_order_visibility(mesh, whole_cell(), {}).visible; }
 
 Ids by_fast_path(const TriangleMesh& mesh) {
-  return fastpath::first_order_visibility(fastpath::Bvh(mesh), cell_points, fastpath::LocalMapOptions{}, false).visible;
+  return fastpath::first_order_visibility(fastpath::Bvh(mesh), cell_points, fastpath::LocalMapOptions{}).visible;
 }
 
 Ids by_fast_path_without_layers(const FlaggedMesh& scene) {

@@ -67,7 +67,7 @@ class Refiner {
         whole_(ConvexCell::from_doubles(cell)),
         viewpoints_to_ask_(whole_),
         sight_lines_(bvh, cell, whole_, options.mode) {
-    result_.first_order = first_order_visibility(bvh, cell, options, with_areas_);
+    result_.first_order = first_order_visibility(bvh, cell, options, {.regions = with_areas_});
     result_.visible = result_.first_order.visible;
     ids_ = result_.first_order.part;
     mesh_ = part_of(bvh.mesh(), ids_);

@@ -134,7 +134,7 @@ void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cut
     if (i < edges && !of_edges_[i].part.y) {
       OfEdge& s = of_edges_[i];
       s.part.y = worker.pool.keep(ExactPoint::between(*s.part.lo, *s.part.hi, 0.4716796875));
-      place(s, worker.pool);
+      find_place(s, worker.pool);
     }
     Place& s = place_of(i);
     if (s.stale || s.walk.end == Walk::End::crossed) walk_from_place(s, worker.pool);
@@ -146,7 +146,7 @@ Sources::Place& Sources::place_of(std::size_t i) {
   return i < edges ? static_cast<Place&>(of_edges_[i]) : of_vertices_[i - edges];
 }
 
-void Sources::place(OfEdge& s, Pool& pool) {
+void Sources::find_place(OfEdge& s, Pool& pool) {
   const std::optional<ExactPoint> beside = beside_edge(scene_, pieces_, contours_[s.contour], s.part, s.level);
   s.beside = beside ? pool.keep(*beside) : nullptr;
   s.stale = beside.has_value();
@@ -181,7 +181,7 @@ bool Sources::is_cut_off(const OfEdge& s, std::size_t first) const {
 bool Sources::newly_visible(OfEdge& s, std::size_t first, Pool& pool) {
   if (is_cut_off(s, first)) {
     ++s.level;
-    place(s, pool);
+    find_place(s, pool);
     if (s.stale) walk_from_place(s, pool);
     first = 0;
   }
@@ -227,7 +227,7 @@ bool Sources::ask_nearer() {
     if (!s.lit) return;
     if (i < edges && is_cut_off(of_edges_[i], 0)) {
       ++s.level;
-      place(of_edges_[i], worker.pool);  // where none of the pieces that are there now is between
+      find_place(of_edges_[i], worker.pool);  // where none of the pieces that are there now is between
     } else {
       if (!s.walk.has_places() || walker_.visible(s.walk, 0) == Crossing::yes) return;
       ++s.manner.seed;

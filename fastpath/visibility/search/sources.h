@@ -93,8 +93,8 @@ class Sources {
 
  private:
   void walk_from_place(Place& source, Pool& pool);
-  // Finds a place; without one the source counts as visible.
-  void place(OfEdge& source, Pool& pool);
+  // From its level of nearness on; the walk from there is left to make. Without a place the source counts as visible.
+  void find_place(OfEdge& source, Pool& pool);
   std::vector<OfVertex> beside_vertex(std::uint32_t vertex, Pool& pool);
   OfVertex towards(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
   void place(OfVertex& source, Pool& pool);

@@ -54,19 +54,16 @@ std::vector<std::uint32_t> find_in_doubt(const exact::SceneQuery& scene, const F
     }
     return false;
   };
-  std::vector<char> shown(map.complex.input_triangles, 0);
-  for (std::uint32_t t = 0; t < map.complex.pieces.size(); ++t) {
-    if (!scene.meets_cell(t)) continue;
-    for (const exact::Origin& o : map.complex.pieces[t].origins) shown[o.triangle] = 1;
-  }
+  const std::vector<bool> meets_cell = that_meet_cell(scene, map.complex);
   const std::vector<std::vector<const Region*>> regions = visible_regions(map);
+  std::vector<char> shown(map.visible.size(), 0);
   tbb::parallel_for(std::size_t{0}, map.visible.size(), [&](std::size_t i) {
     const std::uint32_t t = map.visible[i];
-    if (shown[t] == 0 && is_known(regions[t])) shown[t] = 1;
+    shown[i] = meets_cell[t] || is_known(regions[t]) ? 1 : 0;
   });
   std::vector<std::uint32_t> in_doubt;
-  for (const std::uint32_t t : map.visible) {
-    if (shown[t] == 0) in_doubt.push_back(t);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    if (shown[i] == 0) in_doubt.push_back(map.visible[i]);
   }
   return in_doubt;
 }

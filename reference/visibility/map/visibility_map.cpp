@@ -4,17 +4,22 @@
 
 namespace clues::reference {
 
+std::vector<bool> that_meet_cell(const exact::SceneQuery& scene, const exact::Complex& complex) {
+  std::vector<bool> meet(complex.input_triangles, false);
+  for (std::uint32_t t = 0; t < complex.pieces.size(); ++t) {
+    if (!scene.meets_cell(t)) continue;
+    for (const exact::Origin& o : complex.pieces[t].origins) meet[o.triangle] = true;
+  }
+  return meet;
+}
+
 void find_visible(const exact::SceneQuery& scene, VisibilityMap& map) {
-  std::vector<bool> visible(map.complex.input_triangles, false);
+  std::vector<bool> visible = that_meet_cell(scene, map.complex);
   for (const Region& r : map.regions) {
     if (!r.visible) continue;
     for (const exact::Origin& o : map.complex.pieces[r.piece].origins) {
       if (counts(map.mode, o, r.front)) visible[o.triangle] = true;
     }
-  }
-  for (std::uint32_t t = 0; t < map.complex.pieces.size(); ++t) {
-    if (!scene.meets_cell(t)) continue;
-    for (const exact::Origin& o : map.complex.pieces[t].origins) visible[o.triangle] = true;
   }
   map.visible.clear();
   for (std::uint32_t t = 0; t < visible.size(); ++t) {

@@ -53,7 +53,9 @@ struct VisibilityMap {
 // The sides of the pieces of a complex, numbered.
 inline std::size_t side_index(std::uint32_t piece, bool front) { return 2 * std::size_t{piece} + (front ? 0 : 1); }
 
-// D15: the PVS by the map's regions. D3: a triangle that meets the cell is visible.
+// D3, by input triangle: they are visible, whatever the regions say. The pieces of `scene` are those of `complex`, or some of them.
+std::vector<bool> that_meet_cell(const exact::SceneQuery& scene, const exact::Complex& complex);
+// D15: the PVS by the map's regions, and D3.
 void find_visible(const exact::SceneQuery& scene, VisibilityMap& map);
 
 }  // namespace clues::reference
