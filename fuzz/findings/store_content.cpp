@@ -83,10 +83,7 @@ StoreContent read_store(const std::filesystem::path& file) {
 }
 
 void write_store(const std::filesystem::path& file, const StoreContent& content) {
-  const std::filesystem::path copy = file.string() + ".finishing";
-  std::error_code error;
-  std::filesystem::remove(copy, error);
-  {
+  scene::replace_database(file, [&](const std::filesystem::path& copy) {
     const Database db(copy, Database::Access::write, "the store of findings", "remove it");
     db.run("BEGIN IMMEDIATE");
     db.run(store_schema);
@@ -107,9 +104,7 @@ void write_store(const std::filesystem::path& file, const StoreContent& content)
           .next();
     }
     db.run("COMMIT");
-  }
-  std::filesystem::rename(copy, file, error);
-  if (error) throw Error(ErrorCode::file_unwritable, file.string() + ": cannot be replaced: " + error.message());
+  });
 }
 
 StoreContent merged(const std::vector<StoreContent>& shards, const std::string& plan) {

@@ -203,23 +203,20 @@ std::uint64_t BakeStore::take_from(const fs::path& file) {
 }
 
 void BakeStore::finish() {
-  // A copy of all rows in their order, then moved into place: before that the bake is one that can be gone on with.
-  const fs::path copy = file_.string() + ".finishing";
-  std::error_code error;
-  fs::remove(copy, error);
-  try {
-    Statement(*db_, "VACUUM INTO ?").with(copy.string()).next();
-    const Database finished(copy, Database::Access::write, "the copy", "remove it");
-    finished.run("BEGIN");
-    write_deltas(finished, plan_.cells, plan_.triangles);
-    finished.run("UPDATE about SET value = 'yes' WHERE name = 'finished'");
-    finished.run("COMMIT");
-  } catch (const Error& cause) {
-    throw Error(cause.code(), db_->file() + ": is all there but cannot be written anew: " + cause.what());
-  }
-  db_.reset();
-  fs::rename(copy, file_, error);
-  if (error) throw Error(ErrorCode::file_unwritable, file_.string() + ": cannot be replaced: " + error.message());
+  // All rows in their order; before that is in place the bake is one that can be gone on with.
+  replace_database(file_, [&](const fs::path& copy) {
+    try {
+      Statement(*db_, "VACUUM INTO ?").with(copy.string()).next();
+      const Database finished(copy, Database::Access::write, "the copy", "remove it");
+      finished.run("BEGIN");
+      write_deltas(finished, plan_.cells, plan_.triangles);
+      finished.run("UPDATE about SET value = 'yes' WHERE name = 'finished'");
+      finished.run("COMMIT");
+    } catch (const Error& cause) {
+      throw Error(cause.code(), db_->file() + ": is all there but cannot be written anew: " + cause.what());
+    }
+    db_.reset();
+  });
 }
 
 FinishedBake::FinishedBake(const fs::path& file) : db_(file, Database::Access::read, "the bake", "name a bake") {

@@ -111,4 +111,23 @@ std::string Statement::bytes(int column) const {
 
 bool Statement::null(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_NULL; }
 
+void replace_database(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path& copy)>& write) {
+  const std::filesystem::path copy = file.string() + ".finishing";
+  std::error_code error;
+  const auto remove_copy = [&] {
+    std::filesystem::remove(copy, error);
+    std::filesystem::remove(copy.string() + "-journal", error);
+  };
+  remove_copy();  // of a process that was killed
+  try {
+    write(copy);
+    std::filesystem::rename(copy, file, error);
+    if (error) throw Error(ErrorCode::file_unwritable, file.string() + ": cannot be replaced: " + error.message());
+  } catch (...) {
+    remove_copy();
+    throw;
+  }
+}
+
 }  // namespace clues::scene

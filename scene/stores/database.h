@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 
 struct sqlite3;
@@ -58,5 +59,10 @@ class Statement {
   sqlite3_stmt* statement_ = nullptr;
   int bound_ = 0;
 };
+
+// Another database in the place of `file`: `write` makes it in the file beside it whose name it is given, and that is moved there. What
+// `write` throws is thrown on; then nothing is left beside `file`, which is as it was. Throws Error file_unwritable where it cannot be moved.
+void replace_database(const std::filesystem::path& file,
+                      const std::function<void(const std::filesystem::path& copy)>& write);
 
 }  // namespace clues::scene

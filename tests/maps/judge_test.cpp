@@ -278,5 +278,70 @@ TEST(JudgeOfPlainMaps, ProvesRefutesAndLeavesOpen) {
   EXPECT_THAT(validate::to_text(plain(outside)), HasSubstr("base triangle 8 does not exist"));
 }
 
+scene::TriangleMesh surface(std::size_t vertices, const std::vector<scene::Triangle>& triangles) {
+  scene::TriangleMesh mesh;
+  mesh.points.resize(vertices);
+  mesh.triangles = triangles;
+  return mesh;
+}
+
+// The vertices of a surface, each at two coordinates in a base that is one triangle.
+validate::PlainMapReport in_one_triangle(const std::vector<scene::Triangle>& triangles,
+                                         const std::vector<std::array<const char*, 2>>& images) {
+  std::vector<scene::PlainMapLine> lines;
+  for (const auto& [u, v] : images) lines.push_back({0, {u, v, ""}});
+  return validate::check_plain_map(surface(images.size(), triangles), surface(3, {{0, 1, 2}}), lines, "plain.txt");
+}
+
+// Nothing is flipped, no place is taken twice, and the Euler numbers agree; it was called proved for that.
+TEST(JudgeOfPlainMaps, AStripThatOverlapsItselfIsNoBijection) {
+  const auto report = in_one_triangle(
+      {{0, 1, 3}, {0, 3, 2}, {2, 3, 5}, {2, 5, 4}, {4, 5, 7}, {4, 7, 6}, {6, 7, 9}, {6, 9, 8}, {8, 9, 11}, {8, 11, 10}},
+      {{"6/16", "4/16"},
+       {"9/16", "4/16"},
+       {"4/16", "6/16"},
+       {"4/16", "9/16"},
+       {"3/16", "4/16"},
+       {"1/16", "4/16"},
+       {"4/16", "3/16"},
+       {"4/16", "1/16"},
+       {"6/16", "5/16"},
+       {"8/16", "3/16"},
+       {"5/16", "6/16"},
+       {"6/16", "8/16"}});
+  EXPECT_EQ(report.flipped, 0U);
+  EXPECT_EQ(report.verdict, validate::PlainVerdict::refuted);
+  EXPECT_THAT(validate::to_text(report), HasSubstr("vertex 0 of the boundary is mapped to the inside"));
+}
+
+TEST(JudgeOfPlainMaps, ABoundaryThatCutsThroughTheBaseIsNone) {
+  const auto report = in_one_triangle({{0, 1, 2}}, {{"1/2", "0"}, {"1/2", "1/2"}, {"0", "1/2"}});
+  EXPECT_EQ(report.verdict, validate::PlainVerdict::refuted);
+  EXPECT_THAT(validate::to_text(report), HasSubstr("runs through the inside of base triangle 0"));
+  EXPECT_THAT(validate::to_text(report), HasSubstr("base triangle 0: what lies in it has 0.25 of its area"));
+}
+
+// A torus changes neither the Euler number nor the number of boundaries.
+TEST(JudgeOfPlainMaps, APartOfTheBaseThatNothingIsMappedToIsSeen) {
+  std::vector<scene::Triangle> base{{0, 1, 2}};
+  for (std::uint32_t i = 0; i < 7; ++i) {
+    base.push_back({3 + i, 3 + (i + 1) % 7, 3 + (i + 3) % 7});
+    base.push_back({3 + i, 3 + (i + 3) % 7, 3 + (i + 2) % 7});
+  }
+  const std::vector<scene::PlainMapLine> lines{{0, {"1", "0", "0"}}, {0, {"0", "1", "0"}}, {0, {"0", "0", "1"}}};
+  const auto report = validate::check_plain_map(surface(3, {{0, 1, 2}}), surface(10, base), lines, "plain.txt");
+  EXPECT_EQ(report.verdict, validate::PlainVerdict::refuted);
+  EXPECT_EQ(report.counts, (std::map<std::string, std::uint64_t>{{"E6", 14}}));
+}
+
+// Both sides of a cushion have the same corners: by those nothing is known to be flipped.
+TEST(JudgeOfPlainMaps, OnACushionCornersDoNotTellTheSide) {
+  const auto cushion = surface(3, {{0, 1, 2}, {0, 2, 1}});
+  const std::vector<scene::PlainMapLine> lines{{0, {"1", "0", "0"}}, {0, {"0", "1", "0"}}, {0, {"0", "0", "1"}}};
+  const auto report = validate::check_plain_map(cushion, cushion, lines, "plain.txt");
+  EXPECT_TRUE(report.findings.empty()) << validate::to_text(report);
+  EXPECT_EQ(report.verdict, validate::PlainVerdict::undecided);
+}
+
 }  // namespace
 }  // namespace clues

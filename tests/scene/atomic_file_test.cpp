@@ -2,11 +2,9 @@
 #include "scene/files/atomic_file.h"
 
 #include <gmock/gmock.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 
-#include <csignal>
-
+#include "tests/scene/file_size_limit.h"
 #include "tests/scene/support.h"
 
 namespace clues::tests {
@@ -16,26 +14,6 @@ using scene::ErrorCode;
 using scene::write_file_atomically;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-// While it lives no file grows past the limit: write() fails in the middle, as on a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &old_);
-    const rlimit limit{bytes, old_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  FileSizeLimit(const FileSizeLimit&) = delete;
-  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  ~FileSizeLimit() {
-    setrlimit(RLIMIT_FSIZE, &old_);
-    std::signal(SIGXFSZ, old_handler_);
-  }
-
- private:
-  rlimit old_{};
-  void (*old_handler_)(int);
-};
 
 const std::string long_text(5000, 'x');
 

@@ -1,13 +1,21 @@
+// Why a map is proved (the argument of T11 with the input's own triangles as pieces): if each lies in one triangle of the base and turns
+// counter-clockwise there, then across an inner edge of the input the two lie on either side, or in the two triangles of the base along
+// one of its edges. So where no edge of the input's boundary runs through the inside of the base, every place within a component of the
+// base is covered equally often; and that is once if the areas in each triangle sum to 1 of it.
 #include "validate/multires/check_plain_map.h"
 
 #include <fmt/format.h>
 #include <gmpxx.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
 
 #include "scene/formats/number.h"
 #include "scene/messages/error.h"
+#include "scene/multires/hierarchy.h"
 #include "validate/multires/level_topology.h"
 
 namespace clues::validate {
@@ -16,11 +24,39 @@ namespace {
 // Corners of the base with positive weights, ascending.
 using ExactCarrier = std::vector<std::pair<std::uint32_t, mpq_class>>;
 
+// The edges of one triangle only, and their ends.
+struct Boundary {
+  std::set<scene::Edge> edges;
+  std::set<std::uint32_t> vertices;
+
+  explicit Boundary(const std::vector<scene::Triangle>& triangles) {
+    std::map<scene::Edge, int> uses;
+    for (const auto& t : triangles) {
+      for (std::size_t k = 0; k < 3; ++k) ++uses[scene::edge_of(t[k], t[(k + 1) % 3])];
+    }
+    for (const auto& [edge, count] : uses) {
+      if (count != 1) continue;
+      edges.insert(edge);
+      vertices.insert(edge.begin(), edge.end());
+    }
+  }
+  // A simplex, by its corners, ascending.
+  bool holds(const std::vector<std::uint32_t>& corners) const {
+    return corners.size() == 1 ? vertices.count(corners[0]) != 0
+                               : corners.size() == 2 && edges.count({corners[0], corners[1]}) != 0;
+  }
+};
+
 class PlainJudge {
  public:
   PlainJudge(const scene::TriangleMesh& input, const scene::TriangleMesh& base,
              const std::vector<scene::PlainMapLine>& lines, const std::string& file)
-      : input_(input), base_(base), lines_(lines), file_(file) {}
+      : input_(input),
+        base_(base),
+        lines_(lines),
+        file_(file),
+        boundary_(input.triangles),
+        base_boundary_(base.triangles) {}
 
   PlainMapReport run() {
     if (lines_.size() != input_.points.size()) {
@@ -34,7 +70,9 @@ class PlainJudge {
     check_surfaces();
     for (std::uint32_t v = 0; v < lines_.size(); ++v) images_.push_back(image_of(v));
     check_places();
+    check_boundary();
     check_triangles();
+    check_areas();
     if (!report_.counts.empty()) {
       report_.verdict = PlainVerdict::refuted;
     } else {
@@ -115,41 +153,76 @@ class PlainJudge {
     }
   }
 
+  // A one-to-one map takes the boundary to the boundary, and nothing else.
+  void check_boundary() {
+    for (std::uint32_t v = 0; v < images_.size(); ++v) {
+      if (images_[v].empty()) continue;
+      const bool on_input = boundary_.holds({v}), on_base = base_boundary_.holds(corners_of({v}));
+      if (on_input && !on_base) find("E6", fmt::format("vertex {} of the boundary is mapped to the inside", v));
+      if (!on_input && on_base) find("E6", fmt::format("the inner vertex {} is mapped to the boundary", v));
+    }
+  }
+
   void check_triangles() {
-    std::map<scene::Triangle, std::uint32_t> base;
+    std::map<scene::Triangle, std::optional<std::uint32_t>> base;
     for (std::uint32_t t = 0; t < base_.triangles.size(); ++t) {
       auto corners = base_.triangles[t];
       std::sort(corners.begin(), corners.end());
-      base.emplace(corners, t);
+      const auto [place, fresh] = base.try_emplace(corners, t);
+      if (!fresh) place->second.reset();  // on which of the two sides of a cushion something lies, corners do not tell
     }
+    covered_.resize(base_.triangles.size());
     for (std::uint32_t i = 0; i < input_.triangles.size(); ++i) {
-      std::vector<std::uint32_t> corners;
-      bool known = true;
-      for (const std::uint32_t v : input_.triangles[i]) {
-        known = known && !images_[v].empty();
-        for (const auto& [c, unused] : images_[v]) corners.push_back(c);
-      }
-      std::sort(corners.begin(), corners.end());
-      corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-      if (!known) continue;
+      const auto& t = input_.triangles[i];
+      if (images_[t[0]].empty() || images_[t[1]].empty() || images_[t[2]].empty()) continue;
+      const auto corners = corners_of({t[0], t[1], t[2]});
       if (corners.size() < 3) {
         find("E6", fmt::format("triangle {} is mapped to an edge or a vertex", i));
         continue;
       }
       const auto on = corners.size() == 3 ? base.find({corners[0], corners[1], corners[2]}) : base.end();
-      if (on == base.end()) {
+      if (on == base.end() || !on->second) {
         ++report_.spread;
         continue;
       }
       ++report_.judged;
-      if (sign_on(base_.triangles[on->second], input_.triangles[i]) <= 0) {
+      const mpq_class part = part_of(base_.triangles[*on->second], t);
+      if (part <= 0) {
         ++report_.flipped;
-        find("E6", fmt::format("triangle {} is flipped or flat on base triangle {}", i, on->second));
+        find("E6", fmt::format("triangle {} is flipped or flat on base triangle {}", i, *on->second));
+      }
+      covered_[*on->second] += part;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [a, b] = scene::edge_of(t[k], t[(k + 1) % 3]);
+        if (boundary_.holds({a, b}) && !base_boundary_.holds(corners_of({a, b}))) {
+          find("E6", fmt::format("the boundary from vertex {} to vertex {} runs through the inside of base triangle {}",
+                                 a, b, *on->second));
+        }
       }
     }
   }
 
-  int sign_on(const scene::Triangle& base, const scene::Triangle& input) const {
+  void check_areas() {
+    for (std::size_t t = 0; t < covered_.size(); ++t) {
+      if (covered_[t] > 1 || (report_.spread == 0 && covered_[t] != 1)) {
+        find("E6", fmt::format("base triangle {}: what lies in it has {:.17g} of its area", t, covered_[t].get_d()));
+      }
+    }
+  }
+
+  // Of the simplex of the base that carries the images.
+  std::vector<std::uint32_t> corners_of(std::initializer_list<std::uint32_t> vertices) const {
+    std::vector<std::uint32_t> out;
+    for (const std::uint32_t v : vertices) {
+      for (const auto& [corner, weight] : images_[v]) out.push_back(corner);
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+  }
+
+  // The area of a triangle's image as a part of the base triangle in which it lies; below 0 if it is flipped.
+  mpq_class part_of(const scene::Triangle& base, const scene::Triangle& input) const {
     std::array<mpq_class, 3> u, v;
     for (std::size_t k = 0; k < 3; ++k) {
       for (const auto& [corner, weight] : images_[input[k]]) {
@@ -157,13 +230,15 @@ class PlainJudge {
         if (corner == base[2]) v[k] = weight;
       }
     }
-    return sgn(mpq_class((u[1] - u[0]) * (v[2] - v[0]) - (v[1] - v[0]) * (u[2] - u[0])));
+    return (u[1] - u[0]) * (v[2] - v[0]) - (v[1] - v[0]) * (u[2] - u[0]);
   }
 
   const scene::TriangleMesh &input_, &base_;
   const std::vector<scene::PlainMapLine>& lines_;
   const std::string& file_;
+  const Boundary boundary_, base_boundary_;
   std::vector<ExactCarrier> images_;
+  std::vector<mpq_class> covered_;  // by base triangle, as a part of it
   PlainMapReport report_;
 };
 

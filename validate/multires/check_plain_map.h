@@ -1,7 +1,7 @@
 // The judge of anybody's map: an input mesh, a base mesh, and for each vertex of the input a base triangle with coordinates in it. What such a
-// file does not say is how edges that cross the base run. So single triangles are refuted (flipped, or two vertices at one
-// place), and a map is proved only where every input triangle lies in one base triangle; else it stays undecided, and the number of
-// triangles says how much.
+// file does not say is how edges that cross the base run. So single places are refuted (a flipped triangle, two vertices in one place, a
+// boundary within the base), and a map is proved only where every input triangle lies in one base triangle; else it stays undecided, and
+// the number of triangles says how much.
 #pragma once
 
 #include <string>
