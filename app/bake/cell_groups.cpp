@@ -1,6 +1,8 @@
 #include "app/bake/cell_groups.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -35,14 +37,35 @@ class Builder {
     return b;
   }
 
+  // T6 asks for boxes that hold the insides of the cells in theirs. That of a flat cell, a segment or a point may lie in the border of
+  // the box; then that side is moved out by an eighth, or by as little as doubles can.
+  Bounds around_insides(std::span<const std::uint32_t> cells, const Bounds& b) const {
+    constexpr double kMost = std::numeric_limits<double>::max();
+    Bounds around = b;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (b.low[i] == b.high[i]) continue;  // all lie in the plane of the box
+      const double by = b.high[i] / 8 - b.low[i] / 8;
+      for (const auto c : cells) {
+        if (bounds_[c].low[i] != bounds_[c].high[i]) continue;
+        if (bounds_[c].low[i] == b.low[i]) around.low[i] = std::min(b.low[i] - by, std::nextafter(b.low[i], -kMost));
+        if (bounds_[c].high[i] == b.high[i])
+          around.high[i] = std::max(b.high[i] + by, std::nextafter(b.high[i], kMost));
+      }
+      around.low[i] = std::max(around.low[i], -kMost);
+      around.high[i] = std::min(around.high[i], kMost);
+    }
+    return around;
+  }
+
   void split(std::span<std::uint32_t> cells) {
     if (cells.size() <= 1) return;
     const Bounds b = bounds_of_all(cells);
     if (cells.size() <= most_) {
+      const Bounds around = around_insides(cells, b);
       std::vector<Point> box;
       for (unsigned i = 0; i < 8; ++i) {
-        box.push_back({(i & 1U) != 0 ? b.high[0] : b.low[0], (i & 2U) != 0 ? b.high[1] : b.low[1],
-                       (i & 4U) != 0 ? b.high[2] : b.low[2]});
+        box.push_back({(i & 1U) != 0 ? around.high[0] : around.low[0], (i & 2U) != 0 ? around.high[1] : around.low[1],
+                       (i & 4U) != 0 ? around.high[2] : around.low[2]});
       }
       std::sort(box.begin(), box.end());
       box.erase(std::unique(box.begin(), box.end()), box.end());

@@ -184,6 +184,45 @@ GeneratedScene flat_cells(std::uint64_t seed, std::uint64_t index) {
   return scene;
 }
 
+// Axis-aligned rectangles flush with the cell's sides and each other: gaps between them, steps and the cell itself are 1 to 2^-28 times as wide as
+// the rest. A sight line to beside an edge then comes through the plane of its wedge far from the edge.
+GeneratedScene thin_gaps(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 11);
+  const double thin = std::ldexp(1.0, -4 * dial_of(index));
+  const std::vector<double> places{-4, -thin, 0, thin, 4};
+  const auto two = [&](bool may_be_one) {
+    const int a = random.between(0, 3);
+    const int b = may_be_one && random.one_in(10) ? a : random.between(a + 1, 4);
+    return std::array<double, 2>{places[static_cast<std::size_t>(a)], places[static_cast<std::size_t>(b)]};
+  };
+  GeneratedScene scene;
+  for (int n = random.between(2, 5); n > 0; --n) {
+    const auto axis = static_cast<std::size_t>(random.between(0, 2));
+    const std::size_t u = (axis + 1) % 3, w = (axis + 2) % 3;
+    Point a;
+    a[axis] = any(places, random);
+    const auto across = two(false), along = two(false);
+    a[u] = across[0];
+    a[w] = along[0];
+    Point b = a, c = a, d = a;
+    b[u] = c[u] = across[1];
+    c[w] = d[w] = along[1];
+    if (random.one_in(3)) {
+      add(scene.mesh, a, b, c);
+    } else {
+      add_quad(scene.mesh, a, b, c, d);
+    }
+  }
+  Point lo, hi;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto side = two(true);
+    lo[i] = side[0];
+    hi[i] = side[1];
+  }
+  scene.cell = box_of(lo, hi);
+  return scene;
+}
+
 }  // namespace
 
 const std::vector<DegenerateGenerator>& degenerate_generators() {
@@ -201,7 +240,10 @@ const std::vector<DegenerateGenerator>& degenerate_generators() {
       {"coplanar_walls", "2 to 9 grid-aligned rectangles (dial) in common planes, the cell's faces among them",
        coplanar_walls},
       {"touching_cells", "cells with a vertex inside, on a face, an edge or a corner (dial modulo 4)", touching_cells},
-      {"flat_cells", "points, segments and polygons as cells", flat_cells}};
+      {"flat_cells", "points, segments and polygons as cells", flat_cells},
+      {"thin_gaps",
+       "rectangles flush with the cell's sides; gaps, steps and cells 1 to 2^-28 as wide as the rest (dial)",
+       thin_gaps}};
   return all;
 }
 

@@ -142,6 +142,32 @@ TEST(Bake, InABoxThatSeesNothing) {
   }
 }
 
+// T6 needs the inside of a cell in the inside of the box. On its border, in the plane of a wall, a flat cell sees both sides of the wall and a
+// box on one side of it does not.
+TEST(Bake, FlatCellsOnTheBorderOfTheirGroup) {
+  const TestFolder folder;
+  folder.write("wall.obj",
+               "v 0 -50 -50\nv 0 50 -50\nv 0 0 80\nv -5 -1 -1\nv -5 1 -1\nv -5 0 1\nv 5 -1 -1\nv 5 1 -1\nv 5 0 1\n"
+               "f 1 2 3\nf 4 5 6\nf 7 8 9\n");
+  folder.write("cells.txt",
+               "a box:0,0,0,1,1,1\nb box:0,0.5,0.5,0,0.5,0.5\nc box:0,0.25,0.25,0,0.75,0.75\nd box:1,0,0,1,1,1\n");
+  for (const char* kernel : {"fast", "exact"}) {
+    for (const char* group : {"1", "4"}) {
+      const std::string file = std::string(kernel) + group;
+      const auto ran =
+          run_clues({"bake", "wall.obj", "--cells", "cells.txt", "--kernel", kernel, "--group", group, "-o", file},
+                    folder.path());
+      ASSERT_EQ(ran.exit_code, 0) << ran.err;
+      const scene::FinishedBake baked(folder.path() / file);
+      const std::vector<std::uint32_t> both{0, 1, 2}, one{0, 2};
+      EXPECT_EQ(baked.cell(0).list, one) << file;
+      EXPECT_EQ(baked.cell(1).list, both) << file;
+      EXPECT_EQ(baked.cell(2).list, both) << file;
+      EXPECT_EQ(baked.cell(3).list, one) << file;
+    }
+  }
+}
+
 void change(const std::filesystem::path& store, const char* sql) {
   sqlite3* db = nullptr;
   ASSERT_EQ(sqlite3_open(store.c_str(), &db), SQLITE_OK);

@@ -55,6 +55,14 @@ TEST(Found, AnUmbraThatEndsBesideAnEdge) {
   expect_list("an-umbra-that-ends-beside-an-edge.obj", "box:-1,-1,-2,1,1,-1", {0, 1});
 }
 
+// Sight lines to beside an edge of triangle 1 came through its plane upon that triangle, which is lit there only if the edge is.
+TEST(Found, ASideFlushWithAThinCell) { expect_list("side-flush-with-a-thin-cell.obj", "box:0,1,-1,1,64,64", {0, 1}); }
+
+// The edges of the slit waited for each other.
+TEST(Found, ASlitInAWallFlushWithTheCell) {
+  expect_list("slit-in-a-wall-flush-with-the-cell.obj", "box:-1,-1,-1,1,0,1", {0, 1, 2, 3, 4});
+}
+
 TEST(Found, CurtainsThatStandOnAFlatCell) {
   expect_list("curtains-that-stand-on-a-flat-cell.off", "box:0,-1,0,1,1,0", {0, 1});
 }

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::int64_t kLongestWalk = 48;  // legs
 constexpr int kAttempts = 40;              // sight lines in special position in a row
+constexpr int kRefused = 8;                // and that come through elsewhere, before a nearer place is better
 constexpr std::size_t kLegsInGroove = 4;   // before it is taken for one
 
 std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
@@ -90,13 +91,14 @@ const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::
   return nullptr;
 }
 
-Walk Walker::walk(const ExactPoint* p, Pool& pool, const Manner& manner) const {
+Walk Walker::walk(const ExactPoint* p, Pool& pool, const Manner& manner, const MayCome& may_come) const {
   Walk walk;
   if (scene_->cell.contains(*p)) {
     walk.end = Walk::End::cell;
     return walk;
   }
   std::optional<Surface> on, before;
+  int refused = 0;
   for (std::int64_t depth = 0; depth < longest_; ++depth) {
     if (walk.legs.size() >= manner.least && corner_leg(walk)) {
       walk.end = Walk::End::surface;
@@ -143,6 +145,10 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, const Manner& manner) const {
         walk.end = Walk::End::cell;
         return walk;
       }
+      if (depth == 0 && may_come && !may_come(*v)) {
+        if (++refused == kRefused) break;
+        continue;
+      }
       const Plane& h = scene_->planes[*last.piece];
       const ExactPoint* m = pool.keep(ExactPoint::on_plane(*v, *p, h));
       const int side = h.side(*p);
@@ -166,6 +172,7 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, const Manner& manner) const {
     p = walk.legs.back().next;
   }
   walk.end = Walk::End::unresolved;
+  walk.from_nowhere = refused > 0 && walk.legs.empty();
   return walk;
 }
 

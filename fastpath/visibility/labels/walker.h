@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -33,7 +34,8 @@ struct Walk {
   // crossed: by a piece that was there when the walk was made; the walk is not complete then.
   enum class End : std::uint8_t { cell, surface, unresolved, crossed };
   End end = End::surface;
-  std::vector<Leg> legs;  // from p towards the cell
+  std::vector<Leg> legs;      // from p towards the cell
+  bool from_nowhere = false;  // unresolved, for want of a sight line that may be the first
 
   // It comes to a place beside a surface, and what it comes to after that may count.
   bool has_places() const { return legs.size() > (end == End::surface ? 1 : 0); }
@@ -56,8 +58,10 @@ class Walker {
     int near = 0;            // level of nearness from which on points beside surfaces are looked for
     std::size_t least = 0;   // legs along sight lines before the walk may end with one that comes out of the dark
   };
+  // Which blocked sight lines to p may be the first, by where they come from; all, if empty.
+  using MayCome = std::function<bool(const ExactPoint& v)>;
   // Points of the walk are kept in `pool`. Deterministic.
-  Walk walk(const ExactPoint* p, Pool& pool, const Manner& manner) const;
+  Walk walk(const ExactPoint* p, Pool& pool, const Manner& manner, const MayCome& may_come = {}) const;
   // Whether the pieces from number `first` on cross a leg from H+ to H-; touch: some coincidence.
   Crossing leg_crossed(const Leg& leg, std::size_t first) const;
   // Whether the start of a walk is visible by the pieces from number `first` on, as far as sight lines tell; touch: make another walk. Where a piece divides a point of the walk from the

@@ -175,11 +175,12 @@ Crossing LocalScene::crosses(const ExactPoint& v, const ExactPoint& p, std::uint
   const Plane& h = planes[piece];
   const int at_p = h.side(p), at_v = h.side(v);
   if (at_p == 0 && at_v == 0) {
-    // In the plane: apart if all corners are strictly on one side of the line, seen along the normal.
+    // In the plane: apart if all corners are strictly on one side of the line, or none is between its ends, or both ends are strictly beyond one edge.
     return decide([&]<class NT>() {
       const Vec3<NT> o = coordinates<NT>(v), along = coordinates<NT>(p) - o;
       const Vec3<NT> beside = cross(normal_of<NT>(h), along);
       int left = 0, right = 0, before = 0, behind = 0;
+      bool beyond = false;
       for (int i = 0; i < 3; ++i) {
         const Vec3<NT> c = coordinates<NT>(corner(piece, i));
         const int s = sign_of(NT(dot(beside, c - o)));
@@ -187,8 +188,11 @@ Crossing LocalScene::crosses(const ExactPoint& v, const ExactPoint& p, std::uint
         right += s < 0;
         before += sign_of(NT(dot(along, c - o))) <= 0;
         behind += sign_of(NT(dot(along, c - coordinates<NT>(p)))) >= 0;
+        const Vec3<NT> inward = cross(normal_of<NT>(h), coordinates<NT>(corner(piece, (i + 1) % 3)) - c);
+        beyond =
+            beyond || (sign_of(NT(dot(inward, o - c))) < 0 && sign_of(NT(dot(inward, coordinates<NT>(p) - c))) < 0);
       }
-      return left == 3 || right == 3 || before == 3 || behind == 3 ? Crossing::no : Crossing::touch;
+      return left == 3 || right == 3 || before == 3 || behind == 3 || beyond ? Crossing::no : Crossing::touch;
     });
   }
   if (at_p == 0 || at_v == 0 || at_p == at_v) return Crossing::no;

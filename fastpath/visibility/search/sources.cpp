@@ -104,7 +104,23 @@ Sources::OfVertex Sources::unresolved(std::uint32_t v, const ExactPoint& view, P
   return s;
 }
 
-void Sources::walk_from_place(Place& s, Pool& pool) {
+void Sources::walk_from_place(OfEdge& s, Pool& pool) {
+  const ContourEdge& contour = contours_[s.contour];
+  Walker::MayCome next_to_edge;
+  if (!contour.holds_cell)
+    next_to_edge = [&](const ExactPoint& v) { return comes_next_to_edge(scene_, contour, s.part, v, *s.beside); };
+  while (true) {
+    ++walks_;
+    s.walk = walker_.walk(s.beside, pool, s.manner, next_to_edge);
+    s.stale = false;
+    if (!s.walk.from_nowhere) return;
+    ++s.level;
+    find_place(s, pool);
+    if (!s.beside) return;
+  }
+}
+
+void Sources::walk_from_place(OfVertex& s, Pool& pool) {
   ++walks_;
   s.walk = walker_.walk(s.beside, pool, s.manner);
   s.stale = false;
@@ -136,8 +152,10 @@ void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cut
       s.part.y = worker.pool.keep(ExactPoint::between(*s.part.lo, *s.part.hi, 0.4716796875));
       find_place(s, worker.pool);
     }
-    Place& s = place_of(i);
-    if (s.stale || s.walk.end == Walk::End::crossed) walk_from_place(s, worker.pool);
+    const auto renew = [&](auto& s) {
+      if (s.stale || s.walk.end == Walk::End::crossed) walk_from_place(s, worker.pool);
+    };
+    i < edges ? renew(of_edges_[i]) : renew(of_vertices_[i - edges]);
   });
 }
 
@@ -155,7 +173,8 @@ void Sources::find_place(OfEdge& s, Pool& pool) {
   s.walk.end = Walk::End::unresolved;
 }
 
-bool Sources::newly_visible_by_walk(Place& s, std::size_t first, Pool& pool) {
+template <class Source>
+bool Sources::newly_visible_by_walk(Source& s, std::size_t first, Pool& pool) {
   constexpr int kRetries = 12;
   constexpr std::size_t kLeast = 8, kMost = 32;
   for (int i = 0;; ++i) {

@@ -92,7 +92,9 @@ class Sources {
   static bool is_in_doubt(const OfVertex& s) { return s.walk.end == Walk::End::unresolved && !s.separates; }
 
  private:
-  void walk_from_place(Place& source, Pool& pool);
+  // Of an edge: from a nearer place where no sight line to this one comes next to the edge.
+  void walk_from_place(OfEdge& source, Pool& pool);
+  void walk_from_place(OfVertex& source, Pool& pool);
   // From its level of nearness on; the walk from there is left to make. Without a place the source counts as visible.
   void find_place(OfEdge& source, Pool& pool);
   std::vector<OfVertex> beside_vertex(std::uint32_t vertex, Pool& pool);
@@ -102,7 +104,8 @@ class Sources {
   static OfVertex unresolved(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
   bool newly_visible(OfEdge& source, std::size_t first, Pool& pool);
   bool newly_visible(OfVertex& source, std::size_t first, Pool& pool);
-  bool newly_visible_by_walk(Place& source, std::size_t first, Pool& pool);
+  template <class Source>
+  bool newly_visible_by_walk(Source& source, std::size_t first, Pool& pool);
   Place& place_of(std::size_t i);  // of edges, then of vertices
   bool is_cut_off(const OfEdge& source, std::size_t first) const;
 

@@ -5,6 +5,7 @@
 
 #include "fastpath/predicates/estimated_vectors.h"
 #include "fastpath/visibility/points/near_enough.h"
+#include "fastpath/visibility/wedges/on_wedge.h"
 #include "scene/messages/error.h"
 
 namespace clues::fastpath {
@@ -12,6 +13,20 @@ namespace clues::fastpath {
 namespace {
 
 double length(const Point& v) { return length_estimate(v); }
+
+// How far off the plane, as a part of the step across the edge: so little that sight lines come through the plane by a quarter of the step beside
+// the place, most of them, if V is thin above it.
+double lift_for(const LocalScene& scene, const ContourEdge& c, const Point& y, const Point& up) {
+  constexpr double kMost = 0x1p-5, kLeast = 0x1p-300;
+  double height = 0, away = 0;
+  for (const ExactPoint& x : scene.cell.vertices) {
+    const Point to = minus(x.estimate(), y);
+    away = std::max(away, length(to));
+    height = std::max(height, -dot_of(to, up) / length(up));
+  }
+  const double lift = 4 * kMost * (height / away);
+  return c.holds_cell || !(lift < kMost) ? kMost : std::max(lift, kLeast);
+}
 
 }  // namespace
 
@@ -27,18 +42,18 @@ std::optional<ExactPoint> beside_edge(const LocalScene& scene, const PieceSet& s
   const Vec3<Interval>& n = c.plane->normal_approximate();
   const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
   const double size = std::min(length(to), length(minus(part.hi->estimate(), part.lo->estimate())));
+  const double lift = lift_for(scene, c, y, up);
   constexpr int kDoubles = 4;
   if (!(length(to) > 0 && length(up) > 0)) level = std::max(level, kDoubles);
   const auto place = [&](int at) {
     if (at >= kDoubles) {  // features smaller than the spacing of doubles
       const double step = std::ldexp(1.0, -5 - 24 * (at - kDoubles + 1));
       const Exact3 across = touching.exact() + Rational(std::isfinite(shift) ? shift : 0) * (b.exact() - a.exact());
-      return ExactPoint::lifted(*part.y, ExactPoint(across), step, *c.plane, 0x1p-5);
+      return ExactPoint::lifted(*part.y, ExactPoint(across), step, *c.plane, lift);
     }
     const double step = std::ldexp(size, -5 - 7 * at);
     Point p;
-    for (std::size_t k = 0; k < 3; ++k)
-      p[k] = y[k] + step * (to[k] / length(to)) + step * 0x1p-5 * (up[k] / length(up));
+    for (std::size_t k = 0; k < 3; ++k) p[k] = y[k] + step * (to[k] / length(to)) + step * lift * (up[k] / length(up));
     return ExactPoint(p);
   };
   return near_enough(level, 2 * kDoubles, place, [&](const ExactPoint& beside) {
@@ -51,6 +66,21 @@ std::optional<ExactPoint> beside_edge(const LocalScene& scene, const PieceSet& s
       return scene.crosses(*part.y, beside, t) != Crossing::no;
     });
     return !blocked && !set.may_meet(beside, *part.y, 0, holds_edge(scene, c.edge));
+  });
+}
+
+bool comes_next_to_edge(const LocalScene& scene, const ContourEdge& c, const EdgePart& part, const ExactPoint& v,
+                        const ExactPoint& beside) {
+  const LocalEdge& edge = scene.edges[c.edge];
+  const ExactPoint &a = scene.points[edge.a], &b = scene.points[edge.b];
+  const ExactPoint through = ExactPoint::on_plane(v, beside, *c.plane);
+  const OnWedge frame{c.plane, &a, {}, {}, {}, {}, {}, {}};
+  if (frame.turn(&b, &through) != frame.turn(&b, &scene.cell.vertices[static_cast<std::size_t>(c.touching.front())]))
+    return false;
+  return !scene.tree.any(SegmentTest(through, *part.y), [&](std::uint32_t i) {
+    const std::uint32_t t = scene.occluders[i];
+    return std::find(edge.pieces.begin(), edge.pieces.end(), t) == edge.pieces.end() &&
+           scene.crosses(*part.y, through, t) != Crossing::no;
   });
 }
 
