@@ -131,6 +131,11 @@ std::string table_row(const std::string& name, const Run& run) {
                      1000 * run.seconds / frames, 1000 * run.slowest);
 }
 
+// CLI11 takes -1 for the largest number of 64 digits.
+std::string problem_of_count(const std::string& word) {
+  return word.find('-') == std::string::npos ? "" : word + " is below 0";
+}
+
 int run_motion(const MotionRequest& request) {
   if (request.scene.empty())
     throw scene::Error(scene::ErrorCode::bad_argument, "SCENE is required (or check, or verify)");
@@ -214,10 +219,14 @@ void add_motion_command(CLI::App& program, int& status) {
       ->add_option("--path", request->path,
                    "Where the viewpoint goes: FILE with x y z a line; orbit:x,y,z,r[,turns];\nwalk:x,y,z:x,y,z[:...]")
       ->type_name("PATH");
-  command->add_option("--frames", request->frames, "So many (default: 600, or the lines of FILE)")->type_name("N");
+  command->add_option("--frames", request->frames, "So many (default: 600, or the lines of FILE)")
+      ->type_name("N")
+      ->check(problem_of_count);
   command->add_option("--samples", request->options.samples, "So many samples of the scene (default: 11000)")
       ->type_name("N");
-  command->add_option("--seed", request->options.seed, "Of the directions of the samples (default: 1)")->type_name("N");
+  command->add_option("--seed", request->options.seed, "Of the directions of the samples (default: 1)")
+      ->type_name("N")
+      ->check(problem_of_count);
   command
       ->add_option("--kappa", request->options.thresholds.kappa,
                    "cot of the least angle of an edge (default: 2000, which is 5e-4 rad)")
@@ -237,7 +246,9 @@ void add_motion_command(CLI::App& program, int& status) {
       ->type_name("FRAME:FILE");
   command->add_option("--walk-out", request->walk_out, "The meshes of all frames, for clues motion verify")
       ->type_name("FILE");
-  command->add_option("--every", request->every, "Only each Nth frame goes into --walk-out")->type_name("N");
+  command->add_option("--every", request->every, "Only each Nth frame goes into --walk-out")
+      ->type_name("N")
+      ->check(problem_of_count);
   command->add_option("--mesh-out", request->mesh_out, "The mesh of the last frame, for clues motion check")
       ->type_name("FILE");
   command->add_option("--bounds-out", request->bounds_out, "Its bounds, for clues motion check")->type_name("FILE");
@@ -267,6 +278,10 @@ void add_motion_command(CLI::App& program, int& status) {
     if (command->get_subcommands().empty()) status = run_motion(*request);
   });
   add_motion_check(*command, status);
+  // What is said before the name of a subcommand would go unheard.
+  for (auto* subcommand : command->get_subcommands({})) {
+    for (auto* option : command->get_options()) subcommand->excludes(option);
+  }
 }
 
 }  // namespace clues::app

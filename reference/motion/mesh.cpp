@@ -1,9 +1,13 @@
 // Loops over the triangles of a mesh.
 #include "reference/motion/mesh.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
+
+#include "scene/messages/error.h"
 
 namespace clues::reference {
 namespace {
@@ -36,19 +40,41 @@ Edges edges_of(const scene::DepthMesh& mesh) {
   return edges;
 }
 
+// Two triangles that go from `a` to `b`, and any that go back: which of them is beyond the edge nobody has said.
+[[noreturn]] void refuse_edge(const scene::DepthMesh& mesh, std::uint32_t a, std::uint32_t b) {
+  std::string triangles;
+  for (std::size_t i = 0, named = 0; i < mesh.triangles.size() && named < 3; ++i) {
+    const auto& t = mesh.triangles[i];
+    if (std::count(t.begin(), t.end(), a) == 0 || std::count(t.begin(), t.end(), b) == 0) continue;
+    triangles.append(named++ == 0 ? "" : ", ").append(std::to_string(i));
+  }
+  throw scene::Error(
+      scene::ErrorCode::bad_argument,
+      fmt::format("Delaunay bounds: the edge {}-{} is in more than one triangle in this direction (triangles {})", a, b,
+                  triangles));
+}
+
+using Opposite = std::vector<std::array<std::uint32_t, 3>>;
+
+// Nothing where nobody asks: any mesh has the other bounds.
+Opposite opposite_where_asked(const scene::DepthMesh& mesh, const scene::MotionThresholds& thresholds) {
+  return thresholds.delaunay ? opposite_samples(mesh) : Opposite();
+}
+
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> opposite_samples(const scene::DepthMesh& mesh) {
   const auto edges = edges_of(mesh);
+  for (const auto& [edge, use] : edges) {
+    if (use.times > 1) refuse_edge(mesh, edge.first, edge.second);
+  }
   std::vector<std::array<std::uint32_t, 3>> out;
   out.reserve(mesh.triangles.size());
   for (const auto& t : mesh.triangles) {
     auto& across = out.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto here = edges.find({t[k], t[(k + 1) % 3]});
       const auto there = edges.find({t[(k + 1) % 3], t[k]});
-      const bool two = there != edges.end() && there->second.times == 1 && here->second.times == 1;
-      across[k] = two ? there->second.besides : no_opposite;
+      across[k] = there != edges.end() ? there->second.besides : no_opposite;
     }
   }
   return out;
@@ -87,7 +113,7 @@ std::vector<scene::ConstraintPlace> violations(const scene::DepthMesh& mesh, con
   using scene::MotionConstraint;
   const ExactThresholds limits(thresholds);
   const auto rows = rows_of(mesh, v);
-  const auto opposite = opposite_samples(mesh);
+  const auto opposite = opposite_where_asked(mesh, thresholds);
   std::vector<scene::ConstraintPlace> out;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const auto& t = mesh.triangles[i];
@@ -116,7 +142,7 @@ std::vector<scene::ConstraintPlace> violations(const scene::DepthMesh& mesh, con
 std::vector<double> motion_bounds(const scene::DepthMesh& mesh, const scene::MotionThresholds& thresholds,
                                   const ExactViewpoint& v) {
   const ExactThresholds limits(thresholds);
-  const auto opposite = opposite_samples(mesh);
+  const auto opposite = opposite_where_asked(mesh, thresholds);
   std::vector<double> out;
   out.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {

@@ -9,8 +9,8 @@
 
 namespace clues::reference {
 
-// Across the edge from corner k to the next: the vertex of the other triangle. None where the mesh ends, and where more than
-// two triangles or two of different orientation meet.
+// Across the edge from corner k to the next: the vertex of the other triangle. None where the mesh ends. Where two triangles run through an edge
+// in the same direction, as of more than two some do, nothing says which is across: Error bad_argument.
 inline constexpr std::uint32_t no_opposite = 0xffffffff;
 std::vector<std::array<std::uint32_t, 3>> opposite_samples(const scene::DepthMesh& mesh);
 
@@ -23,11 +23,11 @@ struct DepthMeshState {
 };
 DepthMeshState depth_mesh_state(const scene::DepthMesh& mesh, const ExactViewpoint& v);
 
-// By triangle, constraint, corner. Delaunay only where thresholds.delaunay asks for it and the edge has two triangles.
+// By triangle, constraint, corner. Delaunay only where thresholds.delaunay asks for it and the edge has two triangles; then throws as opposite_samples.
 std::vector<scene::ConstraintPlace> violations(const scene::DepthMesh& mesh, const scene::MotionThresholds& thresholds,
                                                const ExactViewpoint& v);
 
-// One bound a triangle: the least of its constraints.
+// One bound a triangle: the least of its constraints. Throws as violations.
 std::vector<double> motion_bounds(const scene::DepthMesh& mesh, const scene::MotionThresholds& thresholds,
                                   const ExactViewpoint& v);
 

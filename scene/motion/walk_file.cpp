@@ -30,8 +30,10 @@ std::uint64_t number_in(const Json& value, const std::string& where, const char*
   }
 }
 
-void apply_samples(const Json& list, std::vector<DepthSample>& samples, const std::string& where) {
+// Those from `fresh` on are new, and nothing is known of them but what this frame says.
+void apply_samples(const Json& list, std::vector<DepthSample>& samples, std::size_t fresh, const std::string& where) {
   if (!list.is_array()) throw_malformed(where, "\"samples\" must be a list");
+  std::vector<bool> given(samples.size());
   for (const auto& item : list) {
     if (!item.is_array() || item.empty()) throw_malformed(where, json_excerpt(item) + " is no sample [I, x, y, z]");
     const auto index = number_in(item[0], where, "the number of a sample", most_places);
@@ -39,9 +41,15 @@ void apply_samples(const Json& list, std::vector<DepthSample>& samples, const st
       throw Error(ErrorCode::index_out_of_range,
                   fmt::format("{}: sample {} of {}: beyond \"sizes\"", where, index, samples.size()));
     }
+    if (given[index]) throw_malformed(where, fmt::format("sample {} is given twice", index));
+    given[index] = true;
     Json rest = Json::array();
     for (std::size_t i = 1; i < item.size(); ++i) rest.push_back(item[i]);
     samples[index] = sample_of(rest, fmt::format("{}: sample {}", where, index));
+  }
+  const auto missing = std::find(given.begin() + static_cast<std::ptrdiff_t>(fresh), given.end(), false);
+  if (missing != given.end()) {
+    throw_malformed(where, fmt::format("sample {} is new by \"sizes\", and not given", missing - given.begin()));
   }
 }
 
@@ -130,6 +138,7 @@ bool WalkReader::next(WalkFrame& frame) {
   }
   if (!root.contains("viewpoint")) throw_malformed(where, "the field \"viewpoint\" is missing");
   if (frames_ == 0 && !root.contains("thresholds")) throw_malformed(where, "the first frame must have \"thresholds\"");
+  std::size_t fresh = mesh_.samples.size();
   if (root.contains("sizes")) {
     const auto& sizes = root["sizes"];
     if (!sizes.is_array() || sizes.size() != 2) throw_malformed(where, "\"sizes\" must be [SAMPLES, TRIANGLES]");
@@ -145,10 +154,11 @@ bool WalkReader::next(WalkFrame& frame) {
       throw_malformed(where, fmt::format("\"sizes\" says {} triangles of {} samples; at most {} of each", triangles,
                                          samples, most_triangles_of_a_sample));
     }
+    fresh = std::min<std::size_t>(fresh, samples);
     mesh_.samples.resize(samples);
     mesh_.triangles.resize(triangles, free_place);
   }
-  if (root.contains("samples")) apply_samples(root["samples"], mesh_.samples, where);
+  if (root.contains("samples")) apply_samples(root["samples"], mesh_.samples, fresh, where);
   if (root.contains("triangles")) apply_triangles(root["triangles"], mesh_, where);
   if (root.contains("thresholds")) thresholds_ = thresholds_of(root["thresholds"], where + ": thresholds");
   frame.number = frames_++;

@@ -153,6 +153,24 @@ TEST(JudgeOfBounds, HugeAndTinyNumbers) {
   }
 }
 
+// Units that are a power of two change nothing but the units, up to where 256 times a claim is more than a double can hold, and down to the least.
+TEST(JudgeOfBounds, WhatIsProvedOfAnUndecidedClaimScales) {
+  const auto undecided = [](int exponent) {
+    const double s = std::ldexp(1.0, exponent);
+    const fuzz::MotionCase test{
+        {{{{0, 0, 3 * s}}, {{s, 0, 3 * s}}, {{0, s, 3 * s}}}, {{0, 1, 2}}}, {0, 0, 0}, {2000, 0x1p-10, false}};
+    return judged(test, {2.875 * s}, 1).triangles[0];
+  };
+  const auto one = undecided(0);
+  ASSERT_EQ(one.verdict, BoundVerdict::undecided);
+  ASSERT_GT(one.proved, 0);
+  for (const int exponent : {-1000, -500, 500, 1000, 1021}) {
+    const auto other = undecided(exponent);
+    EXPECT_EQ(other.verdict, BoundVerdict::undecided) << exponent;
+    EXPECT_EQ(other.proved, std::ldexp(one.proved, exponent)) << exponent;
+  }
+}
+
 TEST(JudgeOfBounds, DoesNotDependOnThreads) {
   const fuzz::MotionCase globe{fuzz::globe(2, 0.5, 2), {0.1, 0, 0}, {20, 1e-10, true}};
   auto claims = reference_bounds(globe);
@@ -172,6 +190,57 @@ TEST(JudgeOfBounds, RefusesWhatIsNoList) {
   EXPECT_THROW(judged(test, {1}), scene::Error);
   EXPECT_THROW(judged(test, {1, -1}), scene::Error);
   EXPECT_THROW(judged(test, {1, std::nan("")}), scene::Error);
+}
+
+// The Delaunay property of an edge fails at the viewpoint. One triangle more at this edge, or the other way round, and nothing is across it: then no
+// bound may be called sound.
+TEST(JudgeOfBounds, RefusesDelaunayWhereNothingSaysWhatIsAcross) {
+  fuzz::MotionCase test{{{{{1, 0, 3}}, {{0, 1, 3}}, {{-1, 0, 3}}, {{0, -0.2, 3}}}, {{0, 1, 2}, {0, 2, 3}}},
+                        {0, 0, 0},
+                        {2000, 4e-14, true}};
+  EXPECT_EQ(judged(test, {0.5, 0.5}).refuted, 2);
+  const auto message = [](const auto& ask) -> std::string {
+    try {
+      ask();
+    } catch (const scene::Error& e) {
+      EXPECT_EQ(e.code(), scene::ErrorCode::bad_argument);
+      return e.what();
+    }
+    return "";
+  };
+  using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+  for (const auto& [triangles, names] : {std::pair(Triangles{{0, 1, 2}, {0, 2, 3}, {0, 2, 3}}, "triangles 0, 1, 2"),
+                                         {Triangles{{0, 1, 2}, {2, 0, 3}}, "triangles 0, 1"}}) {
+    test.mesh.triangles = triangles;
+    test.thresholds.delaunay = true;
+    const std::vector<double> none(triangles.size(), 0);
+    const auto of_judge = message([&] { judged(test, none); });
+    const auto of_bounds = message([&] { reference_bounds(test); });
+    const auto of_violations =
+        message([&] { reference::violations(test.mesh, test.thresholds, exact::exact_viewpoint(test.viewpoint)); });
+    EXPECT_NE(of_judge.find("the edge 0-2"), std::string::npos) << of_judge;
+    EXPECT_NE(of_judge.find(names), std::string::npos) << of_judge;
+    EXPECT_EQ(of_bounds, of_violations);
+    EXPECT_TRUE(of_bounds.find("the edge 0-2") != std::string::npos ||
+                of_bounds.find("the edge 2-0") != std::string::npos)
+        << of_bounds;
+    EXPECT_NE(of_bounds.find(names), std::string::npos) << of_bounds;
+    test.thresholds.delaunay = false;
+    EXPECT_EQ(judged(test, none).proved, triangles.size());
+    EXPECT_EQ(reference_bounds(test).size(), triangles.size());
+  }
+}
+
+// A needle of 1e100, seen from 1 beside it: what is left of its end across it is 1e-100 of the whole, and nothing when it is squared.
+TEST(JudgeOfBounds, AViewpointNextToALineThatIsLong) {
+  fuzz::MotionCase test{{{{{1, 0, -1e100}}, {{1, 0, 0}}, {{1, -5, -3}}}, {{0, 1, 2}}}, {0, 0, 0}, {2000, 0, false}};
+  EXPECT_EQ(judged(test, {0.99999999}).refuted, 1);
+}
+
+// Ends 1e-200 apart, seen from 1 away, are one point in 512 digits.
+TEST(JudgeOfBounds, AnEdgeThatIsShortForItsDistance) {
+  fuzz::MotionCase test{{{{{0, 0, 0}}, {{1e-200, 0, 0}}, {{0, 1, -1}}}, {{1, 0, 2}}}, {-1, 1, 1}, {2.3e200, 0, false}};
+  EXPECT_EQ(judged(test, {0.5}).refuted, 1);
 }
 
 // A ball that holds a violation is never proved.

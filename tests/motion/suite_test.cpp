@@ -88,6 +88,19 @@ TEST(MotionSuite, ReadsAndWritesItsOwnText) {
   }
 }
 
+TEST(MotionSuite, RefusesDelaunayCasesWhereNothingSaysWhatIsAcross) {
+  validate::MotionTopic topic;
+  topic.topic = "tangled";
+  topic.cases.push_back(suite().front());
+  auto& test = topic.cases.front();
+  test.mesh = {{{{1, 0, 3}}, {{0, 1, 3}}, {{-1, 0, 3}}, {{0, -1, 3}}}, {{0, 1, 2}, {0, 2, 3}, {0, 2, 3}}};
+  test.has_expectation = false;
+  test.thresholds.delaunay = false;
+  EXPECT_EQ(validate::parse_motion_topic(validate::to_json_text(topic), "tangled", true).cases.size(), 1U);
+  test.thresholds.delaunay = true;
+  EXPECT_THROW(validate::parse_motion_topic(validate::to_json_text(topic), "tangled", true), scene::Error);
+}
+
 // Planted: expectations that are wrong in one way each.
 TEST(MotionSuite, WrongExpectationsAreFound) {
   const auto& all = suite();

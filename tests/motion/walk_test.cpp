@@ -130,6 +130,52 @@ TEST_F(MotionFiles, WhatIsWrongIsSaidWithItsPlace) {
   EXPECT_THROW(scene::WalkReader("no such file"), scene::Error);
 }
 
+// Planted: a sample that nobody has given would be (0, 0, 0), or one that is gone.
+TEST_F(MotionFiles, NewSamplesOfAWalkAreGivenAllAndOnce) {
+  const auto verified = [&](const std::string& frames) -> std::string {
+    try {
+      return validate::check_walk(file(scene::WalkWriter::header() + frames)).sound() ? "sound" : "not sound";
+    } catch (const scene::Error& e) {
+      return e.what();
+    }
+  };
+  const std::string triangles = R"("triangles":[[0,0,1,2],[1,0,2,3],[2,0,3,1],[3,3,2,1]],"viewpoint":[0,0,0])",
+                    first = R"({"sizes":[4,4],"thresholds":{"kappa":2000,"sigma":0},"samples":[[0,1,1,1],[1,-1,-1,1],)",
+                    four = first + "[2,1,-1,-1],[3,-1,1,-1]]," + triangles + "}\n",
+                    three = R"({"sizes":[3,4],"triangles":[[1],[2],[3]],"viewpoint":[0,0,0]})"
+                            "\n",
+                    again = R"({"sizes":[4,4],"samples":[[)";
+  EXPECT_EQ(verified(four), "sound");
+  EXPECT_NE(verified(first + "[2,1,-1,-1],[2,1,-1,-1]]," + triangles + "}").find(":2: sample 2 is given twice"),
+            std::string::npos);
+  EXPECT_NE(
+      verified(four + R"({"samples":[[3,-1,1,-1],[3,-1,1,-2]],"viewpoint":[0,0,0]})").find(":3: sample 3 is given"),
+      std::string::npos);
+  EXPECT_NE(verified(four + R"({"sizes":[5,4],"samples":[[0,1,1,1]],"viewpoint":[0,0,0]})").find(":3: sample 4 is new"),
+            std::string::npos);
+  EXPECT_NE(verified(four + three + again + "0,1,1,1]]," + triangles + "}").find(":4: sample 3 is new"),
+            std::string::npos);
+  EXPECT_EQ(verified(four + three + again + "3,-1,1,-1]]," + triangles + "}"),
+            "not sound");  // the second frame is open
+}
+
+TEST_F(MotionFiles, AWriterOfAListThatShrinksAndGrowsIsRead) {
+  const scene::DepthMesh mesh = fuzz::globe(2, 0.3, 3);
+  scene::DepthMesh shorter = mesh;
+  shorter.samples.pop_back();
+  const auto last = static_cast<std::uint32_t>(shorter.samples.size());
+  std::erase_if(shorter.triangles, [&](const auto& t) { return std::count(t.begin(), t.end(), last) != 0; });
+  scene::WalkWriter writer;
+  std::string text = scene::WalkWriter::header();
+  for (const auto& now : {mesh, shorter, mesh}) text += writer.frame(now, {0, 0, 0}, {20, 1e-9, false});
+  scene::WalkReader reader(file(text));
+  scene::WalkFrame frame;
+  for (const auto& now : {mesh, shorter, mesh}) {
+    ASSERT_TRUE(reader.next(frame));
+    EXPECT_TRUE(frame.mesh == now);
+  }
+}
+
 TEST(DepthMeshes, AGlobeIsOneAndWhatIsBrokenIsNone) {
   const auto origin = exact::exact_viewpoint({0, 0, 0});
   const scene::MotionThresholds thresholds{1000, 1e-12, true};
@@ -163,6 +209,17 @@ TEST(DepthMeshes, AGlobeIsOneAndWhatIsBrokenIsNone) {
   folded.samples[5].at = {-folded.samples[5].at[0], -folded.samples[5].at[1], -folded.samples[5].at[2]};
   EXPECT_GT(reference::depth_mesh_state(folded, origin).not_facing, 0);
   EXPECT_GT(checked(folded, {0, 0, 0}, thresholds).violated[0], 0);
+}
+
+// Closed but for one triangle that is there twice: nothing is across three of its edges. That is a finding, and no error.
+TEST(DepthMeshes, ATriangleThatIsThereTwiceIsFoundWithAndWithoutDelaunay) {
+  auto mesh = fuzz::globe(3, 0.4, 7);
+  mesh.triangles.push_back(mesh.triangles[0]);
+  for (const bool delaunay : {false, true}) {
+    const auto report = checked(mesh, {0, 0, 0}, {1000, 1e-12, delaunay});
+    EXPECT_EQ(report.open_frames, 1);
+    EXPECT_FALSE(report.sound());
+  }
 }
 
 // The reference and the checker name the same violations at viewpoints on a way out of the mesh.

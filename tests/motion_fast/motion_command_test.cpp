@@ -143,6 +143,36 @@ TEST_F(MotionCommand, TwoEqualSamplesAndAViewpointOnASampleAreJudged) {
   EXPECT_EQ(run({"check", "four.json", "--bounds", "zero.json", "--viewpoint", "1,1,1"}).exit_code, 0);
 }
 
+// What stands before a subcommand is not for it, and would be passed over.
+TEST_F(MotionCommand, ASceneBeforeASubcommandIsRefused) {
+  folder.write("four.json", R"({"format": "clues-depth-mesh/1", "samples": [[1,1,1], [-1,-1,1], [-1,1,-1], [1,-1,-1]],
+    "triangles": [[0,2,1], [0,1,3], [0,3,2], [1,2,3]]})");
+  folder.write("zero.json", R"({"format": "clues-motion-bounds/1", "bounds": [0, 0, 0, 0], "viewpoint": [0, 0, 0],
+    "thresholds": {"kappa": 2000, "sigma": 4e-14, "delaunay": true}})");
+  const std::vector<std::string> check{"check", "four.json", "--bounds", "zero.json"};
+  EXPECT_EQ(run(check).exit_code, 0);
+  for (const auto& [before, name] : {std::pair(std::vector<std::string>{"room.off"}, "SCENE"),
+                                     {std::vector<std::string>{"--kappa", "20"}, "--kappa"}}) {
+    auto words = before;
+    words.insert(words.end(), check.begin(), check.end());
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.exit_code, 2);
+    EXPECT_EQ(ran.out, "");
+    EXPECT_NE(ran.err.find(std::string("check excludes ") + name), std::string::npos) << ran.err;
+  }
+}
+
+// A mesh of which nothing says what is across an edge has no Delaunay bounds to prove.
+TEST_F(MotionCommand, DelaunayBoundsOfAMeshWithAnEdgeOfThreeTrianglesAreRefused) {
+  folder.write("three.json", R"({"format": "clues-depth-mesh/1", "samples": [[1,0,3], [0,1,3], [-1,0,3], [0,-0.2,3]],
+    "triangles": [[0,1,2], [0,2,3], [0,2,3]]})");
+  folder.write("half.json", R"({"format": "clues-motion-bounds/1", "bounds": [0.5, 0.5, 0.5], "viewpoint": [0, 0, 0],
+    "thresholds": {"kappa": 2000, "sigma": 4e-14, "delaunay": true}})");
+  const Ran ran = run({"check", "three.json", "--bounds", "half.json"});
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_NE(ran.err.find("the edge 0-2 is in the triangles 0, 1, 2"), std::string::npos) << ran.err;
+}
+
 // A line of a few bytes asks for no gigabytes.
 TEST_F(MotionCommand, WalksOfSizesOutOfProportionAreRefused) {
   const std::string head = "{\"format\": \"clues-motion-walk/1\"}\n",
@@ -176,6 +206,9 @@ TEST_F(MotionCommand, BadOptionsAreRefused) {
   refuses(with({"--ply", "3:last.ply"}), "the last frame is 2");
   refuses(with({"--ply", "last.ply"}), "FRAME:FILE");
   refuses(with({"--every", "0"}), "--every");
+  refuses(with({"--every", "-1"}), "--every: -1 is below 0");
+  refuses(with({"--seed", "-1"}), "--seed: -1 is below 0");
+  refuses({"room.off", "--path", "orbit:0,0,0,1", "--frames", "-1"}, "--frames: -1 is below 0");
   refuses(with({"--svg", "nowhere/a.svg"}), "nowhere");
   refuses(with({"--svg", "room.off"}), "room.off");
 }

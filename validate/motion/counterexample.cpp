@@ -179,44 +179,47 @@ class Search {
   static Float size(const FloatVector& a) { return Float(sqrt(product(a, a))); }
   static Float number(double x) { return Float(x, digits); }
 
-  // A unit vector at right angles to `axis`: of `a`, or any if a lies on the axis.
-  static FloatVector across(const FloatVector& a, const FloatVector& axis) {
-    const auto part = [&](const FloatVector& x) { return combined(number(1), x, Float(-product(x, axis)), axis); };
-    FloatVector out = part(a);
-    Float length = size(out);
-    for (std::size_t i = 0; i < 3 && length < size(a) * number(0x1p-200); ++i) {
-      FloatVector unit{number(0), number(0), number(0)};
-      unit[i] = 1;
-      out = part(unit);
-      length = size(out);
-      if (length < number(0.5)) length = 0;
+  // Of a vector that is not 0.
+  static FloatVector unit(const FloatVector& a) { return combined(Float(1 / size(a)), a, number(0), a); }
+
+  // A unit vector at right angles to `axis`: of `a`, or any if a lies on the axis. What is left of a may be as small as it likes, so that only its
+  // length is rounded. Of the three axes of the world, two at least are not along `axis`.
+  static FloatVector across(const RationalVector& a, const RationalVector& axis) {
+    const auto part = [&](const RationalVector& x) {
+      return exact::minus(x, exact::times(axis, exact::dot(x, axis) / exact::dot(axis, axis)));
+    };
+    const RationalVector zero;
+    RationalVector out = part(a);
+    for (std::size_t i = 0; i < 3 && out == zero; ++i) {
+      RationalVector along;
+      along[i] = 1;
+      out = part(along);
     }
-    return combined(Float(1 / length), out, number(0), out);
+    return unit(floats(out));
   }
 
-  // Unit vector from v to the nearest point of the torus: along the radius of the circle, away from its centre.
+  // Unit vector from v to the nearest point of the torus: along the radius of the circle, away from its centre. Ends that are far away and next to each
+  // other are one point in any number of digits: they are rounded after they have been subtracted.
   FloatVector direction_from_tube(const scene::DepthSample& first, const scene::DepthSample& second) const {
-    const auto a = floats(exact::seen(first, center_)), b = floats(exact::seen(second, center_));
-    const auto edge = combined(number(1), b, number(-1), a);
-    const Float length = size(edge);
-    const auto axis = combined(Float(1 / length), edge, number(0), edge);
-    const auto middle = combined(number(0.5), a, number(0.5), b);  // m - v
+    const auto a = exact::seen(first, center_), b = exact::seen(second, center_);
+    const auto edge = exact::minus(b, a);
+    const auto middle = floats(exact::times(exact::plus(a, b), mpq_class(1, 2)));  // m - v
+    const Float length = size(floats(edge));
     // From the axis to v; where v is on it, any way out is as near.
-    const auto out = across(combined(number(-1), a, number(0), a), axis);
+    const auto out = across(exact::times(a, -1), edge);
     const Float height = Float(thresholds_.kappa, digits) * length / 2;
     const auto to_circle = combined(number(1), middle, height, out);  // circle's centre - v
     const Float r = size(to_circle);
-    if (r < length * number(0x1p-200)) return axis;
+    if (r < length * number(0x1p-200)) return unit(floats(edge));
     return combined(Float(-1 / r), to_circle, number(0), to_circle);
   }
 
   FloatVector direction_from_cone(const scene::DepthSample& first, const scene::DepthSample& second) const {
     const auto& direction = first.is_direction ? first : second;
     const auto& apex = first.is_direction ? second : first;
-    auto axis = floats(exact::seen(direction, center_));
-    axis = combined(Float(1 / size(axis)), axis, number(0), axis);
-    const auto y = floats(exact::seen(apex, center_));
-    const auto out = across(y, axis);
+    const auto along = exact::seen(direction, center_);
+    const auto axis = unit(floats(along));
+    const auto out = across(exact::seen(apex, center_), along);
     // y moves against v: towards the side of the cone, that is by -(cos(phi) out - sin(phi) axis).
     const Float kappa(thresholds_.kappa, digits);
     const Float cosecant = Float(sqrt(Float(1 + kappa * kappa)));

@@ -34,7 +34,9 @@ class Judge {
         viewpoint_(viewpoint),
         exact_viewpoint_(exact::exact_viewpoint(viewpoint)),
         places_(mesh),
-        most_cubes_(most_cubes) {}
+        most_cubes_(most_cubes) {
+    require_one_across(places_, thresholds);
+  }
 
   BoundJudgement judge(std::uint32_t triangle, double claim) const {
     BoundJudgement out;
@@ -104,13 +106,15 @@ class Judge {
   // The largest of claim * k / 256 that is proved, by halving.
   double proved_radius(const ConstraintPlace& place, const Samples& samples, double claim) const {
     if (!std::isfinite(claim)) return 0;
+    // A large claim would be infinite when it is multiplied, a tiny one lose digits when it is divided.
+    const auto part = [&](int k) { return claim > 1 ? claim / 256 * k : claim * k / 256; };
     int low = 0, high = 256;
     while (high - low > 1) {
       const int middle = (low + high) / 2;
       std::vector<scene::MotionPoint> unused;
-      (proved(place, samples, claim * middle / 256, unused) ? low : high) = middle;
+      (proved(place, samples, part(middle), unused) ? low : high) = middle;
     }
-    return claim * low / 256;
+    return part(low);
   }
 
   const scene::DepthMesh& mesh_;

@@ -35,7 +35,8 @@ struct BoundsReport {
 };
 
 // The claim of triangle i is that no v with |v - viewpoint| < claims[i] violates any of its constraints. A claim of 0 says nothing, and is
-// proved. claims: as many as triangles, each 0, more or infinite, or Error bad_argument.
+// proved. claims: as many as triangles, each 0, more or infinite, or Error bad_argument; with thresholds.delaunay also a mesh that
+// require_one_across refuses.
 BoundsReport judge_motion_bounds(const scene::DepthMesh& mesh, const scene::MotionThresholds& thresholds,
                                  const scene::MotionPoint& viewpoint, const std::vector<double>& claims,
                                  const JudgeBoundsOptions& options = {});

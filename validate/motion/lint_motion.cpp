@@ -30,6 +30,7 @@ std::array<const scene::DepthSample*, 4> samples_of(const MotionVector& test, co
 // By the judge's own loop.
 std::vector<ConstraintPlace> violated_at(const MotionVector& test) {
   const MeshPlaces places(test.mesh);
+  require_one_across(places, test.thresholds);
   const exact::ExactThresholds thresholds(test.thresholds);
   std::vector<ConstraintPlace> out;
   for (std::uint32_t i = 0; i < test.mesh.triangles.size(); ++i) {

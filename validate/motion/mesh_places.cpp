@@ -1,8 +1,12 @@
 // Edges by sorting.
 #include "validate/motion/mesh_places.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <tuple>
+
+#include "scene/messages/error.h"
 
 namespace clues::validate {
 namespace {
@@ -14,6 +18,18 @@ struct HalfEdge {
   std::uint8_t corner;
   auto key() const { return std::tie(low, high); }
 };
+
+// Three triangles show it as well as all.
+std::string tangle_of(const HalfEdge* first, const HalfEdge* last) {
+  std::string triangles;
+  for (const HalfEdge* edge = first; edge != last && edge - first < 3; ++edge) {
+    triangles.append(triangles.empty() ? "" : ", ").append(std::to_string(edge->triangle));
+  }
+  return fmt::format("the edge {}-{} is in the triangles {}{}: {}", first->low, first->high, triangles,
+                     last - first > 3 ? ", ..." : "",
+                     last - first > 2 ? "more than two, so that none of them is across from another"
+                                      : "they run through it in the same direction, so that neither is across");
+}
 
 }  // namespace
 
@@ -35,11 +51,17 @@ MeshPlaces::MeshPlaces(const scene::DepthMesh& mesh) : across(mesh.triangles.siz
     const auto &one = edges[first], &two = edges[last - 1];
     if (last - first != 2 || one.upward == two.upward) {
       unpaired += last - first;
+      if (last - first > 1 && tangled.empty()) tangled = tangle_of(edges.data() + first, edges.data() + last);
       continue;
     }
     across[one.triangle][one.corner] = mesh.triangles[two.triangle][(two.corner + 2U) % 3U];
     across[two.triangle][two.corner] = mesh.triangles[one.triangle][(one.corner + 2U) % 3U];
   }
+}
+
+void require_one_across(const MeshPlaces& places, const scene::MotionThresholds& thresholds) {
+  if (!thresholds.delaunay || places.tangled.empty()) return;
+  throw scene::Error(scene::ErrorCode::bad_argument, "the Delaunay property is asked for, but " + places.tangled);
 }
 
 PlaceSamples samples_at(const scene::DepthMesh& mesh, const MeshPlaces& places, const scene::ConstraintPlace& place) {

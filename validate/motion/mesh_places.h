@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "exact/motion/constraints.h"
@@ -19,7 +20,13 @@ struct MeshPlaces {
   std::vector<std::array<std::uint32_t, 3>> across;
   // Directed edges without exactly one partner in the other direction. 0: the mesh is closed and oriented.
   std::uint64_t unpaired = 0;
+  // The first edge that more than two triangles have, or two in the same direction, in words: nothing says which of them is across. Empty: none.
+  std::string tangled;
 };
+
+// Throws Error bad_argument where the Delaunay property is asked for and it is not said across what: there `across` has none, as where the mesh
+// ends, and the property would be taken for one that need not hold.
+void require_one_across(const MeshPlaces& places, const scene::MotionThresholds& thresholds);
 
 // The samples that a constraint is about, in the order in which the predicates take them: facing a, b, c; edge_length a, b; separation p and
 // the edge a, b; delaunay a, b, c and d across.
@@ -29,7 +36,7 @@ struct PlaceSamples {
 };
 PlaceSamples samples_at(const scene::DepthMesh& mesh, const MeshPlaces& places, const scene::ConstraintPlace& place);
 
-// All constraints of one triangle, facing first.
+// All constraints of one triangle, facing first; of a mesh that require_one_across lets through.
 std::vector<scene::ConstraintPlace> constraints_of(const MeshPlaces& places, const scene::MotionThresholds& thresholds,
                                                    std::uint32_t triangle);
 

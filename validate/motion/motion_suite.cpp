@@ -11,6 +11,7 @@
 #include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
 #include "scene/motion/motion_files.h"
+#include "validate/motion/mesh_places.h"
 #include "validate/vectors/side_lint.h"
 #include "validate/vectors/side_topic.h"
 
@@ -85,6 +86,9 @@ MotionVector read_case(const Json& value, const std::string& file, bool drafts) 
   out.thresholds = scene::thresholds_of(value["thresholds"], where + ": thresholds");
   out.mesh = scene::depth_mesh_of(value["samples"], value["triangles"], where);
   if (out.mesh.triangles.empty()) refuse(where, "there is no triangle");
+  if (const MeshPlaces places(out.mesh); out.thresholds.delaunay && !places.tangled.empty()) {
+    refuse(where, places.tangled);
+  }
   if (value.contains("expect")) {
     read_expectation(value["expect"], out, where + ": expect");
   } else if (!drafts) {
