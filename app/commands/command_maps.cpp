@@ -23,6 +23,7 @@
 #include "reference/multires/stars/features.h"
 #include "scene/files/atomic_file.h"
 #include "scene/formats/number.h"
+#include "scene/mesh/bounds.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/multires/attributes.h"
@@ -61,16 +62,36 @@ void add_features(const std::string& given, const scene::TriangleMesh& mesh, ref
 }
 
 double longest_side(const scene::TriangleMesh& mesh) {
-  double longest = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    double low = mesh.points[0][i], high = low;
-    for (const auto& p : mesh.points) {
-      low = std::min(low, p[i]);
-      high = std::max(high, p[i]);
-    }
-    longest = std::max(longest, high - low);
+  const auto [low, high] = scene::bounds_of(mesh.points);
+  return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+}
+
+// Squares of distances must neither overflow nor vanish: else there is no bound that an error could be reached by.
+void require_measurable(const scene::TriangleMesh& mesh, const std::string& name) {
+  double largest = 0;
+  for (const auto& p : mesh.points) {
+    for (const double x : p) largest = std::max(largest, std::abs(x));
   }
-  return longest;
+  const auto refuse = [&](const std::string& what) {
+    throw scene::Error(scene::ErrorCode::unsupported, fmt::format("--adaptive: {}: {}", name, what));
+  };
+  if (!(largest < 0x1p500))
+    refuse(fmt::format("a coordinate is as large as {}; errors are bounded for coordinates below 2^500", largest));
+  if (const double side = longest_side(mesh); !(side > 0x1p-500))
+    refuse(fmt::format("the longest side of the box is {}; errors are bounded for boxes above 2^-500", side));
+}
+
+// How far the two are apart, and what part of the box that is, where both are numbers.
+std::string distances_text(const scene::RemeshProof& proof, double side) {
+  if (!std::isfinite(proof.to_remesh) || !std::isfinite(proof.to_input))
+    return "coordinates are too large for bounds of how far it and the input are apart";
+  const auto text = [&](double distance) {
+    const double percent = 100 * distance / side;
+    return std::isfinite(percent) ? fmt::format("{:.4g} ({:.3g} % of the box)", distance, percent)
+                                  : fmt::format("{:.4g}", distance);
+  };
+  return fmt::format("no point of the input is farther from it than {}, none of it farther from the input than {}",
+                     text(proof.to_remesh), text(proof.to_input));
 }
 
 void check_remesh(const MapsRequest& request) {
@@ -145,12 +166,8 @@ RemeshAnswer remesh(const MapsRequest& request, const scene::Hierarchy& hierarch
                                                    hierarchy.input.points.size(), hierarchy.input.triangles.size()),
                          options.single, report);
   answer.reached = made.reached;
-  answer.row += fmt::format(
-      "remesh: {} vertices, {} triangles; no point of the input is farther than {:.4g} from it ({:.3g} % of the box), "
-      "none of it farther "
-      "than {:.4g} ({:.3g} %) from the input\n",
-      made.mesh.points.size(), made.mesh.triangles.size(), made.proof.to_remesh, 100 * made.proof.to_remesh / side,
-      made.proof.to_input, 100 * made.proof.to_input / side);
+  answer.row += fmt::format("remesh: {} vertices, {} triangles; {}\n", made.mesh.points.size(),
+                            made.mesh.triangles.size(), distances_text(made.proof, side));
   if (carried.across_seams > 0) {
     answer.row += fmt::format(
         "{} triangles of the remesh lie across a seam of the texture; as --features FILE, seams stay edges\n",
@@ -191,6 +208,8 @@ int run_maps(const MapsRequest& request) {
   check_remesh(request);
   const auto mesh = scene::read_mesh(request.mesh);
   const auto census = reference::checked_surface(mesh, request.mesh);
+  if (request.adaptive) require_measurable(mesh, request.mesh);
+  if (is_of_floats(request.remesh)) require_floats(mesh);
   scene::MeshAttributes attributes;
   if (request.uniform || request.adaptive) attributes = scene::read_attributes(request.mesh, mesh);
   reference::HierarchyOptions options;
@@ -234,7 +253,10 @@ void add_maps_command(CLI::App& program, int& status) {
   auto request = std::make_shared<MapsRequest>();
   command->add_option("MESH", request->mesh, "A surface, closed or with boundary: OBJ, OFF, PLY or STL");
   command->add_option("--base", request->base, "End with the first level of at most N triangles (default: 200)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check([](const std::string& given) {  // else -1 would be read as the largest number that there is
+        return given.find('-') == std::string::npos ? std::string() : "a number of triangles is 0 or more";
+      });
   command
       ->add_option("--kernel", request->kernel,
                    "Made by the exact reference, or fast: with filtered doubles, by all threads; the same bytes")

@@ -87,6 +87,12 @@ std::string to_ply(const reference::Remesh& remesh, const Attributes& attributes
   return fmt::to_string(out);
 }
 
+void require_float(double x) {
+  if (std::abs(x) <= std::numeric_limits<float>::max()) return;
+  throw scene::Error(scene::ErrorCode::unsupported,
+                     "--remesh: glTF has floats, and coordinates are too large for them; write another format");
+}
+
 // One mesh of one primitive; a buffer of floats, and indices at its end.
 class GltfWriter {
  public:
@@ -137,10 +143,6 @@ class GltfWriter {
 
  private:
   static_assert(std::endian::native == std::endian::little);
-  [[noreturn]] static void refuse_size() {
-    throw scene::Error(scene::ErrorCode::unsupported,
-                       "--remesh: glTF has floats, and coordinates are too large for them; write another format");
-  }
   template <class Number>
   void put(Number x) {
     for (const char byte : std::bit_cast<std::array<char, sizeof(Number)>>(x)) bytes_.push_back(byte);
@@ -161,7 +163,7 @@ class GltfWriter {
     for (const auto& vertex : vertices_) {
       for (std::size_t i = 0; i < width; ++i) {
         const double value = value_of(vertex, i);
-        if (!(std::abs(value) <= std::numeric_limits<float>::max())) refuse_size();
+        require_float(value);
         put(static_cast<float>(value));
       }
     }
@@ -219,6 +221,12 @@ void require_remesh_format(const std::string& file) {
 bool is_of_floats(const std::string& file) {
   const std::string extension = scene::lower_case_extension(file);
   return extension == ".glb" || extension == ".gltf";
+}
+
+void require_floats(const scene::TriangleMesh& mesh) {
+  for (const auto& p : mesh.points) {
+    for (const double x : p) require_float(x);
+  }
 }
 
 std::string remesh_to_file(const reference::Remesh& remesh, const Attributes& attributes, const std::string& file) {

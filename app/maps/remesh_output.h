@@ -11,10 +11,12 @@ namespace clues::app {
 void require_remesh_format(const std::string& file);
 // Formats whose positions are floats: the remesh has to be made of such.
 bool is_of_floats(const std::string& file);
+// Throws Error unsupported where floats cannot hold a position of the mesh; then they may not hold one of its remesh.
+void require_floats(const scene::TriangleMesh& mesh);
 
 // PLY: colours of vertices, or else a colour for each base triangle; texture coordinates as the list texcoord of faces. OFF has neither. In glTF vertices
 // are split where they have several texture coordinates, of which the second counts from above. Throws Error unsupported where floats cannot
-// hold a position.
+// hold texture coordinates.
 std::string remesh_to_file(const reference::Remesh& remesh, const scene::MeshAttributes& attributes,
                            const std::string& file);
 

@@ -154,11 +154,18 @@ PatchError error_bound(const Patch& patch, const std::array<Point, 3>& triangle,
 }
 
 Point position_estimate(const scene::CarrierPoint& source, const scene::TriangleMesh& input) {
-  Point out{0, 0, 0};
+  Point out{0, 0, 0}, low = input.points[source.corner[0]], high = low;
   for (std::size_t k = 0; k < source.size(); ++k) {
     const double weight = std::ldexp(static_cast<double>(source.weight[k]), -scene::weight_bits);
-    for (std::size_t i = 0; i < 3; ++i) out[i] += weight * input.points[source.corner[k]][i];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double x = input.points[source.corner[k]][i];
+      out[i] += weight * x;
+      low[i] = std::min(low[i], x);
+      high[i] = std::max(high[i], x);
+    }
   }
+  // Rounding takes a point out of its simplex: beside the largest double that would be infinity.
+  for (std::size_t i = 0; i < 3; ++i) out[i] = std::clamp(out[i], low[i], high[i]);
   return out;
 }
 

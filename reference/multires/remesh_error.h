@@ -25,7 +25,7 @@ PatchError error_bound(const Patch& patch, const std::array<scene::Point, 3>& tr
                        const scene::TriangleMesh& input, std::vector<std::uint32_t>* near = nullptr,
                        double enough = std::numeric_limits<double>::infinity());
 
-// Where a point of the input surface lies, rounded.
+// Where a point of the input surface lies, rounded; not beyond the corners that it lies between.
 scene::Point position_estimate(const scene::CarrierPoint& source, const scene::TriangleMesh& input);
 
 }  // namespace clues::reference

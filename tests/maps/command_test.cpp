@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "fuzz/multires/surfaces.h"
 #include "scene/mesh_io.h"
 #include "scene/multires/attributes.h"
@@ -69,11 +71,47 @@ TEST(MapsCommand, CarriesTexturesAndWritesGltf) {
   EXPECT_GT(scene::read_mesh(folder.path() / "c.ply").triangles.size(), remesh.triangles.size());
 }
 
+// The ball, so many times as large.
+scene::TriangleMesh scaled_ball(double by) {
+  auto mesh = fuzz::ball(3);
+  for (auto& p : mesh.points) {
+    for (double& x : p) x *= by;
+  }
+  return mesh;
+}
+
+// Near the largest double positions became infinite; the box is infinitely wide there, and a part of that was "reached".
+TEST(MapsCommand, WritesFinitePositionsOfHugeCoordinates) {
+  const tests::TestFolder folder;
+  auto mesh = scaled_ball(1);
+  for (auto& p : mesh.points)
+    p[0] = p[2] > 0 ? std::numeric_limits<double>::max() : -std::numeric_limits<double>::max();
+  folder.write("huge.off", scene::to_off_text(mesh));
+  const auto ran = tests::run_clues({"maps", "huge.off", "--base", "20", "--uniform", "1", "--remesh", "r.ply",
+                                     "--checker", "c.ply", "--patches", "p.ply"},
+                                    folder.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("bounds none (input to remesh)"));
+  EXPECT_THAT(ran.out, HasSubstr("coordinates are too large for bounds"));
+  for (const char* file : {"r.ply", "c.ply", "p.ply"}) EXPECT_NO_THROW(scene::read_mesh(folder.path() / file)) << file;
+}
+
+TEST(MapsCommand, PrintsNoPartOfABoxThatIsAPoint) {
+  const tests::TestFolder folder;
+  folder.write("point.off", scene::to_off_text(scaled_ball(0)));
+  const auto ran =
+      tests::run_clues({"maps", "point.off", "--base", "20", "--uniform", "1", "--remesh", "r.ply"}, folder.path());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("no point of the input is farther from it than 0, none of it"));
+}
+
 TEST(MapsCommand, RefusesAndWritesNothing) {
   const tests::TestFolder folder;
   const std::string ball = scene::to_off_text(fuzz::ball(4));
   folder.write("ball.off", ball);
   folder.write("strip.off", scene::to_off_text(fuzz::moebius(5)));
+  folder.write("huge.off", scene::to_off_text(scaled_ball(0x1p1020)));
+  folder.write("point.off", scene::to_off_text(scaled_ball(0)));
   const auto refused = [&](std::vector<std::string> words, const std::string& why) {
     words.insert(words.begin(), "maps");
     const auto ran = tests::run_clues(words, folder.path());
@@ -91,7 +129,11 @@ TEST(MapsCommand, RefusesAndWritesNothing) {
   refused({"ball.off", "--adaptive", "0", "--remesh", "r.off"}, "--adaptive 0");
   refused({"ball.off", "--uniform", "1", "--remesh", "r.stl"}, ".ply, .obj, .off, .glb or .gltf");
   refused({"ball.off", "--features", "181"}, "180 degrees");
-  EXPECT_THAT(folder.names(), ElementsAre("ball.off", "strip.off"));
+  refused({"ball.off", "--base", "-1"}, "a number of triangles is 0 or more");
+  refused({"huge.off", "--adaptive", "5", "--remesh", "r.ply"}, "coordinates below 2^500");
+  refused({"huge.off", "--uniform", "1", "--remesh", "r.glb"}, "glTF has floats");
+  refused({"point.off", "--adaptive", "5", "--remesh", "r.ply"}, "the longest side of the box is 0");
+  EXPECT_THAT(folder.names(), ElementsAre("ball.off", "huge.off", "point.off", "strip.off"));
   EXPECT_EQ(tests::read_all(folder.path() / "ball.off"), ball);
 }
 

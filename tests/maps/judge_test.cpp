@@ -131,6 +131,73 @@ TEST(JudgeOfHierarchies, FindsWhatIsWrongWithTheOverlay) {
   EXPECT_THAT(verdict(moved), HasSubstr("E6 piece"));
 }
 
+// The triangles as a base domain of their own, every vertex where it is.
+scene::Hierarchy itself(std::size_t vertices, const std::vector<scene::Triangle>& triangles) {
+  scene::Hierarchy h;
+  h.input.points.resize(vertices);
+  h.input.triangles = h.base = triangles;
+  for (std::uint32_t v = 0; v < vertices; ++v) h.points.push_back({scene::at_vertex(v), scene::at_vertex(v)});
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) h.pieces.push_back({triangles[t], t});
+  return h;
+}
+
+// The first points were the identity, as E5 wants them, and the pieces a rotation: it was verified.
+TEST(JudgeOfHierarchies, FindsPointsBesideThePieces) {
+  auto h = itself(4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+  EXPECT_EQ(verdict(h), "");
+  for (std::uint32_t v = 0; v < 4; ++v)
+    h.points.push_back({scene::at_vertex(v), scene::at_vertex(v < 3 ? (v + 1) % 3 : 3)});
+  for (auto& piece : h.pieces) {
+    for (auto& corner : piece.corners) corner += 4;
+  }
+  EXPECT_EQ(verdict(h),
+            "E6 point 0 is a corner of no piece\nE6 point 1 is a corner of no piece\n"
+            "E6 point 2 is a corner of no piece\nE6 point 3 is a corner of no piece\n");
+}
+
+TEST(JudgeOfHierarchies, FindsAVertexWithoutTriangle) {
+  EXPECT_THAT(verdict(itself(4, {{0, 1, 2}})), HasSubstr("E1 vertex 3 of the input has no triangle"));
+}
+
+// Half-edges take both of them.
+TEST(JudgeOfHierarchies, FindsTwoTrianglesOfTheSameThree) {
+  EXPECT_THAT(verdict(itself(3, {{0, 1, 2}, {0, 2, 1}})),
+              HasSubstr("E1 level 0: two triangles have vertices 0, 1 and 2"));
+  EXPECT_THAT(verdict(itself(3, {{0, 1, 2}, {1, 2, 0}})),
+              HasSubstr("E1 level 0: two triangles have vertices 0, 1 and 2"));
+}
+
+// The feature's second end was looked for in a ring that is none.
+TEST(JudgeOfHierarchies, FindsAReasonWhereTwoFansMeet) {
+  auto h = itself(5, {{0, 1, 2}, {0, 3, 4}});
+  h.features = {{0, 1}, {0, 2}};
+  h.fixed = {1, 2, 3, 4};
+  h.levels.push_back({{}, {{0, scene::KeptFor::link}}});
+  EXPECT_THAT(verdict(h), HasSubstr("E2 level 1, vertex 0: a reason is given why it stays, and its star is no fan"));
+}
+
+TEST(JudgeOfHierarchies, FindsReasonsThatNobodyAskedFor) {
+  const auto h = good();
+  const std::uint32_t removed = h.levels[0].removals[0].vertex, blocked = h.levels[0].removals[0].ring[0];
+  for (const std::uint32_t v : {removed, blocked}) {
+    auto wrong = h;
+    wrong.levels[0].kept.push_back({v, scene::KeptFor::numbers});
+    EXPECT_THAT(verdict(wrong), testing::StartsWith("E2 level 1, vertex " + std::to_string(v) + ": a reason is given"));
+  }
+  auto gone = h;
+  gone.levels[1].kept.push_back({removed, scene::KeptFor::numbers});
+  EXPECT_THAT(verdict(gone), HasSubstr("E2 level 2, vertex " + std::to_string(removed) + ": a reason is given"));
+  // No vertex of a tetrahedron can be removed; those that are fixed need no reason.
+  auto two = itself(4, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+  two.fixed = {1, 2, 3};
+  two.levels.push_back({{}, {{0, scene::KeptFor::link}}});
+  EXPECT_EQ(verdict(two), "");
+  two.levels[0].kept.push_back({0, scene::KeptFor::numbers});
+  EXPECT_EQ(verdict(two), "E2 level 1, vertex 0: two reasons are given why it stays\n");
+  two.levels[0].kept[1].vertex = 1;
+  EXPECT_THAT(verdict(two), HasSubstr("E2 level 1, vertex 1: a reason is given"));
+}
+
 TEST(JudgeOfHierarchies, FindsALevelThatIsNotIndependentOrNotMaximal) {
   auto less = good();
   less.levels.back().removals.pop_back();
@@ -253,7 +320,7 @@ TEST(JudgeOfPlainMaps, ProvesRefutesAndLeavesOpen) {
   for (auto& w : ulp[2].weights) {
     if (w != "0") w = "0.9999999999999999";
   }
-  EXPECT_THAT(validate::to_text(plain(ulp)), HasSubstr("E4 vertex 2: its coordinates sum to 1 - 1.11e-16"));
+  EXPECT_THAT(validate::to_text(plain(ulp)), HasSubstr("E4 vertex 2: its coordinates sum to 1 - 1e-16"));
   auto swapped = identity();
   std::swap(swapped[0], swapped[1]);
   const auto report = plain(swapped);
@@ -291,6 +358,46 @@ validate::PlainMapReport in_one_triangle(const std::vector<scene::Triangle>& tri
   std::vector<scene::PlainMapLine> lines;
   for (const auto& [u, v] : images) lines.push_back({0, {u, v, ""}});
   return validate::check_plain_map(surface(images.size(), triangles), surface(3, {{0, 1, 2}}), lines, "plain.txt");
+}
+
+// A fan of three in a triangle, its middle at these coordinates.
+validate::PlainMapReport with_middle(const char* a, const char* b, const char* c) {
+  const std::vector<scene::PlainMapLine> lines{
+      {0, {"1", "0", "0"}}, {0, {"0", "1", "0"}}, {0, {"0", "0", "1"}}, {0, {a, b, c}}};
+  return validate::check_plain_map(surface(4, {{0, 1, 3}, {1, 2, 3}, {2, 0, 3}}), surface(3, {{0, 1, 2}}), lines,
+                                   "plain.txt");
+}
+
+// They were rounded to doubles first: tenths were off by what nobody wrote, and 1 + 1e-20 was 1.
+TEST(JudgeOfPlainMaps, CoordinatesAreTakenAsTheyAreWritten) {
+  using validate::PlainVerdict;
+  EXPECT_EQ(with_middle("0.1", "0.2", "0.7").verdict, PlainVerdict::proved);
+  EXPECT_EQ(with_middle("+1e-1", "2.E-01", ".7").verdict, PlainVerdict::proved);
+  EXPECT_EQ(with_middle("0x.4p0", "0X1P-2", "0x0.8").verdict, PlainVerdict::proved);
+  EXPECT_EQ(with_middle("0x1.8p-2", "25e-2", "3/8").verdict, PlainVerdict::proved);
+  const auto text = [&](const char* a) { return validate::to_text(with_middle(a, "0.25", "0.25")); };
+  EXPECT_THAT(text("0.50000000000000000001"), HasSubstr("E4 vertex 3: its coordinates sum to 1 + 1e-20, not to 1"));
+  EXPECT_THAT(text("0x.7ffffffffffffffffp0"), HasSubstr("E4 vertex 3: its coordinates sum to 1 - 3.39e-21, not to 1"));
+  EXPECT_THAT(validate::to_text(with_middle("1e-400", "0.5", "0.5")), HasSubstr("sum to 1 + less than 1e-300"));
+  EXPECT_THAT(text("-1e-1"), HasSubstr("coordinate 0 is negative (-0.1)"));
+  EXPECT_EQ(with_middle("1e-5000", "0.5", "0.5").verdict, PlainVerdict::refuted);
+  const std::string too_long = "0." + std::string(10'000, '3');
+  for (const char* wrong : {"1e-5001", "0e5001", "0x1p-5001", "1e99999999999999999999", "1e400", "0x", "0x1p", "1e",
+                            ".", "-", "", "--1", "nan", "inf", "1 ", "0x1.8p+3x", "1/", "+1/2", too_long.c_str()}) {
+    EXPECT_THROW(with_middle(wrong, "0.25", "0.25"), scene::Error) << wrong;
+  }
+}
+
+TEST(JudgeOfPlainMaps, AVertexWithoutTriangleIsNoPartOfASurface) {
+  const std::vector<scene::Triangle> one{{0, 1, 2}};
+  const std::vector<scene::PlainMapLine> corners{{0, {"1", "0", "0"}}, {0, {"0", "1", "0"}}, {0, {"0", "0", "1"}}};
+  auto lines = corners;
+  lines.push_back({0, {"1/3", "1/3", "1/3"}});
+  const auto input = validate::check_plain_map(surface(4, one), surface(3, one), lines, "plain.txt");
+  EXPECT_EQ(input.verdict, validate::PlainVerdict::refuted);
+  EXPECT_THAT(validate::to_text(input), HasSubstr("E1 the input: vertex 3 has no triangle"));
+  const auto base = validate::check_plain_map(surface(3, one), surface(4, one), corners, "plain.txt");
+  EXPECT_THAT(validate::to_text(base), HasSubstr("E1 the base: vertex 3 has no triangle"));
 }
 
 // Nothing is flipped, no place is taken twice, and the Euler numbers agree; it was called proved for that.

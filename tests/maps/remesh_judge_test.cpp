@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -177,6 +178,31 @@ TEST(JudgeOfRemeshes, FindsWhatIsNoMap) {
   m = uniform_ball();
   m.remesh.proof.parameters.pop_back();
   EXPECT_THROW(verdict(m), scene::Error);  // a vertex that is not there
+}
+
+// What formats do to vertices: split they may be, joined not. Two tetrahedra that share a vertex in the file were verified as two.
+TEST(JudgeOfRemeshes, FindsVerticesThatTheFileJoins) {
+  scene::TriangleMesh two;
+  two.points.resize(8);  // all in one place
+  for (const std::uint32_t v : {0U, 4U}) {
+    for (const scene::Triangle& t : {scene::Triangle{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}})
+      two.triangles.push_back({v + t[0], v + t[1], v + t[2]});
+  }
+  Made m = made(two, 8, {});
+  EXPECT_EQ(verdict(m), "");
+  auto& mesh = m.remesh.mesh;
+  mesh.points.push_back(mesh.points[0]);
+  for (auto& t : mesh.triangles) std::replace(t.begin(), t.end(), mesh.triangles[7][0], 8U);
+  EXPECT_EQ(verdict(m), "");
+  mesh.triangles[7][0] = mesh.triangles[0][0];
+  EXPECT_THAT(verdict(m), HasSubstr("E7 vertex " + std::to_string(mesh.triangles[0][0]) + " of the file is vertices"));
+}
+
+TEST(JudgeOfRemeshes, FindsPointsBesideThePieces) {
+  Made m = uniform_ball();
+  m.remesh.proof.points.push_back(m.remesh.proof.points[0]);
+  EXPECT_EQ(
+      verdict(m).find("E7 point " + std::to_string(m.remesh.proof.points.size() - 1) + " is a corner of no piece"), 0U);
 }
 
 // Fractions against doubles on either side of the bound, and triangles that are none.

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fuzz/multires/surfaces.h"
 #include "reference/multires/hierarchy.h"
+#include "reference/multires/remesh_error.h"
 #include "tests/maps/hierarchy_over.h"
 #include "validate/multires/level_topology.h"
 
@@ -77,6 +79,18 @@ TEST(Remesh, IsTheBaseDomainCutInFour) {
     for (const auto& source : remesh.sources) {
       EXPECT_EQ(source.weight[0] + source.weight[1] + source.weight[2], scene::whole_weight);
     }
+  }
+}
+
+// Weights round up, and the sum to infinity; the largest double is the point.
+TEST(Remesh, PositionsStayBetweenTheirCorners) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  scene::TriangleMesh mesh;
+  mesh.points = {{largest, 3, -largest}, {largest, 3, -largest}, {largest, 3, -largest}};
+  const std::int64_t third = scene::whole_weight / 3;
+  for (std::int64_t by = 0; by < 100; ++by) {
+    const scene::CarrierPoint at{{0, 1, 2}, {third + by, third, scene::whole_weight - 2 * third - by}};
+    EXPECT_EQ(reference::position_estimate(at, mesh), (Point{largest, 3, -largest})) << by;
   }
 }
 

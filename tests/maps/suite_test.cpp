@@ -71,6 +71,16 @@ TEST(MultiresSuite, WrongExpectationsAreFound) {
   }
 }
 
+// Vertex 0 of none was taken for one.
+TEST(MultiresSuite, RefusesTrianglesWithoutVertices) {
+  for (const char* mesh : {R"("vertices":[],"triangles":[[0,0,0]])", R"("vertices":[[0,0,0]],"triangles":[[0,0,1]])"}) {
+    const std::string text =
+        std::string(R"({"format":"clues-multires-vectors/1","topic":"a","cases":[{"id":"none","comment":"None.",)") +
+        R"("kind":"surface",)" + mesh + "}]}";
+    EXPECT_THROW(validate::parse_multires_topic(text, "a.json", true), scene::Error) << mesh;
+  }
+}
+
 TEST(MultiresSuite, ReadsAndWritesItsOwnText) {
   for (const auto& path : validate::side_vector_files(folder)) {
     const auto topic = validate::read_multires_topic(path);

@@ -51,9 +51,11 @@ std::string to_text(const HierarchyReport& r) {
       "without the overlay, linear on input triangles: {} of {} that lie in one base triangle are flipped\n",
       r.linear_flips, r.linear_judged);
   if (r.remesh) {
+    const auto bound = [](double x) { return std::isfinite(x) ? fmt::format("{}", x) : "none"; };
     out += fmt::format(
         "a remesh of {} vertices and {} triangles, by {} pieces: bounds {} (input to remesh), {} (remesh to input)\n",
-        r.remesh->vertices, r.remesh->triangles, r.remesh->pieces, r.remesh->to_remesh, r.remesh->to_input);
+        r.remesh->vertices, r.remesh->triangles, r.remesh->pieces, bound(r.remesh->to_remesh),
+        bound(r.remesh->to_input));
   }
   for (const auto& f : r.findings) out += fmt::format("{} {}\n", f.check, f.what);
   for (const auto& [check, count] : r.counts) {

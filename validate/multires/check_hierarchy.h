@@ -2,11 +2,12 @@
 // Shares no code with what makes hierarchies.
 //
 //   E1 every level is a surface with boundary; Euler number and boundaries stay as they are (on OpenMesh's half-edge mesh)
-//   E2 what a level removes is independent, below degree 12 and not fixed; who stays is blocked, or has a reason that holds
+//   E2 what a level removes is independent, below degree 12 and not fixed; who stays is blocked, or has a reason that holds; no other has one
 //   E3 every flattened star is embedded, and its new triangles fill the same polygon
 //   E4 weights are positive and sum to 1 exactly, over vertices of one triangle
 //   E5 Pi of every vertex, recomputed step by step
-//   E6 the overlay: every piece turned right on both sides, edges of pieces paired, areas 1 in every triangle of the input and of the base
+//   E6 the overlay: every piece turned right on both sides, edges of pieces paired, areas 1 in every triangle of the input and of the base;
+//      every point is a corner of a piece
 //
 // E6 alone proves that the overlay's map is a homeomorphism; E1 to E5 say how it came about.
 #pragma once

@@ -45,6 +45,8 @@ class LevelJudge {
 
   void run() {
     check_features();
+    for (const std::uint32_t v : vertices_without_triangle(h_.input.triangles, gone_.size()))
+      report_.find("E1", fmt::format("vertex {} of the input has no triangle", v));
     for (level_ = 0; level_ < h_.levels.size(); ++level_) {
       row();
       one_level(h_.levels[level_]);
@@ -84,6 +86,10 @@ class LevelJudge {
     LevelRow out;
     const auto topology = topology_of(surface_.all(), gone_.size());
     if (!topology.defect.empty()) report_.find("E1", fmt::format("level {}: {}", level_, topology.defect));
+    // The set holds a triangle once, however often the input has it.
+    if (const auto t = triangle_there_twice(level_ == 0 ? h_.input.triangles : surface_.all()))
+      report_.find(
+          "E1", fmt::format("level {}: two triangles have vertices {}, {} and {}", level_, (*t)[0], (*t)[1], (*t)[2]));
     out.vertices = topology.vertices;
     out.triangles = topology.triangles;
     out.euler = topology.euler();
@@ -124,7 +130,10 @@ class LevelJudge {
       ++row.removed;
     }
     std::map<std::uint32_t, KeptFor> reasons;
-    for (const auto& k : level.kept) reasons[k.vertex] = k.reason;
+    for (const auto& k : level.kept) {
+      if (!reasons.emplace(k.vertex, k.reason).second)
+        report_.find("E2", place(k.vertex) + ": two reasons are given why it stays");
+    }
     for (const std::uint32_t v : candidates) {
       if (removed[v]) continue;
       if (blocked[v]) {
@@ -137,7 +146,11 @@ class LevelJudge {
         continue;
       }
       check_reason(v, reason->second);
+      reasons.erase(reason);
     }
+    for (const auto& [v, unused] : reasons)
+      report_.find("E2",
+                   place(v) + ": a reason is given why it stays, and it is gone, blocked, fixed or of 12 neighbours");
   }
 
   // The vertices around v as the surface has them now; empty: they are not one path or cycle.
@@ -180,6 +193,7 @@ class LevelJudge {
     LevelRow& row = report_.levels.back();
     bool open = false;
     const auto ring = ring_of(v, open);
+    if (ring.empty()) return report_.find("E2", place(v) + ": a reason is given why it stays, and its star is no fan");
     const auto ends = feature_ends(v);
     std::vector<std::vector<std::uint32_t>> polygons{ring};
     if (!open && ends.size() == 2) {

@@ -120,10 +120,12 @@ std::vector<std::uint32_t> check_common_triangulation(const CommonTriangulation&
   std::vector<mpz_class> covered(c.first.size()), covered_base(c.second.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> edges;
   std::vector<std::uint32_t> spanned;
+  std::vector<bool> used(c.points.size(), false);
   for (std::uint32_t i = 0; i < c.pieces.size(); ++i) {
     const auto& piece = c.pieces[i];
     std::array<const CarrierPoint*, 3> source{}, image{};
     for (std::size_t k = 0; k < 3; ++k) {
+      used[piece.corners[k]] = true;
       source[k] = &c.points[piece.corners[k]].source;
       image[k] = &c.points[piece.corners[k]].image;
       if (!edges.try_emplace({piece.corners[k], piece.corners[(k + 1) % 3]}, i).second) {
@@ -153,6 +155,10 @@ std::vector<std::uint32_t> check_common_triangulation(const CommonTriangulation&
     if (!input.on_boundary(p.source, q.source) || !base.on_boundary(p.image, q.image)) {
       wrong(fmt::format("piece {} has no neighbour at the edge from point {} to point {}", i, edge.first, edge.second));
     }
+  }
+  // Of a point beside the pieces nothing is proved: it could say anything.
+  for (std::uint32_t p = 0; p < used.size(); ++p) {
+    if (!used[p]) wrong(fmt::format("point {} is a corner of no piece", p));
   }
   const auto sums = [&](const std::vector<mpz_class>& parts, const std::string& name) {
     for (std::size_t t = 0; t < parts.size(); ++t) {

@@ -8,6 +8,7 @@
 #include <gmpxx.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,6 +24,56 @@ namespace {
 
 // Corners of the base with positive weights, ascending.
 using ExactCarrier = std::vector<std::pair<std::uint32_t, mpq_class>>;
+
+// What is longer, or has a larger exponent, is refused: its fraction would be too large to compute with.
+constexpr std::size_t longest_number = 10'000;
+constexpr std::int64_t largest_exponent = 5'000;
+
+// p/q.
+std::optional<mpq_class> fraction(const std::string& text) {
+  const bool digits =
+      std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '/' || c == '-'; });
+  mpq_class out;
+  if (!digits || out.set_str(text, 10) != 0 || out.get_den() == 0) return std::nullopt;
+  out.canonicalize();
+  return out;
+}
+
+// The texts that parse_number() takes, without its rounding.
+std::optional<mpq_class> unrounded(std::string_view text) {
+  if (scene::parse_number(text).kind != scene::NumberKind::finite) return std::nullopt;
+  const bool negative = text.front() == '-';
+  if (negative || text.front() == '+') text.remove_prefix(1);
+  const bool hex = text.size() > 1 && (text[1] == 'x' || text[1] == 'X');
+  if (hex) text.remove_prefix(2);
+  std::int64_t exponent = 0;
+  const auto mark = text.find_first_of(hex ? "pP" : "eE");
+  if (mark != std::string_view::npos) {
+    const auto read = scene::parse_integer(text.substr(mark + 1));
+    if (!read || *read > largest_exponent || *read < -largest_exponent) return std::nullopt;
+    exponent = *read;
+  }
+  std::string digits(text.substr(0, mark));
+  if (const auto point = digits.find('.'); point != std::string::npos) {
+    digits.erase(point, 1);
+    exponent -= static_cast<std::int64_t>(digits.size() - point) * (hex ? 4 : 1);
+  }
+  mpq_class out(mpz_class(digits, hex ? 16 : 10));
+  mpz_class scale;
+  mpz_ui_pow_ui(scale.get_mpz_t(), hex ? 2 : 10, static_cast<unsigned long>(std::abs(exponent)));
+  if (exponent < 0) {
+    out /= scale;
+  } else {
+    out *= scale;
+  }
+  return negative ? mpq_class(-out) : out;
+}
+
+// How large a number is, for a message.
+std::string size_text(const mpq_class& x) {
+  const double size = std::abs(x.get_d());
+  return size > 0 ? fmt::format("{:.3g}", size) : "less than 1e-300";
+}
 
 // The edges of one triangle only, and their ends.
 struct Boundary {
@@ -91,6 +142,11 @@ class PlainJudge {
                b = topology_of(base_.triangles, base_.points.size());
     if (!a.defect.empty()) find("E1", "the input: " + a.defect);
     if (!b.defect.empty()) find("E1", "the base: " + b.defect);
+    // The map would take it to where a triangle is, or nothing to it.
+    for (const std::uint32_t v : vertices_without_triangle(input_.triangles, input_.points.size()))
+      find("E1", fmt::format("the input: vertex {} has no triangle", v));
+    for (const std::uint32_t v : vertices_without_triangle(base_.triangles, base_.points.size()))
+      find("E1", fmt::format("the base: vertex {} has no triangle", v));
     if (a.defect.empty() && b.defect.empty() && (a.euler() != b.euler() || a.boundaries != b.boundaries)) {
       find("E1",
            fmt::format(
@@ -100,22 +156,15 @@ class PlainJudge {
   }
 
   mpq_class number(std::uint32_t v, const std::string& text) const {
-    const auto fail = [&]() -> mpq_class {
+    std::optional<mpq_class> out;
+    if (text.size() <= longest_number) out = text.find('/') == std::string::npos ? unrounded(text) : fraction(text);
+    if (!out) {
       throw scene::Error(scene::ErrorCode::malformed,
-                         fmt::format("{}: vertex {}: {} is no number", file_, v, scene::excerpt(text)));
-    };
-    const auto slash = text.find('/');
-    if (slash == std::string::npos) {
-      const auto parsed = scene::parse_number(text);
-      if (parsed.kind != scene::NumberKind::finite) return fail();
-      return mpq_class(parsed.value);
+                         fmt::format("{}: vertex {}: {} is no number, or longer than {} characters, or has an exponent "
+                                     "beyond {}",
+                                     file_, v, scene::excerpt(text), longest_number, largest_exponent));
     }
-    const bool digits =
-        std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || c == '/' || c == '-'; });
-    mpq_class out;
-    if (!digits || text.size() > 10'000 || out.set_str(text, 10) != 0 || out.get_den() == 0) return fail();
-    out.canonicalize();
-    return out;
+    return *out;
   }
 
   ExactCarrier image_of(std::uint32_t v) {
@@ -129,11 +178,11 @@ class PlainJudge {
     w[2] = line.weights[2].empty() ? mpq_class(1 - w[0] - w[1]) : number(v, line.weights[2]);
     const mpq_class sum = w[0] + w[1] + w[2];
     if (sum != 1) {
-      find("E4", fmt::format("vertex {}: its coordinates sum to 1 {} {:.3g}, not to 1", v, sum > 1 ? "+" : "-",
-                             std::abs(mpq_class(sum - 1).get_d())));
+      find("E4", fmt::format("vertex {}: its coordinates sum to 1 {} {}, not to 1", v, sum > 1 ? "+" : "-",
+                             size_text(sum - 1)));
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      if (w[k] < 0) find("E4", fmt::format("vertex {}: coordinate {} is negative ({:.3g})", v, k, w[k].get_d()));
+      if (w[k] < 0) find("E4", fmt::format("vertex {}: coordinate {} is negative (-{})", v, k, size_text(w[k])));
     }
     ExactCarrier out;
     for (std::size_t k = 0; k < 3; ++k) {

@@ -96,16 +96,23 @@ class RemeshJudge {
   bool sound_ = false;
 };
 
-// The mesh over the vertices of the proof, which may be several in its file.
+// The mesh over the vertices of the proof. Each may be several in its file, but none there several of the proof: the file would be joined where the
+// proof is not.
 TriangleMesh with_vertices_of(const scene::RemeshProof& proof, const TriangleMesh& remesh, HierarchyReport& report) {
   TriangleMesh out;
   out.triangles = proof.triangles;
   out.points.resize(proof.parameters.size());
   std::vector<bool> placed(proof.parameters.size(), false);
+  std::vector<std::uint32_t> stands_for(remesh.points.size(), scene::no_vertex);
   for (std::size_t t = 0; t < proof.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t v = proof.triangles[t][k];
-      const auto& at = remesh.points[remesh.triangles[t][k]];
+      const std::uint32_t in_file = remesh.triangles[t][k];
+      const auto& at = remesh.points[in_file];
+      if (stands_for[in_file] != scene::no_vertex && stands_for[in_file] != v)
+        report.find("E7", fmt::format("vertex {} of the file is vertices {} and {} of the remesh (triangle {})",
+                                      in_file, stands_for[in_file], v, t));
+      stands_for[in_file] = v;
       if (placed[v] && out.points[v] != at)
         report.find("E7", fmt::format("vertex {} of the remesh is in two places (triangle {})", v, t));
       out.points[v] = at;

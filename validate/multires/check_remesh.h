@@ -1,6 +1,7 @@
 // E7: a remesh beside the hierarchy that it was made from. Everything is recomputed from the three files; shares no code with what makes remeshes.
 //
-//   the triangles of the mesh, in their order, are those of the proof; of its vertices only the positions count, so that formats may split them
+//   the triangles of the mesh, in their order, are those of the proof; of its vertices only the positions count, so that formats may split them, but
+//   not join them
 //   the remesh is a surface, with the Euler number and boundaries of the input; by the parameters of its vertices it covers the base domain once
 //   pieces are a common triangulation of input and remesh: turned right on both, paired at edges, areas 1 in every triangle
 //   every vertex is the point of the input that the pieces give it, rounded

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
+#include <algorithm>
 
 namespace clues::validate {
 namespace {
@@ -62,6 +63,27 @@ LevelTopology topology_of(const std::vector<scene::Triangle>& triangles, std::si
   out.edges = static_cast<std::int64_t>(mesh.n_edges());
   out.triangles = static_cast<std::int64_t>(mesh.n_faces());
   return out;
+}
+
+std::vector<std::uint32_t> vertices_without_triangle(const std::vector<scene::Triangle>& triangles,
+                                                     std::size_t vertices) {
+  std::vector<bool> used(vertices, false);
+  for (const auto& t : triangles) {
+    for (const std::uint32_t v : t) used[v] = true;
+  }
+  std::vector<std::uint32_t> out;
+  for (std::uint32_t v = 0; v < vertices; ++v) {
+    if (!used[v]) out.push_back(v);
+  }
+  return out;
+}
+
+std::optional<scene::Triangle> triangle_there_twice(std::vector<scene::Triangle> triangles) {
+  for (auto& t : triangles) std::sort(t.begin(), t.end());
+  std::sort(triangles.begin(), triangles.end());
+  const auto twice = std::adjacent_find(triangles.begin(), triangles.end());
+  if (twice == triangles.end()) return std::nullopt;
+  return *twice;
 }
 
 }  // namespace clues::validate

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,10 @@ struct LevelTopology {
 
 // Of the vertices that triangles use, below `vertices`. O(n).
 LevelTopology topology_of(const std::vector<scene::Triangle>& triangles, std::size_t vertices);
+
+// What half-edges do not mind: vertices that no triangle uses, ascending; and a triangle whose three vertices another one has too.
+std::vector<std::uint32_t> vertices_without_triangle(const std::vector<scene::Triangle>& triangles,
+                                                     std::size_t vertices);
+std::optional<scene::Triangle> triangle_there_twice(std::vector<scene::Triangle> triangles);
 
 }  // namespace clues::validate

@@ -33,8 +33,9 @@ std::string word_in(const Json& value, const std::array<const char*, n>& words, 
 }
 
 std::uint32_t number_in(const Json& value, std::size_t count, const std::string& where) {
+  if (count == 0) refuse(where, "there is nothing that a number could name");
   try {
-    return static_cast<std::uint32_t>(scene::whole_number(value, "a number", count == 0 ? 0 : count - 1));
+    return static_cast<std::uint32_t>(scene::whole_number(value, "a number", count - 1));
   } catch (const scene::JsonError& e) {
     refuse(where, e.what());
   }
