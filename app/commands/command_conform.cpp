@@ -201,8 +201,8 @@ EXPECTED FAILURES
   A listed case that fails does not count. One that does not fail any more is an error, and so is an id that the suite does not have.
 
 STREAMS
-  --stream-server CMD  A program that answers requests with messages, in lines or packets; it is asked along a route, and then cut off
-                    after each message and asked to go on.
+  --stream-server CMD  A program that answers requests with messages, in lines or packets; it is asked along a route, then to go on
+                    after each message, and started anew and asked to go on after the first, the middle and the last one.
   --stream FILE     Messages that a server sent to a client while a viewer went from cell to cell (docs/delta.md). At every step, what
                     the client holds has to have all that is visible from where the viewer is; a sight line proves what has not.
 
@@ -261,7 +261,7 @@ void add_conform_command(CLI::App& program, int& status) {
                    ->type_name("FILE");
   command
       ->add_option("--stream-server", stream->server,
-                   "Judge a server of streams: put a route to it, and cut the connection after every message")
+                   "Judge a server of streams: put a route to it, and have it go on after every message")
       ->type_name("CMD")
       ->excludes(file);
   command->add_option("--scene", stream->choice.scene, "With a stream: the scene")->type_name("SCENE");

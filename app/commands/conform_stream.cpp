@@ -50,24 +50,23 @@ validate::ServerRun run_of(const ConformStreamRequest& request, const ServedCell
     return run;
   }
   constexpr std::chrono::minutes to_begin{10}, to_answer{1};
-  return validate::run_stream_server(validate::split_command(request.server), request.route.take(served), to_begin,
-                                     to_answer);
+  return validate::run_stream_server(validate::split_command(request.server), served.header, request.route.take(served),
+                                     to_begin, to_answer);
 }
 
 // What is visible from the cells of a grid: their maps, and sight lines.
 class MappedTruth {
  public:
-  explicit MappedTruth(const ServedCells& served) : served_(served) {}
+  MappedTruth(const ServedCells& served, reference::Mode mode) : served_(served) { options_.mode = mode; }
 
   const validate::Judgement& operator()(std::uint32_t c) {
     if (const auto at = known_.find(c); at != known_.end()) return at->second;
     bar_.show("cells", known_.size(), served_.cells.size());
     const auto& mesh = served_.scene.mesh;
     const auto cell = exact::ConvexCell::from_doubles(served_.cells[c].points);
-    const auto map = reference::first_order_visibility(mesh, cell, {});
+    const auto map = reference::first_order_visibility(mesh, cell, options_);
     auto judgement = validate::judge_pvs(mesh, map, {});
-    if (mesh.triangles.size() <= validate::kSettleTriangles)
-      validate::settle(judgement, mesh, cell, reference::Mode::sheet);
+    if (mesh.triangles.size() <= validate::kSettleTriangles) validate::settle(judgement, mesh, cell, options_.mode);
     if (!judgement.contradictions.empty())
       throw Error(ErrorCode::internal, fmt::format("the map of cell {} hides what a sight line reaches", c));
     return known_.emplace(c, std::move(judgement)).first->second;
@@ -75,6 +74,7 @@ class MappedTruth {
 
  private:
   const ServedCells& served_;
+  reference::Options options_;
   ProgressBar bar_{"clues conform"};
   std::map<std::uint32_t, validate::Judgement> known_;
 };
@@ -163,16 +163,15 @@ int run_conform_stream(const ConformStreamRequest& request) {
   const auto& stream = run.stream;
   if (!run.failed.empty()) print("FAILED " + run.failed + "\n");
   if (!run.failed.empty() && stream.messages.empty()) return findings;
-  if (stream.header.scene_triangles != mesh.triangles.size() ||
-      stream.header.scene_sha256 != served.header.scene_sha256)
-    throw Error(ErrorCode::bad_argument, name_of(request) + ": is of another scene than " + request.choice.scene);
-  if (stream.header.cell_count != served.cells.size()) {
-    throw Error(ErrorCode::bad_argument, fmt::format("{}: is of {} cells, but there are {}", name_of(request),
-                                                     stream.header.cell_count, served.cells.size()));
+  if (const auto other = difference(served.header, stream.header); !other.empty()) {
+    throw Error(ErrorCode::bad_argument,
+                fmt::format("{}: is of {}: {} triangles, {} cells \"{}\"", name_of(request), other,
+                            stream.header.scene_triangles, stream.header.cell_count, stream.header.cells));
   }
   validate::StreamVerdict verdict;
+  const bool solid = request.choice.bake.empty() && stream.header.mode == "solid";
   if (request.choice.bake.empty()) {
-    MappedTruth truth(served);
+    MappedTruth truth(served, solid ? reference::Mode::solid : reference::Mode::sheet);
     verdict = validate::judge_stream(mesh, served.neighbours, stream.messages,
                                      [&](std::uint32_t c) -> const validate::Judgement& { return truth(c); });
   } else {
@@ -192,7 +191,10 @@ int run_conform_stream(const ConformStreamRequest& request) {
                       : verdict.cells_entered > 0  ? "sound"
                                                    : "nothing to judge",
                       verdict.cells_entered, verdict.sent, verdict.taken, verdict.most_held, verdict.undecided.size());
-  if (run.resumed > 0) text += fmt::format("the connection was cut {} times; the rest came each time\n", run.resumed);
+  if (solid) text += "judged in mode solid, as the header says\n";
+  if (run.resumed > 0) text += fmt::format("asked to go on {} times, it sent the rest each time\n", run.resumed);
+  if (!run.anew.empty())
+    text += fmt::format("started anew after message {}, it went on there\n", fmt::join(run.anew, ", after message "));
   print(text);
   if (!verdict.findings.empty() || !run.failed.empty()) return findings;
   return !verdict.undecided.empty() || verdict.cells_entered == 0 ? not_everything_ran : fine;

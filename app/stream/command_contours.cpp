@@ -12,6 +12,7 @@
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/progress.h"
+#include "app/stream/number_between.h"
 #include "app/stream/served_cells.h"
 #include "reference/contours/contour_code.h"
 #include "reference/contours/list_contour.h"
@@ -150,6 +151,10 @@ int run_contours(const ContoursRequest& request) {
       if (!parent.contains(exact::to_exact(p)))
         throw Error(ErrorCode::bad_cell, "cell " + cell.name + ": is not inside of --parent");
     }
+    // T6 asks for int C in int P. C lies in P, so one point of int C in int P is enough.
+    if (!parent.interior_contains(exact::ConvexCell::from_doubles(cell.points).center()))
+      throw Error(ErrorCode::bad_cell,
+                  "cell " + cell.name + ": lies in the border of --parent; give a larger --parent");
   }
   std::vector<SizesOfCell> rows;
   {
@@ -187,7 +192,7 @@ void add_delta_contours(CLI::App& delta, int& status) {
           "--reach", request->reach,
           "Take what is farther than so many diameters of the cell as the parent sees it; 0: nothing (default)")
       ->type_name("X")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(number_between(0, 1e6));
   request->method.add_to(*command);
   command->footer(
       std::string(

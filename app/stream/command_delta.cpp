@@ -121,6 +121,8 @@ int run_delta_check(const DeltaCheckRequest& request) {
         back.to.cell != delta.from.cell || back.has_fragments != delta.has_fragments) {
       throw Error(ErrorCode::bad_argument, request.back + ": is not the way back of " + request.delta);
     }
+    for (const auto& finding : validate::judge_delta(mesh, back, to, from).findings)
+      verdict.findings.push_back({"the way back: " + finding.what});
     const auto more = validate::judge_reverse(delta, back);
     verdict.findings.insert(verdict.findings.end(), more.begin(), more.end());
   }
@@ -147,13 +149,15 @@ void add_delta_check(CLI::App& delta, int& status) {
       ->required();
   command->add_option("--to-map", request->to_map, "The map of the second cell")->type_name("FILE")->required();
   command
-      ->add_option("--back", request->back, "The transition from the second cell to the first: it must be the reverse")
+      ->add_option("--back", request->back,
+                   "The transition from the second cell to the first: judged as well, and it must be the reverse")
       ->type_name("FILE");
   command->footer(
       "DESCRIPTION\n"
       "  Reads files only, and uses nothing of the code that made them: borders are compared in plain rationals.\n"
       "  The lists have to be those of the maps, the packets their differences. The fragments have to cover each\n"
-      "  side of a triangle once; those seen from a cell have to be what its map calls visible, point for point.\n\n"
+      "  side of a triangle once; those seen from a cell have to be what its map calls visible, point for point, of\n"
+      "  triangles in its list.\n\n"
       "EXAMPLES\n"
       "  clues map town.obj --cell box:0,0,1,1,2,2 --map -o a.clues.json\n"
       "  clues map town.obj --cell box:1,0,1,2,2,2 --map -o b.clues.json\n"

@@ -68,12 +68,13 @@ int run_serve(const ServeRequest& request) {
   auto served = served_cells(request.choice);
   const reference::StreamStore store(served.scene.mesh, lists_of(served, options, request.drop, "clues serve"),
                                      served.neighbours, request.horizon);
+  const auto header = header_of(served, request.method, store);
   if (!request.socket.empty()) {
-    serve_at(request.socket, store, served.header);
+    serve_at(request.socket, store, header);
     return fine;
   }
-  if (request.binary) return answer_packets(store, served.header);
-  answer_lines(store, served.header);
+  if (request.binary) return answer_packets(store, header);
+  answer_lines(store, header);
   return fine;
 }
 

@@ -13,6 +13,7 @@
 
 #include "app/commands.h"
 #include "app/common.h"
+#include "app/stream/number_between.h"
 #include "app/stream/routes.h"
 #include "app/stream/served_cells.h"
 #include "reference/delta/stream_server.h"
@@ -81,6 +82,7 @@ class WalkingClient {
   }
   std::vector<scene::StreamMessage> enter(std::uint32_t cell) {
     const std::size_t before = caller_.messages().size();
+    heard_ = std::chrono::steady_clock::now();
     to_send_ += caller_.enter(cell);
     while (caller_.waits()) pump();
     return {caller_.messages().begin() + static_cast<std::ptrdiff_t>(before), caller_.messages().end()};
@@ -88,6 +90,8 @@ class WalkingClient {
   std::uint64_t lost() const { return lost_; }
 
  private:
+  static constexpr std::chrono::seconds longest_silence{60};  // of a server that owes an answer: then it is lost
+
   void reconnect() {
     constexpr std::chrono::milliseconds patience{10000}, pause{50};
     // From the first connection that was lost on: who takes every call and says nothing is no server either.
@@ -100,6 +104,7 @@ class WalkingClient {
       socket_ = scene::connect_to(path_);
     } while (!socket_.is_open());
     met_ = true;
+    heard_ = std::chrono::steady_clock::now();
     to_send_ = caller_.connect();
   }
   void pump() {
@@ -112,9 +117,13 @@ class WalkingClient {
       if (!bytes.empty()) {
         lost_since_.reset();
         tried_ = 0;
+        heard_ = std::chrono::steady_clock::now();
       }
     }
-    if (io == scene::SocketIo::later) scene::wait_for(socket_, !to_send_.empty(), std::chrono::seconds(1));
+    if (io == scene::SocketIo::later) {
+      scene::wait_for(socket_, !to_send_.empty(), std::chrono::seconds(1));
+      if (std::chrono::steady_clock::now() - heard_ > longest_silence) io = scene::SocketIo::lost;
+    }
     if (io == scene::SocketIo::lost) {
       socket_ = {};
       ++lost_;
@@ -126,6 +135,7 @@ class WalkingClient {
   scene::StreamCaller caller_;
   std::uint64_t lost_ = 0;
   std::optional<std::chrono::steady_clock::time_point> lost_since_;  // and nothing was heard
+  std::chrono::steady_clock::time_point heard_;                      // the last byte, or what was asked since
   int tried_ = 0;                                                    // to connect, since then
   bool met_ = false;
 };
@@ -137,7 +147,8 @@ class Walk {
         served_(served),
         lists_(request.connect.empty() ? lists_of(served, request.method.to_reference(), request.drop, "clues walk")
                                        : served.lists),
-        store_(served.scene.mesh, lists_, served.neighbours, request.horizon) {}
+        store_(served.scene.mesh, lists_, served.neighbours, request.horizon),
+        header_(request.connect.empty() ? header_of(served, request.method, store_) : served.header) {}
 
   void go(const std::vector<std::uint32_t>& route) {
     reference::StreamServer server(store_);
@@ -145,8 +156,9 @@ class Walk {
   }
   std::uint64_t go_connected(const std::vector<std::uint32_t>& route) {
     WalkingClient client(request_.connect);
-    if (client.header().scene_sha256 != served_.header.scene_sha256 || client.header().cells != served_.header.cells)
-      throw Error(ErrorCode::bad_argument, request_.connect + ": serves another scene, or other cells");
+    if (const auto other = difference(served_.header, client.header()); !other.empty())
+      throw Error(ErrorCode::bad_argument, request_.connect + ": serves " + other);
+    header_ = client.header();
     for (const std::uint32_t cell : route) add(cell, client.enter(cell));
     return client.lost();
   }
@@ -161,7 +173,7 @@ class Walk {
                                 static_cast<std::uint64_t>(second * request_.ahead));
   }
   const WalkFigures& figures() const { return figures_; }
-  std::string text() const { return (request_.binary ? to_packet(served_.header) : to_line(served_.header)) + text_; }
+  std::string text() const { return (request_.binary ? to_packet(header_) : to_line(header_)) + text_; }
 
  private:
   std::string written(const scene::StreamMessage& message) const {
@@ -189,6 +201,7 @@ class Walk {
   const ServedCells& served_;
   std::vector<std::vector<std::uint32_t>> lists_;
   reference::StreamStore store_;
+  scene::StreamHeader header_;                    // that of the server, where it is another program
   std::map<std::uint32_t, std::uint64_t> whole_;  // bytes of a cell's list
   WalkFigures figures_;
   std::string text_;
@@ -269,11 +282,11 @@ void add_walk_command(CLI::App& program, int& status) {
   command->add_option("--pace", request->pace, "Seconds in each cell, for --link (default: 1)")
       ->type_name("S")
       ->needs(link)
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(number_between(0, 1e6));
   command->add_option("--ahead", request->ahead, "Ask for a cell so many seconds before, for --link (default: 0)")
       ->type_name("S")
       ->needs(link)
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(number_between(0, 1e6));
   command->add_option("--drop", request->drop, drop_help)->type_name("N");
   command->add_flag("--binary", request->binary, "Packets in place of lines, in the file and in the figures");
   request->method.add_to(*command);
@@ -287,7 +300,8 @@ void add_walk_command(CLI::App& program, int& status) {
           "them.\n"
           "  With --connect, another program is the server. When it is lost, the route is taken up with the next one "
           "that\n"
-          "  listens there, within ten seconds; nothing is sent twice.\n\n") +
+          "  listens there, within ten seconds; nothing is sent twice. A server that says nothing for a minute is "
+          "lost.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --steps 10 -o walk.stream.jsonl\n"

@@ -36,7 +36,7 @@ void RouteChoice::add_to(CLI::App& command, const char* of_steps) {
                   "A recorded camera path, x y z a line, or walk:x,y,z:x,y,z...: the cells that it goes through")
       ->type_name("FILE")
       ->excludes(file);
-  command.add_option("--steps", steps, of_steps)->type_name("N");
+  command.add_option("--steps", steps, of_steps)->type_name("N")->check(CLI::Range(1, 1000000));
   command.add_option("--seed", seed, "Of the random steps (default: 1)")->type_name("N");
 }
 

@@ -87,4 +87,12 @@ std::vector<std::vector<std::uint32_t>> lists_of(const ServedCells& served, cons
       .lists;
 }
 
+scene::StreamHeader header_of(const ServedCells& served, const MethodOptions& method,
+                              const reference::StreamStore& store) {
+  scene::StreamHeader header = served.header;
+  if (served.lists.empty()) header.mode = method.mode;
+  header.lists_sha256 = store.digest();
+  return header;
+}
+
 }  // namespace clues::app

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "app/common.h"
+#include "reference/delta/stream_server.h"
 #include "reference/visibility/search/options.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh/flagged_mesh.h"
@@ -39,5 +41,9 @@ ServedCells served_cells(const CellsChoice& choice);
 // `who`: in front of the progress.
 std::vector<std::vector<std::uint32_t>> lists_of(const ServedCells& served, const reference::Options& options,
                                                  std::size_t drop, const char* who);
+
+// With what else the messages of this store follow from. The lists of a bake have no mode.
+scene::StreamHeader header_of(const ServedCells& served, const MethodOptions& method,
+                              const reference::StreamStore& store);
 
 }  // namespace clues::app

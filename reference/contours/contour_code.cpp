@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -189,11 +190,12 @@ std::vector<FlatSegment> chained(std::vector<FlatSegment> segments) {
 
 void write_seed(const Seed& seed, VarintWriter& out) {
   const double x = CGAL::to_double(seed.at.x()), y = CGAL::to_double(seed.at.y());
-  const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
-  if (Point2(fx, fy) == seed.at) {
+  constexpr double most = std::numeric_limits<float>::max();
+  const bool fits = std::abs(x) <= most && std::abs(y) <= most;  // what is infinite does not, and is no coordinate
+  if (fits && Point2(static_cast<float>(x), static_cast<float>(y)) == seed.at) {
     out.number(static_cast<std::uint64_t>(SeedForm::floats));
-    for (const float f : {fx, fy}) out.raw(std::bit_cast<std::uint32_t>(f), 4);
-  } else if (Point2(x, y) == seed.at) {
+    for (const double d : {x, y}) out.raw(std::bit_cast<std::uint32_t>(static_cast<float>(d)), 4);
+  } else if (std::isfinite(x) && std::isfinite(y) && Point2(x, y) == seed.at) {
     out.number(static_cast<std::uint64_t>(SeedForm::doubles));
     for (const double d : {x, y}) out.raw(std::bit_cast<std::uint64_t>(d), 8);
   } else {

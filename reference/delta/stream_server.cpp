@@ -5,6 +5,7 @@
 
 #include "reference/delta/delta.h"
 #include "scene/messages/error.h"
+#include "scene/result.h"
 
 namespace clues::reference {
 
@@ -104,6 +105,18 @@ std::vector<std::uint32_t> StreamStore::wanted_in(std::uint32_t cell) const {
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   return wanted;
+}
+
+std::string StreamStore::digest() const {
+  std::string text = "horizon " + std::to_string(horizon_) + "\n";
+  for (const auto& [name, rows] : {std::pair("list", &lists_), std::pair("neighbours", &neighbours_)}) {
+    for (const auto& row : *rows) {
+      text += name;
+      for (const std::uint32_t x : row) text.append(" ").append(std::to_string(x));
+      text += "\n";
+    }
+  }
+  return scene::sha256_of(text);
 }
 
 std::vector<StreamMessage> StreamServer::enter(std::uint32_t cell) {

@@ -67,6 +67,9 @@ class StreamStore {
   const scene::TriangleMesh& mesh() const { return *mesh_; }
   const std::vector<std::uint32_t>& seen_from(std::uint32_t cell) const { return lists_[cell]; }
   std::vector<std::uint32_t> wanted_in(std::uint32_t cell) const;  // ascending
+  // SHA-256 of the lists, which follow from mode and --drop, the neighbours and the horizon: from these, and the scene,
+  // all messages follow. O(size of the lists).
+  std::string digest() const;
 
  private:
   std::vector<std::vector<std::uint32_t>> lists_, neighbours_;
@@ -82,9 +85,10 @@ class StreamServer {
   // The messages of a step into the cell. Empty packets are left out.
   std::vector<scene::StreamMessage> enter(std::uint32_t cell);
 
-  // After a lost connection, also by another server of the same scene and cells: goes the route again from its beginning,
-  // and returns all but the first `have` messages, which the client has. The client is then where the connection was
-  // lost, and nothing is sent twice. Throws scene::Error bad_argument where the route has not so many messages.
+  // After a lost connection, also by another server of the same digest and cells: goes the route again from its
+  // beginning, and returns all but the first `have` messages, which the client has. The client is then where the
+  // connection was lost, and nothing is sent twice. Throws scene::Error bad_argument where the route has not so many
+  // messages.
   std::vector<scene::StreamMessage> resume(const std::vector<std::uint32_t>& route, std::uint64_t have);
 
   // The same, message for message, where not all are to be in memory at once: from the beginning, cell by cell.

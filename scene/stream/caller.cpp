@@ -36,9 +36,9 @@ void StreamCaller::receive(std::string_view bytes) {
 void StreamCaller::take(const Packet& packet) {
   if (!greeted_) {
     const StreamHeader header = parse_header(packet, "server");
-    if (header_ && (header.scene_sha256 != header_->scene_sha256 || header.cells != header_->cells ||
-                    header.cell_count != header_->cell_count))
-      throw Error(ErrorCode::bad_argument, "the server is of another scene, or of other cells, than the one before");
+    const std::string other = header_ ? difference_of_messages(*header_, header) : "";
+    if (!other.empty())
+      throw Error(ErrorCode::bad_argument, "the server is not like the one before, but of " + other + "; begin anew");
     header_ = header;
     greeted_ = true;
     return;
@@ -47,13 +47,30 @@ void StreamCaller::take(const Packet& packet) {
   if (in.kind == ServerPacket::Kind::refusal) throw Error(ErrorCode::bad_argument, "the server refuses: " + in.why);
   if (!waits_) throw Error(ErrorCode::malformed, "the server sends what was not asked for");
   if (in.kind == ServerPacket::Kind::message) {
-    messages_.push_back(std::move(in.message));
+    take_message(std::move(in.message));
     return;
   }
   if (in.messages != messages_.size())
     throw Error(ErrorCode::bad_argument, fmt::format("the server says that there were {} messages, and {} have come",
                                                      in.messages, messages_.size()));
+  if (entered_ != route_.size())
+    throw Error(ErrorCode::malformed, fmt::format("the server does not answer as asked: cell {} was asked for, and the "
+                                                  "answer ends without it",
+                                                  route_[entered_]));
   waits_ = false;
+}
+
+void StreamCaller::take_message(StreamMessage message) {
+  if (messages_.size() / route_.size() >= most_messages_of_a_step(*header_))
+    throw Error(ErrorCode::malformed, "the server sends more messages than there is to say");
+  if (message.kind == StreamMessage::Kind::cell) {
+    if (entered_ == route_.size() || message.cell != route_[entered_])
+      throw Error(
+          ErrorCode::malformed,
+          fmt::format("the server does not answer as asked: it says that the viewer is in cell {}", message.cell));
+    ++entered_;
+  }
+  messages_.push_back(std::move(message));
 }
 
 }  // namespace clues::scene

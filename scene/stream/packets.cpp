@@ -66,9 +66,11 @@ class PacketBody {
   }
   std::uint32_t number_from(std::uint64_t from, std::uint64_t below, const char* what) {
     const std::uint32_t x = u32();
+    if (below == 0)
+      throw Error(ErrorCode::index_out_of_range, fmt::format("{}: {} {}: there is none", where_, what, x));
     if (x < from || x >= below)
       throw Error(ErrorCode::index_out_of_range,
-                  fmt::format("{}: {} {} is not {} to {}", where_, what, x, from, below == 0 ? 0 : below - 1));
+                  fmt::format("{}: {} {} is not {} to {}", where_, what, x, from, below - 1));
     return x;
   }
   // So many items of so many bytes each are still there.
@@ -87,6 +89,7 @@ class PacketBody {
     if (!rest_.starts_with(bytes)) fail(what);
     rest_.remove_prefix(bytes.size());
   }
+  bool done() const { return rest_.empty(); }
   void finish() const {
     if (!rest_.empty()) fail(fmt::format("a packet has {} bytes too many", rest_.size()));
   }
@@ -102,6 +105,9 @@ class PacketBody {
   std::string_view rest_;
   const std::string& where_;
 };
+
+// Whether something stands behind the cells.
+bool says_more(const StreamHeader& about) { return about.mode != "sheet" || !about.lists_sha256.empty(); }
 
 constexpr std::uint64_t all_slots = std::uint64_t{1} << 32;
 
@@ -168,6 +174,10 @@ std::string to_packet(const StreamHeader& about) {
   out.u64(about.cell_count);
   out.text(about.scene_sha256);
   out.text(about.cells);
+  if (says_more(about)) {
+    out.text(about.mode);
+    out.text(about.lists_sha256);
+  }
   return std::string(stream_magic) + out.done();
 }
 
@@ -235,6 +245,12 @@ StreamHeader parse_header(const Packet& packet, const std::string& where) {
   about.cell_count = body.u64();
   about.scene_sha256 = body.text();
   about.cells = body.text();
+  if (!body.done()) {
+    about.mode = body.text();
+    about.lists_sha256 = body.text();
+    if (about.mode != "sheet" && about.mode != "solid") body.fail("the mode must be sheet or solid");
+    if (!says_more(about)) body.fail("a header ends behind the cells where it says no more");  // it has one form
+  }
   body.finish();
   return about;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -38,6 +39,8 @@ class StreamLine {
   std::uint32_t number(const StreamJson& value, std::uint64_t from, std::uint64_t below, const char* what) const {
     if (!value.is_number_unsigned()) fail(fmt::format("{} must be a number from {} up", what, from));
     const auto i = value.get<std::uint64_t>();
+    if (below == 0)
+      throw Error(ErrorCode::index_out_of_range, fmt::format("{}: {} {}: there is none", where_, what, i));
     if (i < from || i >= below)
       throw Error(ErrorCode::index_out_of_range,
                   fmt::format("{}: {} {} is not {} to {}", where_, what, i, from, below - 1));
@@ -52,6 +55,12 @@ class StreamLine {
     return json_[key];
   }
   const StreamJson& at(const char* key) const { return json_[key]; }
+  double coordinate(const StreamJson& value) const {
+    if (!value.is_number()) fail("a coordinate must be a number");
+    // The reader takes -0 for the integer 0, which has no sign; only what has one is read as a signed integer.
+    const bool minus_zero = value.is_number_integer() && !value.is_number_unsigned() && value.get<std::int64_t>() == 0;
+    return minus_zero ? -0.0 : value.get<double>();
+  }
 
  private:
   std::string where_;
@@ -61,7 +70,12 @@ class StreamLine {
 StreamHeader header_of(const StreamLine& line) {
   if (!line.has("format") || line.text("format") != stream_format)
     line.fail("is no stream, which begins with {\"format\": \"clues-stream/1\", ...}");
-  return {line.text("scene_sha256"), line.text("cells"), line.count("scene_triangles"), line.count("cell_count")};
+  StreamHeader header{line.text("scene_sha256"), line.text("cells"), line.count("scene_triangles"),
+                      line.count("cell_count")};
+  if (line.has("mode")) header.mode = line.text("mode");
+  if (header.mode != "sheet" && header.mode != "solid") line.fail("\"mode\" must be \"sheet\" or \"solid\"");
+  if (line.has("lists_sha256")) header.lists_sha256 = line.text("lists_sha256");
+  return header;
 }
 
 StreamMessage message_of(const StreamLine& line, const StreamHeader& header) {
@@ -82,10 +96,9 @@ StreamMessage message_of(const StreamLine& line, const StreamHeader& header) {
       message.plus.push_back(t);
     }
     for (const auto& item : line.list("vertices")) {
-      if (!item.is_array() || item.size() != 4 || !item[1].is_number() || !item[2].is_number() || !item[3].is_number())
-        line.fail(json_excerpt(item) + " is no vertex [SLOT, x, y, z]");
+      if (!item.is_array() || item.size() != 4) line.fail(json_excerpt(item) + " is no vertex [SLOT, x, y, z]");
       message.vertices.push_back({line.number(item[0], 1, most_slots, "the slot of a vertex"),
-                                  {item[1].get<double>(), item[2].get<double>(), item[3].get<double>()}});
+                                  {line.coordinate(item[1]), line.coordinate(item[2]), line.coordinate(item[3])}});
     }
     return message;
   }
@@ -102,14 +115,32 @@ StreamMessage message_of(const StreamLine& line, const StreamHeader& header) {
 
 }  // namespace
 
+std::string difference(const StreamHeader& here, const StreamHeader& there) {
+  if (here.scene_sha256 != there.scene_sha256 || here.scene_triangles != there.scene_triangles) return "another scene";
+  return here.cells != there.cells || here.cell_count != there.cell_count ? "other cells" : "";
+}
+
+std::string difference_of_messages(const StreamHeader& here, const StreamHeader& there) {
+  if (const auto other = difference(here, there); !other.empty()) return other;
+  if (here.mode != there.mode) return "another mode";
+  const bool known = !here.lists_sha256.empty() && !there.lists_sha256.empty();
+  return known && here.lists_sha256 != there.lists_sha256 ? "other lists, or another horizon" : "";
+}
+
+std::uint64_t most_messages_of_a_step(const StreamHeader& header) {
+  constexpr std::uint64_t most_triangles = std::uint64_t{1} << 32;  // ids have 32 bits
+  return 4 + 2 * std::min(header.scene_triangles, most_triangles);
+}
+
 std::string to_line(const StreamHeader& header) {
-  return StreamJson{{"format", stream_format},
-                    {"scene_sha256", header.scene_sha256},
-                    {"scene_triangles", header.scene_triangles},
-                    {"cells", header.cells},
-                    {"cell_count", header.cell_count}}
-             .dump(-1, ' ', false, StreamJson::error_handler_t::replace) +
-         "\n";
+  StreamJson json{{"format", stream_format},
+                  {"scene_sha256", header.scene_sha256},
+                  {"scene_triangles", header.scene_triangles},
+                  {"cells", header.cells},
+                  {"cell_count", header.cell_count}};
+  if (header.mode != "sheet") json["mode"] = header.mode;
+  if (!header.lists_sha256.empty()) json["lists_sha256"] = header.lists_sha256;
+  return json.dump(-1, ' ', false, StreamJson::error_handler_t::replace) + "\n";
 }
 
 std::string to_line(const StreamMessage& message) {
@@ -152,6 +183,7 @@ StreamRequest parse_stream_request(std::string_view text, const std::string& whe
   }
   if (!line.has("resume") || line.size() != 1) line.fail(R"(a request is {"enter": N} or {"resume": {...}})");
   const StreamLine inner(line.at("resume").dump(), where);
+  if (inner.size() != 2) inner.fail("\"resume\" has \"route\" and \"have\", and nothing else");
   request.resumes = true;
   request.have = inner.count("have");
   for (const auto& cell : inner.list("route")) request.route.push_back(inner.number(cell, 0, cells, "the cell"));

@@ -44,7 +44,14 @@ struct StreamMessage {
 struct StreamHeader {
   std::string scene_sha256, cells;  // cells: as --cells has it
   std::uint64_t scene_triangles = 0, cell_count = 0;
+  std::string mode = "sheet";     // or "solid": of the maps; of a bake it means nothing
+  std::string lists_sha256 = {};  // of what else the messages follow from; empty: nothing is said of it
 };
+
+// What is other about `there`, for a message: "another scene", "other cells"; empty: it is of the same things.
+std::string difference(const StreamHeader& here, const StreamHeader& there);
+// Also what decides the messages, as far as both say it: then one goes on where the other stopped.
+std::string difference_of_messages(const StreamHeader& here, const StreamHeader& there);
 
 struct Stream {
   StreamHeader header;
@@ -67,6 +74,9 @@ struct StreamRequest {
   std::vector<std::uint32_t> route;  // resumes: the cells that were asked for before
   std::uint64_t have = 0;            // resumes: so many messages have come
 };
+// The most messages of the answer to one step: each triangle comes and goes once, and four are empty or the cell.
+std::uint64_t most_messages_of_a_step(const StreamHeader& header);
+
 std::string to_line(const StreamRequest& request);
 StreamRequest parse_stream_request(std::string_view line, const std::string& where, std::uint64_t cells);
 

@@ -12,6 +12,7 @@
 #include "reference/contours/contour_code.h"
 #include "reference/contours/list_contour.h"
 #include "scene/messages/error.h"
+#include "tests/app/program.h"
 #include "tests/delta/plates.h"
 #include "tests/reference/support.h"
 #include "tests/seed.h"
@@ -89,6 +90,41 @@ TEST(Contours, BytesThatAreNoneAreRefused) {
     EXPECT_THROW(reference::decoded_contours(sides, mesh, known, child, code.bytes.substr(0, size)), scene::Error)
         << size;
   EXPECT_THROW(reference::decoded_contours(sides, mesh, known, child, code.bytes + "x"), scene::Error);
+}
+
+// Seeds that no float holds, and that no double holds.
+TEST(Contours, SeedsBeyondTheNumbersOfTheMachineComeBack) {
+  const auto mesh = plates_and_a_box();
+  const auto cell = box_cell(-2, -1, -1, 0, 1, 0);
+  const auto sides = reference::input_sides(mesh, reference::Mode::sheet);
+  const auto known = reference::visible_on(sides, mesh, map_of(mesh, cell));
+  const exact::FT large(1e308);
+  ContourLabel label;
+  for (const auto& x : {exact::FT(0.5), exact::FT(3.5e38), large, exact::FT(large * large)})
+    label.seeds.push_back({0, exact::Point2(x, exact::FT(-x))});
+  const auto code = reference::encoded_contours(sides, mesh, known, label, PlaneTable(mesh, cell));
+  const auto back = reference::decoded_contours(sides, mesh, known, cell, code.bytes);
+  ASSERT_EQ(back.seeds.size(), label.seeds.size());
+  for (std::size_t i = 0; i < label.seeds.size(); ++i) EXPECT_EQ(back.seeds[i].at, label.seeds[i].at) << i;
+}
+
+// T6 asks for int C in int P: of a parent's border nothing is known from its map.
+TEST(ContourCommands, ACellInTheBorderOfItsParentIsRefused) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  const auto contours = [&](const std::string& parent, const std::string& cell) {
+    return tests::run_clues({"delta", "contours", "screen.off", "--parent", parent, "--cells", cell}, folder.path());
+  };
+  const std::string solid = "box:-0.25,-0.25,-0.25,0.25,0.25,0", flat = "box:-0.25,-0.25,0,0.25,0.25,0";
+  for (const auto& [parent, cell] : {std::pair(solid, flat), {flat, std::string("box:-0.25,-0.25,0,0.25,-0.25,0")}}) {
+    const auto refused = contours(parent, "grid:1x1x1:" + cell);
+    EXPECT_EQ(refused.exit_code, 2) << refused.out;
+    EXPECT_NE(refused.err.find("lies in the border of --parent"), std::string::npos) << refused.err;
+  }
+  for (const std::string& parent : {solid, flat}) {
+    const auto taken = contours(parent, "grid:1x1x1:" + parent);
+    EXPECT_EQ(taken.exit_code, 0) << taken.err;
+  }
 }
 
 void expect_codes_of_random_scenes(std::uint64_t first, std::uint64_t end) {

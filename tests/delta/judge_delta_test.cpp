@@ -2,12 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "fuzz/generators/random_scenes.h"
 #include "fuzz/trials/deltas_trial.h"
 #include "reference/delta/delta.h"
+#include "scene/messages/error.h"
+#include "tests/app/program.h"
 #include "tests/reference/support.h"
 #include "tests/seed.h"
 #include "validate/stream/judge_delta.h"
@@ -186,10 +191,65 @@ TEST_F(PlantedDelta, APlusTooFew) {
   EXPECT_GT(findings(), 0U);
 }
 
+// Map, list and packets agree, and all of them leave out what the regions show.
+TEST_F(PlantedDelta, ATriangleThatIsSeenAndInNoList) {
+  for (auto* list : {&from_.visible, &delta_.from.visible, &delta_.minus}) std::erase(*list, 2U);
+  for (auto* list : {&to_.visible, &delta_.to.visible, &delta_.plus}) std::erase(*list, 2U);
+  EXPECT_GT(findings(), 0U);
+  delta_.has_fragments = false;
+  delta_.fragments.clear();
+  EXPECT_GT(findings(), 0U);  // by the regions of the maps alone
+}
+
+TEST_F(PlantedDelta, DoublesThatAreNoRoundings) {
+  const tests::TestFolder folder;
+  delta_.scene_triangles = mesh_.triangles.size();
+  const std::string text = validate::to_json_text(delta_);
+  delta_ = validate::read_delta(folder.write("d.json", text), mesh_.triangles.size());
+  EXPECT_EQ(findings(), 0U);
+  ASSERT_FALSE(delta_.vertices.empty());
+  double& x = delta_.vertices[0].rounded[0];
+  x = std::nextafter(std::nextafter(x, 100), 100);
+  EXPECT_EQ(findings(), 1U);
+  for (const char* without : {"vertices", "vertices_exact"}) {
+    auto json = nlohmann::json::parse(text);
+    json["fragments"].erase(without);
+    EXPECT_THROW(validate::read_delta(folder.write("d.json", json.dump()), mesh_.triangles.size()), scene::Error);
+  }
+  auto json = nlohmann::json::parse(text);
+  json["fragments"]["vertices"].erase(0);
+  EXPECT_THROW(validate::read_delta(folder.write("d.json", json.dump()), mesh_.triangles.size()), scene::Error);
+}
+
 TEST_F(PlantedDelta, TheWayBackOfAnother) {
   EXPECT_FALSE(validate::judge_reverse(delta_, delta_).empty());
   fragment(SeenFrom::from).seen = SeenFrom::both;
   EXPECT_FALSE(validate::judge_reverse(delta_, back_).empty());
+}
+
+// The way back has the right borders of what changes, and lists of nothing.
+TEST(DeltaCommands, TheWayBackIsJudgedAsAWhole) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  const std::string a = "box:-0.25,-0.25,-0.25,0,0.25,0", b = "box:0,-0.25,-0.25,0.25,0.25,0";
+  for (const auto& [cell, file] : {std::pair(a, "a.json"), {b, "b.json"}})
+    ASSERT_EQ(tests::run_clues({"map", "screen.off", "--cell", cell, "--map", "-o", file}, folder.path()).exit_code, 0);
+  for (const auto& [from, to, file] : {std::tuple(a, b, "ab.json"), {b, a, "ba.json"}}) {
+    ASSERT_EQ(
+        tests::run_clues({"delta", "screen.off", "--from", from, "--to", to, "--fragments", "-o", file}, folder.path())
+            .exit_code,
+        0);
+  }
+  const std::vector<std::string> check{"delta",  "check",    "screen.off", "--delta", "ab.json", "--from-map",
+                                       "a.json", "--to-map", "b.json",     "--back",  "ba.json"};
+  const auto right = tests::run_clues(check, folder.path());
+  EXPECT_EQ(right.exit_code, 0) << right.out << right.err;
+  auto back = nlohmann::json::parse(tests::read_all(folder.path() / "ba.json"));
+  back["from"]["visible"] = back["to"]["visible"] = nlohmann::json::array();
+  folder.write("ba.json", back.dump());
+  const auto wrong = tests::run_clues(check, folder.path());
+  EXPECT_EQ(wrong.exit_code, 1) << wrong.out << wrong.err;
+  EXPECT_NE(wrong.out.find("wrong: the way back: the list of the first cell"), std::string::npos) << wrong.out;
 }
 
 }  // namespace

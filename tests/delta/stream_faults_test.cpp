@@ -16,6 +16,7 @@
 #include "tests/delta/town.h"
 #include "tests/seed.h"
 #include "validate/processes/child_process.h"
+#include "validate/stream/conform_server.h"
 
 namespace clues::test {
 namespace {
@@ -125,6 +126,133 @@ TEST(StreamFaults, AServerOfOtherCellsIsNoticed) {
   scene::StreamHeader other = town().header();
   other.cells = "another grid";
   EXPECT_THROW(caller.receive(scene::to_packet(other)), scene::Error);
+}
+
+// What decides the messages is other: what the first one sent does not fit what the second one would.
+TEST(StreamFaults, AServerOfOtherListsOrAnotherModeIsNoticed) {
+  scene::StreamHeader header = town().header();
+  header.lists_sha256 = "ab";
+  StreamCaller caller;
+  caller.receive(scene::to_packet(header));
+  caller.connect();
+  scene::StreamHeader silent = header;
+  silent.lists_sha256.clear();
+  EXPECT_NO_THROW(StreamCaller(caller).receive(scene::to_packet(silent)));
+  EXPECT_NO_THROW(StreamCaller(caller).receive(scene::to_packet(header)));
+  scene::StreamHeader solid = header;
+  solid.mode = "solid";
+  EXPECT_THROW(StreamCaller(caller).receive(scene::to_packet(solid)), scene::Error);
+  header.lists_sha256 = "cd";
+  EXPECT_THROW(StreamCaller(caller).receive(scene::to_packet(header)), scene::Error);
+}
+
+TEST(StreamFaults, AServerThatDoesNotEnterTheCellIsNoticed) {
+  StreamCaller caller;
+  caller.receive(scene::to_packet(town().header()));
+  caller.enter(1);
+  scene::StreamMessage right, wrong;
+  right.cell = 1;
+  EXPECT_NO_THROW(StreamCaller(caller).receive(scene::to_packet(right) + scene::end_packet(1)));
+  EXPECT_THROW(StreamCaller(caller).receive(scene::end_packet(0)), scene::Error);
+  EXPECT_THROW(StreamCaller(caller).receive(scene::to_packet(wrong)), scene::Error);
+  EXPECT_THROW(StreamCaller(caller).receive(scene::to_packet(right) + scene::to_packet(right)), scene::Error);
+}
+
+TEST(StreamFaults, AServerThatSendsWithoutEndIsNoticed) {
+  const auto header = town().header();
+  StreamCaller caller;
+  caller.receive(scene::to_packet(header));
+  caller.enter(1);
+  scene::StreamMessage nothing;
+  nothing.kind = scene::StreamMessage::Kind::minus;
+  const std::string packet = scene::to_packet(nothing);
+  for (std::uint64_t i = 0; i < scene::most_messages_of_a_step(header); ++i) ASSERT_NO_THROW(caller.receive(packet));
+  EXPECT_THROW(caller.receive(packet), scene::Error);
+}
+
+// A server that only says where the viewer is, and is wrong as $1 says.
+constexpr const char* scripted_server = R"sh(
+  how=$1 n=0
+  sha=abc; [ "$how" = scene ] && sha=other
+  echo '{"format":"clues-stream/1","scene_sha256":"'$sha'","scene_triangles":2,"cells":"grid","cell_count":2}'
+  [ "$how" = early ] && echo '{"minus":[],"unused":[]}'
+  entered=
+  while read -r line; do
+    case $line in
+      *resume*)
+        if [ "$how" = forgets ] && [ -z "$entered" ]; then exit 0; fi
+        have=${line#*\"have\":}; have=${have%%,*}
+        route=${line#*[}; route=${route%%]*}
+        IFS=,; set -- $route; unset IFS
+        n=$#; [ "$how" = count ] && n=7
+        shift "$have"
+        for c; do echo "{\"cell\":$c}"; done
+        echo "{\"end\":$n}"
+        [ "$how" = trail ] && [ "$have" = "$n" ] && echo rubbish ;;
+      *)
+        entered=1
+        c=${line#*:}; c=${c%\}}
+        [ "$how" = flood ] && exec yes '{"minus":[],"unused":[]}'
+        [ "$how" = endless ] && exec cat /dev/zero
+        [ "$how" = stays ] && c=0
+        n=$((n + 1))
+        [ "$how" = never ] && n=0 || echo "{\"cell\":$c}"
+        if [ "$how" = twice ]; then echo "{\"cell\":$c}"; n=$((n + 1)); fi
+        echo "{\"end\":$n}" ;;
+    esac
+  done
+  [ "$how" = killed ] && kill -9 $$
+  [ "$how" = status ] && exit 3
+  exit 0
+)sh";
+
+validate::ServerRun run_scripted(const std::string& how) {
+  constexpr std::chrono::minutes time{1};
+  return validate::run_stream_server({"sh", "-c", scripted_server, "sh", how}, {"abc", "grid", 2, 2}, {0, 1, 0}, time,
+                                     time);
+}
+
+TEST(ScriptedServers, OneThatIsRightPasses) {
+  const auto run = run_scripted("right");
+  EXPECT_EQ(run.failed, "");
+  EXPECT_EQ(run.stream.messages.size(), 3U);
+  EXPECT_EQ(run.resumed, 4U);
+  EXPECT_EQ(run.anew, (std::vector<std::uint64_t>{1, 2, 3}));
+}
+
+void expect_failed(const std::string& how, const std::string& why) {
+  const auto run = run_scripted(how);
+  EXPECT_NE(run.failed.find(why), std::string::npos) << how << ": " << run.failed;
+}
+
+TEST(ScriptedServers, EachAnswerEntersItsCellOnce) {
+  expect_failed("stays", "did not answer as asked");
+  expect_failed("never", "did not answer as asked");
+  expect_failed("twice", "did not answer as asked");
+}
+
+TEST(ScriptedServers, NothingIsSaidThatWasNotAskedFor) {
+  EXPECT_NE(run_scripted("early").failed, "");
+  EXPECT_NE(run_scripted("trail").failed, "");
+}
+
+TEST(ScriptedServers, TheProgramEndsWithItsInput) {
+  expect_failed("killed", "was killed by signal 9");
+  expect_failed("status", "ended with exit status 3");
+}
+
+TEST(ScriptedServers, AnswersHaveAnEnd) {
+  expect_failed("flood", "an answer without end: more than 8 messages");
+  expect_failed("endless", "an answer without end");
+}
+
+TEST(ScriptedServers, AnotherSceneFails) { expect_failed("scene", "the program serves another scene"); }
+
+TEST(ScriptedServers, AWrongCountWhenAskedToGoOnFails) { expect_failed("count", "there were 7 messages"); }
+
+TEST(ScriptedServers, WhatOnlyTheSameProgramRemembersIsLost) {
+  expect_failed("forgets", "started anew after message 1");
+  EXPECT_EQ(run_scripted("forgets").resumed, 4U);
 }
 
 // The program at a socket, with clients that the tests are.

@@ -1,9 +1,13 @@
 // D25: streams of the server are sound on every transition and on long routes; wrong ones are caught, with step and
 // sight line.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <map>
+#include <random>
 #include <set>
 
 #include "fuzz/generators/random_scenes.h"
@@ -128,8 +132,9 @@ TEST(StreamRequests, ComeBackAsTheyWereWritten) {
   EXPECT_TRUE(back.resumes);
   EXPECT_EQ(back.route, request.route);
   EXPECT_EQ(back.have, 5U);
-  for (const char* bad : {"{}", "[]", "{\"resume\": 3}", "{\"resume\": {\"route\": [9], \"have\": 0}}",
-                          "{\"resume\": {\"route\": []}}", "{\"enter\": 0, \"x\": 1}", "enter"}) {
+  for (const char* bad :
+       {"{}", "[]", "{\"resume\": 3}", "{\"resume\": {\"route\": [9], \"have\": 0}}", "{\"resume\": {\"route\": []}}",
+        "{\"resume\": {\"route\": [0], \"have\": 0, \"x\": 1}}", "{\"enter\": 0, \"x\": 1}", "enter"}) {
     EXPECT_THROW(scene::parse_stream_request(bad, "x", 4), scene::Error) << bad;
   }
   EXPECT_EQ(scene::parse_stream_end(scene::stream_end_line(7)), 7U);
@@ -147,7 +152,8 @@ TEST(StreamServers, TheProgramIsOne) {
                        folder.path());
   EXPECT_EQ(good.exit_code, 0) << good.out << good.err;
   EXPECT_NE(good.out.find("sound: 7 cells entered"), std::string::npos) << good.out;
-  EXPECT_NE(good.out.find("was cut"), std::string::npos) << good.out;
+  EXPECT_NE(good.out.find("it sent the rest each time"), std::string::npos) << good.out;
+  EXPECT_NE(good.out.find("started anew after message 1, after message "), std::string::npos) << good.out;
   const auto none = tests::run_clues(
       {"conform", "--stream-server", "echo nothing", "--scene", "screen.off", "--cells", cells}, folder.path());
   EXPECT_EQ(none.exit_code, 1) << none.out << none.err;
@@ -277,6 +283,108 @@ TEST_F(PlantedStream, AVertexThatIsRounded) {
   expect_caught();
 }
 
+TEST_F(PlantedStream, AVertexThatNoTriangleUses) {
+  messages_[0].vertices.push_back({1000, {1, 2, 3}});
+  const auto verdict = judge();
+  ASSERT_FALSE(verdict.findings.empty());
+  EXPECT_EQ(verdict.findings[0].message, 1U);
+  EXPECT_EQ(verdict.findings[0].what, "slot 1000 is used by no triangle, and is not called unused");
+}
+
+// A client that looks at everything after each message.
+class SlowClient {
+ public:
+  explicit SlowClient(const scene::TriangleMesh& mesh) : mesh_(&mesh) {}
+
+  std::vector<std::string> apply(const StreamMessage& message) {
+    std::vector<std::string> wrong;
+    const bool plus = message.kind == Kind::plus;
+    for (const auto& v : message.vertices) {
+      if (v.slot == 0 || vertices_.contains(v.slot))
+        wrong.push_back(fmt::format("a vertex is sent into slot {}, which is in use", v.slot));
+      vertices_[v.slot] = v.at;
+    }
+    for (const auto& t : message.plus) {
+      if (triangles_.contains(t.triangle)) {
+        wrong.push_back(fmt::format("triangle {} is sent, and is there already", t.triangle));
+        continue;
+      }
+      if (t.slot == 0 || slots_.contains(t.slot))
+        wrong.push_back(fmt::format("triangle {} is sent into slot {}, which is in use", t.triangle, t.slot));
+      slots_.insert(t.slot);
+      triangles_[t.triangle] = t;
+    }
+    for (const std::uint32_t t : message.minus) {
+      const auto at = triangles_.find(t);
+      if (at == triangles_.end()) {
+        wrong.push_back(fmt::format("triangle {} is taken away, and is not there", t));
+        continue;
+      }
+      slots_.erase(at->second.slot);
+      triangles_.erase(at);
+    }
+    for (const std::uint32_t slot : message.unused) {
+      if (vertices_.erase(slot) == 0) wrong.push_back(fmt::format("slot {} is called unused, and is so already", slot));
+    }
+    std::set<std::uint32_t> used;
+    for (const auto& [id, t] : triangles_) {
+      bool right = true;
+      for (std::size_t i = 0; i < 3; ++i) {
+        used.insert(t.corners[i]);
+        const auto at = vertices_.find(t.corners[i]);
+        if (!plus && at == vertices_.end())
+          wrong.push_back(fmt::format("slot {} is called unused, and triangle {} uses it", t.corners[i], id));
+        const bool fits = at != vertices_.end() && at->second == mesh_->points[mesh_->triangles[id][i]];
+        if (plus && right && !fits)
+          wrong.push_back(fmt::format("corner {} of triangle {} is not that of the scene", i, id));
+        right = right && fits;
+      }
+    }
+    for (const auto& [slot, at] : vertices_) {
+      if (!used.contains(slot))
+        wrong.push_back(fmt::format("slot {} is used by no triangle, and is not called unused", slot));
+    }
+    return wrong;
+  }
+
+ private:
+  const scene::TriangleMesh* mesh_;
+  std::map<std::uint32_t, scene::StreamTriangle> triangles_;
+  std::set<std::uint32_t> slots_;
+  std::map<std::uint32_t, scene::Point> vertices_;
+};
+
+TEST(StreamClient, SaysOfAnyMessagesWhatASlowOneSays) {
+  std::mt19937_64 random(kSeed);
+  const auto& mesh = town().mesh();
+  const auto below = [&random](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };
+  for (int session = 0; session < 50; ++session) {
+    validate::StreamClient client(mesh);
+    SlowClient slow(mesh);
+    for (int step = 0; step < 30; ++step) {
+      // Few triangles and slots, so that they collide; most corners are right.
+      StreamMessage message;
+      message.kind = below(2) == 0 ? Kind::plus : Kind::minus;
+      for (std::uint32_t n = below(4); n > 0; --n) {
+        const std::uint32_t t = below(4);
+        if (message.kind == Kind::minus) {
+          message.minus.push_back(t);
+          message.unused.push_back(below(13));
+          continue;
+        }
+        scene::StreamTriangle sent{t, below(6), {}};
+        for (std::size_t i = 0; i < 3; ++i) {
+          const std::uint32_t v = mesh.triangles[t][i];
+          sent.corners[i] = below(8) == 0 ? below(13) : v + 1;
+          if (below(3) > 0) message.vertices.push_back({sent.corners[i], mesh.points[v]});
+        }
+        message.plus.push_back(sent);
+      }
+      ASSERT_EQ(client.apply(message), slow.apply(message)) << "session " << session << ", step " << step;
+    }
+  }
+}
+
 TEST_F(PlantedStream, SlotZeroIsNothing) {
   messages_[0].plus[0].slot = 0;
   expect_caught();
@@ -291,6 +399,118 @@ TEST(StreamFile, ComesBackAsItWasWritten) {
   std::string again = scene::to_line(back.header);
   for (const auto& m : back.messages) again += scene::to_line(m);
   EXPECT_EQ(again, text);
+}
+
+TEST(StreamFile, MinusZeroKeepsItsSign) {
+  const scene::StreamHeader header{"abc", "grid", 10, 2};
+  const auto read = scene::parse_stream_message(R"({"plus": [], "vertices": [[1, -0, 0, -0.0]]})", "x", header);
+  ASSERT_EQ(read.vertices.size(), 1U);
+  EXPECT_TRUE(std::signbit(read.vertices[0].at[0]));
+  EXPECT_FALSE(std::signbit(read.vertices[0].at[1]));
+  EXPECT_TRUE(std::signbit(read.vertices[0].at[2]));
+}
+
+TEST(StreamFile, HeadersSayModeAndListsWhereThereIsSomethingToSay) {
+  scene::StreamHeader header{"abc", "grid", 10, 2};
+  const std::string plain = scene::to_line(header);
+  EXPECT_EQ(plain.find("mode"), std::string::npos);
+  EXPECT_EQ(plain.find("lists_sha256"), std::string::npos);
+  for (const auto& [mode, lists] : {std::pair("sheet", ""), {"solid", ""}, {"sheet", "cd"}, {"solid", "cd"}}) {
+    header.mode = mode;
+    header.lists_sha256 = lists;
+    for (const auto& back : {scene::parse_stream_header(scene::to_line(header), "x"),
+                             scene::parse_packets(scene::to_packet(header), "x").header}) {
+      EXPECT_EQ(back.mode, mode);
+      EXPECT_EQ(back.lists_sha256, lists);
+      EXPECT_TRUE(difference_of_messages(header, back).empty());
+    }
+  }
+  header.mode = "sold";
+  EXPECT_THROW(scene::parse_stream_header(scene::to_line(header), "x"), scene::Error);
+  EXPECT_THROW(scene::parse_packets(scene::to_packet(header), "x"), scene::Error);
+}
+
+TEST(StreamFile, SaysThatThereIsNoCellWhereThereIsNone) {
+  try {
+    scene::parse_stream_message(R"({"cell": 0})", "x", scene::StreamHeader{"abc", "grid", 10, 0});
+    ADD_FAILURE() << "there is no cell 0";
+  } catch (const scene::Error& e) {
+    EXPECT_STREQ(e.what(), "x: the cell 0: there is none");
+  }
+}
+
+TEST(Stream, TheDigestIsThatOfListsAndHorizon) {
+  const reference::StreamStore same(town().mesh(), town().lists(), town().neighbours(), 1);
+  EXPECT_EQ(town().store(1).digest(), same.digest());
+  EXPECT_NE(town().store(0).digest(), same.digest());
+  auto lists = town().lists();
+  lists[0].pop_back();
+  EXPECT_NE(reference::StreamStore(town().mesh(), lists, town().neighbours(), 1).digest(), same.digest());
+}
+
+// A box that all cells lie in, and that hides nothing from them in mode solid; in mode sheet it hides what is outside.
+TEST(StreamCommands, SolidStreamsAreJudgedAsSolid) {
+  const tests::TestFolder folder;
+  SceneBuilder scene;
+  scene.box({-1, -1, -1}, {1, 1, 1});
+  scene.box({3, -1, -1}, {4, 1, 1});
+  std::string off = fmt::format("OFF\n{} {} 0\n", scene.mesh().points.size(), scene.mesh().triangles.size());
+  for (const auto& p : scene.mesh().points) off += fmt::format("{} {} {}\n", p[0], p[1], p[2]);
+  for (const auto& t : scene.mesh().triangles) off += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
+  folder.write("boxes.off", off);
+  const std::string cells = "grid:2x1x1:box:-0.5,-0.5,-0.5,0.5,0.5,0.5";
+  const std::vector<std::string> walk{"walk", "boxes.off", "--cells", cells, "--steps", "2", "-o", "walk", "--mode"};
+  const std::vector<std::string> judge{"conform", "--stream", "walk", "--scene", "boxes.off", "--cells", cells};
+  for (const char* mode : {"sheet", "solid"}) {
+    const auto walked = tests::run_clues(walk, {mode}, folder.path());
+    ASSERT_EQ(walked.exit_code, 0) << walked.err;
+    const auto judged = tests::run_clues(judge, folder.path());
+    EXPECT_EQ(judged.exit_code, 0) << mode << judged.out << judged.err;
+    EXPECT_EQ(judged.out.find("in mode solid") != std::string::npos, std::string(mode) == "solid") << judged.out;
+  }
+  // The same messages are not sound in the other mode.
+  auto stream = scene::read_stream(folder.path() / "walk");
+  EXPECT_EQ(stream.header.mode, "solid");
+  stream.header.mode = "sheet";
+  std::string text = scene::to_line(stream.header);
+  for (const auto& message : stream.messages) text += scene::to_line(message);
+  folder.write("walk", text);
+  EXPECT_EQ(tests::run_clues(judge, folder.path()).exit_code, 1);
+}
+
+TEST(StreamCommands, AStreamOfOtherCellsIsRefused) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  ASSERT_EQ(tests::run_clues({"walk", "screen.off", "--cells", "grid:2x1x1:box:-0.25,-0.25,-0.25,0.25,0.25,0",
+                              "--steps", "1", "-o", "walk"},
+                             folder.path())
+                .exit_code,
+            0);
+  const auto judged = tests::run_clues({"conform", "--stream", "walk", "--scene", "screen.off", "--cells",
+                                        "grid:1x2x1:box:-0.25,-0.25,-0.25,0.25,0.25,0"},
+                                       folder.path());
+  EXPECT_EQ(judged.exit_code, 2) << judged.out;
+  EXPECT_NE(judged.err.find("other cells"), std::string::npos) << judged.err;
+}
+
+TEST(StreamCommands, WhatIsNoNumberOrNoRouteIsBadUsage) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  const std::vector<std::string> walk{
+      "walk",      "screen.off", "--cells", "grid:2x1x1:box:-0.25,-0.25,-0.25,0.25,0.25,0",
+      "--horizon", "1",          "--link",  "1000:1"};
+  EXPECT_EQ(tests::run_clues(walk, {"--steps", "1", "--pace", "0.5", "--ahead", "0.5"}, folder.path()).exit_code, 0);
+  for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{{"--steps", "1", "--pace", "nan"},
+                                                                                   {"--steps", "1", "--ahead", "nan"},
+                                                                                   {"--steps", "1", "--ahead", "inf"},
+                                                                                   {"--steps", "0"},
+                                                                                   {"--steps", "1000001"}}) {
+    EXPECT_EQ(tests::run_clues(walk, bad, folder.path()).exit_code, 2) << bad.back();
+  }
+  const auto contours = tests::run_clues({"delta", "contours", "screen.off", "--parent", tests::screen_cell, "--cells",
+                                          "grid:1x1x1:box:-0.1,-0.1,-0.1,0.1,0.1,0", "--reach", "nan"},
+                                         folder.path());
+  EXPECT_EQ(contours.exit_code, 2) << contours.out;
 }
 
 TEST(StreamFile, RefusesWhatIsNone) {

@@ -88,16 +88,17 @@ class Fields {
     }
     return p;
   }
-  std::vector<scene::Point> cell(const json& object) const {
+  std::vector<scene::Point> doubles(const json& object, const std::string& what) const {
     std::vector<scene::Point> out;
-    for (const json& value : list(at(object, "cell"), "vertices")) {
+    for (const json& value : list(object, "vertices")) {
       if (!value.is_array() || value.size() != 3 ||
           !std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); }))
-        fail("\"cell\": \"vertices\" must be lists of three numbers");
+        fail(what + ": \"vertices\" must be lists of three numbers");
       out.push_back(value.get<scene::Point>());
     }
     return out;
   }
+  std::vector<scene::Point> cell(const json& object) const { return doubles(at(object, "cell"), "\"cell\""); }
   // {"file", "sha256", "triangles"}; returns the hash.
   std::string scene_hash() const {
     const json& scene = at(json_, "scene");
@@ -196,15 +197,21 @@ DeltaRecord read_delta(const std::filesystem::path& path, std::uint64_t triangle
   record.minus = fields.ids(fields.at(root, "packets"), "minus");
   record.has_fragments = root.contains("fragments");
   if (!record.has_fragments) return record;
-  std::vector<RVector> points;
   for (const json& value : fields.list(root["fragments"], "vertices_exact"))
-    points.push_back(fields.point(value, fmt::format("vertices_exact[{}]", points.size())));
+    record.vertices.push_back({fields.point(value, fmt::format("vertices_exact[{}]", record.vertices.size())), {}});
+  const auto rounded = fields.doubles(root["fragments"], "\"fragments\"");
+  if (rounded.size() != record.vertices.size()) {
+    fields.fail(
+        fmt::format("\"vertices\" has {} points, and \"vertices_exact\" {}", rounded.size(), record.vertices.size()));
+  }
+  for (std::size_t i = 0; i < rounded.size(); ++i) record.vertices[i].rounded = rounded[i];
   for (const json& value : fields.list(root["fragments"], "triangles")) {
     const std::string where = fmt::format("fragments: triangles[{}]", record.fragments.size());
     DeltaFragment fragment;
     const json& corners = fields.list(value, "corners");
     if (corners.size() != 3) fields.fail(where + ": corners must be three numbers of vertices");
-    for (std::size_t i = 0; i < 3; ++i) fragment.corners[i] = points[fields.number(corners[i], points.size(), where)];
+    for (std::size_t i = 0; i < 3; ++i)
+      fragment.corners[i] = record.vertices[fields.number(corners[i], record.vertices.size(), where)].exact;
     fragment.triangle = fields.triangle(fields.at(value, "triangle"), where);
     fragment.front = fields.front(value);
     fragment.seen = seen_of(fields, value);

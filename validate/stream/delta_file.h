@@ -27,6 +27,12 @@ struct DeltaFragment {
   reference::SeenFrom seen = reference::SeenFrom::neither;
 };
 
+// A row of the file's two lists of vertices.
+struct DeltaVertex {
+  RVector exact;
+  scene::Point rounded{};
+};
+
 struct DeltaRecord {
   std::string scene_file, scene_sha256;
   std::uint64_t scene_triangles = 0;
@@ -35,6 +41,7 @@ struct DeltaRecord {
   std::vector<std::uint32_t> plus, minus;  // ascending
   bool has_fragments = false;
   std::vector<DeltaFragment> fragments;
+  std::vector<DeltaVertex> vertices;  // of fragments, as a file has them; who writes one has it made of the fragments
 };
 
 const char* name_of(reference::SeenFrom seen);

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
+#include <set>
 
 #include "validate/stream/boundary_chain.h"
 
@@ -42,6 +45,14 @@ RVector area_vector(const Ring& ring) {
 // In parts of the triangle's area; negative where it turns the other way. The ring lies in the triangle's plane.
 Rational share(const RVector& area, const RVector& normal) { return Rational(dot(area, normal) / dot(normal, normal)); }
 
+// Whether it is one of the two doubles that the number lies between, or the number itself.
+bool is_rounding(double rounded, const Rational& exact) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (!std::isfinite(rounded)) return false;
+  const double below = std::nextafter(rounded, -infinite), above = std::nextafter(rounded, infinite);
+  return (std::isinf(below) || Rational(below) < exact) && (std::isinf(above) || exact < Rational(above));
+}
+
 struct SideBorders {
   BoundaryChain tiling, from, to;
   bool seen = false;
@@ -65,6 +76,22 @@ void compare_lists(const Ids& given, const Ids& expected, const std::string& wha
     out.push_back({fmt::format("{}: triangle {} is too much ({} in all)", what, extra[0], extra.size())});
 }
 
+// (e), of one of the two ends.
+void require_listed(const DeltaRecord& delta, SeenFrom end, const MapFile& map, std::vector<DeltaFinding>& out) {
+  const bool first = end == SeenFrom::from;
+  std::set<std::uint32_t> seen;
+  for (const MapFileRegion& r : map.regions) seen.insert(r.triangle);
+  for (const DeltaFragment& f : delta.fragments) {
+    if (f.seen == end || f.seen == SeenFrom::both) seen.insert(f.triangle);
+  }
+  const Ids& list = first ? delta.from.visible : delta.to.visible;
+  for (const std::uint32_t t : seen) {
+    if (std::binary_search(list.begin(), list.end(), t)) continue;
+    out.push_back({fmt::format("the list of the {} cell: lacks triangle {}, of which a region or a fragment is seen",
+                               first ? "first" : "second", t)});
+  }
+}
+
 // The corners of a side, as it turns.
 std::array<RVector, 3> outline_of(const InputTriangle& t, bool front) {
   return front ? t.corners : std::array{t.corners[0], t.corners[2], t.corners[1]};
@@ -75,6 +102,7 @@ class DeltaJudge {
   DeltaJudge(const scene::TriangleMesh& mesh, DeltaVerdict& verdict) : mesh_(mesh), verdict_(verdict) {}
 
   void add_fragments(const DeltaRecord& delta) {
+    require_roundings(delta.vertices);
     for (std::size_t i = 0; i < delta.fragments.size(); ++i) {
       const DeltaFragment& f = delta.fragments[i];
       const InputTriangle t = input_triangle(mesh_, f.triangle);
@@ -131,6 +159,15 @@ class DeltaJudge {
   }
 
  private:
+  void require_roundings(const std::vector<DeltaVertex>& vertices) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const auto& [exact, rounded] = vertices[i];
+      if (!is_rounding(rounded[0], exact[0]) || !is_rounding(rounded[1], exact[1]) ||
+          !is_rounding(rounded[2], exact[2]))
+        verdict_.findings.push_back({fmt::format("vertices[{}] is no rounding of vertices_exact[{}]", i, i)});
+    }
+  }
+
   const scene::TriangleMesh& mesh_;
   DeltaVerdict& verdict_;
   std::map<SideOf, SideBorders> sides_;
@@ -145,6 +182,8 @@ DeltaVerdict judge_delta(const scene::TriangleMesh& mesh, const DeltaRecord& del
   compare_lists(delta.to.visible, to.visible, "the list of the second cell", verdict.findings);
   compare_lists(delta.plus, difference(to.visible, from.visible), "the packet +", verdict.findings);
   compare_lists(delta.minus, difference(from.visible, to.visible), "the packet -", verdict.findings);
+  require_listed(delta, SeenFrom::from, from, verdict.findings);
+  require_listed(delta, SeenFrom::to, to, verdict.findings);
   if (!delta.has_fragments) return verdict;
   DeltaJudge judge(mesh, verdict);
   judge.add_fragments(delta);

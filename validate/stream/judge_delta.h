@@ -6,7 +6,9 @@
 //   (b) every fragment is a triangle in the plane of its input triangle that turns as its side does;
 //   (c) all fragments of a side together have the border of the triangle, so each point has one label (boundary_chain.h);
 //   (d) those labelled `from` and `both` together have the border of VM(from), those labelled `to` and `both` that of
-//       VM(to).
+//       VM(to);
+//   (e) a triangle that has a visible region in a map, or a fragment seen from an end, is in the list of that end;
+//   (f) the doubles of the vertices are roundings of the exact ones: no double lies between the two.
 // A side of which neither map shows anything may be left without fragments.
 // Then VM(from) without DR_O and with DR_E is VM(to), point for point, and |VM(to)| - |VM(from)| = |DR_E| - |DR_O|.
 #pragma once

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <set>
 
 namespace clues::validate {
 namespace {
 
 using scene::StreamMessage;
+using scene::StreamTriangle;
 
 // Bit for bit: -0 is not 0.
 bool same_bits(const scene::Point& a, const scene::Point& b) {
@@ -88,11 +88,61 @@ std::vector<std::string> StreamClient::apply(const StreamMessage& message) {
   return wrong;
 }
 
+bool StreamClient::has_right_corner(std::uint32_t id, std::size_t corner) const {
+  const auto at = vertices_.find(triangles_.at(id).corners[corner]);
+  return at != vertices_.end() && same_bits(at->second, mesh_->points[mesh_->triangles[id][corner]]);
+}
+
+void StreamClient::look_at_corners(std::uint32_t id) {
+  if (has_right_corner(id, 0) && has_right_corner(id, 1) && has_right_corner(id, 2)) {
+    astray_.erase(id);
+  } else {
+    astray_.insert(id);
+  }
+}
+
+void StreamClient::put(const StreamTriangle& triangle) {
+  slots_[triangle.slot] = triangle.triangle;
+  triangles_[triangle.triangle] = triangle;
+  for (const std::uint32_t slot : triangle.corners) {
+    users_[slot].insert(triangle.triangle);
+    idle_.erase(slot);
+  }
+  look_at_corners(triangle.triangle);
+}
+
+void StreamClient::take_away(std::uint32_t id) {
+  const auto at = triangles_.find(id);
+  slots_.erase(at->second.slot);
+  for (const std::uint32_t slot : at->second.corners) {
+    const auto users = users_.find(slot);
+    if (users == users_.end()) continue;  // two corners in one slot
+    users->second.erase(id);
+    if (!users->second.empty()) continue;
+    users_.erase(users);
+    if (vertices_.contains(slot)) idle_.insert(slot);
+  }
+  triangles_.erase(at);
+  astray_.erase(id);
+}
+
+void StreamClient::require_used(std::vector<std::string>& wrong) const {
+  for (const std::uint32_t slot : idle_)
+    wrong.push_back(fmt::format("slot {} is used by no triangle, and is not called unused", slot));
+}
+
 void StreamClient::apply_plus(const StreamMessage& message, std::vector<std::string>& wrong) {
   for (const scene::StreamVertex& v : message.vertices) {
     if (v.slot == 0 || vertices_.contains(v.slot))
       wrong.push_back(fmt::format("a vertex is sent into slot {}, which is in use", v.slot));
     vertices_[v.slot] = v.at;
+    // Also of triangles that were there, because a vertex that is sent into the wrong slot changes them.
+    const auto users = users_.find(v.slot);
+    if (users == users_.end()) {
+      idle_.insert(v.slot);
+    } else {
+      for (const std::uint32_t id : users->second) look_at_corners(id);
+    }
   }
   for (const scene::StreamTriangle& t : message.plus) {
     if (triangles_.contains(t.triangle)) {
@@ -101,46 +151,36 @@ void StreamClient::apply_plus(const StreamMessage& message, std::vector<std::str
     }
     if (t.slot == 0 || slots_.contains(t.slot))
       wrong.push_back(fmt::format("triangle {} is sent into slot {}, which is in use", t.triangle, t.slot));
-    slots_[t.slot] = t.triangle;
-    triangles_[t.triangle] = t;
+    put(t);
   }
-  // Of all triangles, because a vertex that is sent into the wrong slot changes others.
-  for (const auto& [id, t] : triangles_) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto at = vertices_.find(t.corners[i]);
-      if (at == vertices_.end() || !same_bits(at->second, mesh_->points[mesh_->triangles[id][i]])) {
-        wrong.push_back(fmt::format("corner {} of triangle {} is not that of the scene", i, id));
-        break;
-      }
-    }
+  for (const std::uint32_t id : astray_) {
+    const std::size_t corner = !has_right_corner(id, 0) ? 0 : !has_right_corner(id, 1) ? 1 : 2;
+    wrong.push_back(fmt::format("corner {} of triangle {} is not that of the scene", corner, id));
   }
+  require_used(wrong);
 }
 
 void StreamClient::apply_minus(const StreamMessage& message, std::vector<std::string>& wrong) {
   for (const std::uint32_t t : message.minus) {
-    const auto at = triangles_.find(t);
-    if (at == triangles_.end()) {
+    if (triangles_.contains(t)) {
+      take_away(t);
+    } else {
       wrong.push_back(fmt::format("triangle {} is taken away, and is not there", t));
-      continue;
     }
-    slots_.erase(at->second.slot);
-    triangles_.erase(at);
   }
   for (const std::uint32_t slot : message.unused) {
     if (vertices_.erase(slot) == 0) wrong.push_back(fmt::format("slot {} is called unused, and is so already", slot));
+    idle_.erase(slot);
+    if (const auto users = users_.find(slot); users != users_.end())
+      astray_.insert(users->second.begin(), users->second.end());
   }
-  std::set<std::uint32_t> used;
-  for (const auto& [id, t] : triangles_) {
-    for (const std::uint32_t slot : t.corners) {
-      used.insert(slot);
+  for (const std::uint32_t id : astray_) {
+    for (const std::uint32_t slot : triangles_.at(id).corners) {
       if (!vertices_.contains(slot))
         wrong.push_back(fmt::format("slot {} is called unused, and triangle {} uses it", slot, id));
     }
   }
-  for (const auto& [slot, unused] : vertices_) {
-    if (!used.contains(slot))
-      wrong.push_back(fmt::format("slot {} is used by no triangle, and is not called unused", slot));
-  }
+  require_used(wrong);
 }
 
 std::string StreamClient::bytes() const {

@@ -6,7 +6,7 @@
 //     there (he is on the face between them), or a later message takes away what is visible from his cell;
 //   - a triangle is sent that is there, or taken away though it is not there;
 //   - a slot is given to two triangles, or to none (slot 0); a vertex is sent into a slot that is in use; a slot is
-//     called unused while a triangle uses it, or not called unused though none does;
+//     called unused while a triangle uses it, or not called unused though none does, be it after `+` or after `-`;
 //   - a triangle has corners other than the scene's, bit for bit;
 //   - the viewer steps into a cell that is no neighbour of his: in a grid, one with a whole face in common, or that holds
 //     it or is held by it; in a bake, one that touches it.
@@ -16,6 +16,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,11 +41,20 @@ class StreamClient {
  private:
   void apply_plus(const scene::StreamMessage& message, std::vector<std::string>& wrong);
   void apply_minus(const scene::StreamMessage& message, std::vector<std::string>& wrong);
+  bool has_right_corner(std::uint32_t id, std::size_t corner) const;
+  void look_at_corners(std::uint32_t id);
+  void put(const scene::StreamTriangle& triangle);
+  void take_away(std::uint32_t id);
+  void require_used(std::vector<std::string>& wrong) const;
 
   const scene::TriangleMesh* mesh_;
   std::map<std::uint32_t, scene::StreamTriangle> triangles_;  // by id
   std::map<std::uint32_t, std::uint32_t> slots_;              // of triangles: ids
   std::map<std::uint32_t, scene::Point> vertices_;            // by slot
+  // What follows from these, so that a message costs what it says and not what the client holds.
+  std::map<std::uint32_t, std::set<std::uint32_t>> users_;  // of slots of vertices: ids; none is empty
+  std::set<std::uint32_t> idle_;                            // slots of vertices that no triangle uses
+  std::set<std::uint32_t> astray_;                          // ids: a corner is missing, or not that of the scene
 };
 
 struct StreamFinding {
