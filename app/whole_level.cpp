@@ -5,15 +5,48 @@
 #include "validate/see_through/layers.h"
 
 namespace clues::app {
+namespace {
+
+scene::RationalPoint rational_of(const exact::Point3& p) {
+  const auto coordinate = [](const exact::FT& x) { return mpq_class(exact::to_string_exact(x)); };
+  return {coordinate(p.x()), coordinate(p.y()), coordinate(p.z())};
+}
+
+}  // namespace
 
 WholeLevel::WholeLevel(const scene::BspFile& level)
-    : whole_(scene::scene_of_level(level, scene::HullSides::all).scene) {}
+    : whole_(scene::scene_of_level(level, scene::HullSides::all).scene), brushes_(level) {}
 
 bool WholeLevel::confirms(const std::vector<scene::Point>& cell, const validate::Witness& witness) const {
   const validate::AskedAlone alone = validate::asked_alone(whole_, witness.triangle);
   return exact::check_witness(alone.mesh, exact::ConvexCell::from_doubles(cell), alone.triangle, witness.front,
                               witness.v, witness.p)
-      .valid;
+             .valid &&
+         is_free_of_brushes(witness);
+}
+
+void WholeLevel::take_back(validate::Judgement& judgement) const {
+  std::erase_if(judgement.witnesses, [&](const validate::Witness& witness) {
+    if (is_free_of_brushes(witness)) return false;
+    auto& verdict = judgement.triangles[witness.triangle];
+    if (verdict == validate::TriangleVerdict::missing_visible) {
+      verdict = validate::TriangleVerdict::missing_undecided;
+      --judgement.missing_visible;
+      ++judgement.missing_undecided;
+    } else if (verdict == validate::TriangleVerdict::exact) {
+      verdict = validate::TriangleVerdict::first_order;
+      --judgement.exact;
+      ++judgement.first_order;
+    }
+    return true;
+  });
+  judgement.verdict = validate::verdict_of(judgement);
+}
+
+bool WholeLevel::is_free_of_brushes(const validate::Witness& witness) const {
+  std::array<scene::Point, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = whole_.mesh.points[whole_.mesh.triangles[witness.triangle][i]];
+  return !brushes_.block(rational_of(witness.v), rational_of(witness.p), corners);
 }
 
 }  // namespace clues::app

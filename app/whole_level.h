@@ -1,10 +1,12 @@
 // To leave out what blocks makes more visible: fine for lists, but not for an accusation. So a sight line through a level
-// that accuses somebody has to be free of all sides of hulls, too.
+// that accuses somebody has to be free of all sides of hulls, too, and of the brushes as the level gives them: hulls are
+// rounded, and between two of them may be a crack.
 #pragma once
 
 #include <vector>
 
 #include "scene/levels/bsp_file.h"
+#include "scene/levels/bsp_solids.h"
 #include "scene/mesh/flagged_mesh.h"
 #include "validate/verdicts/judge.h"
 
@@ -14,11 +16,19 @@ class WholeLevel {
  public:
   explicit WholeLevel(const scene::BspFile& level);
 
+  const scene::FlaggedMesh& scene() const { return whole_; }  // with all sides of hulls
+
   // Whether the sight line from this cell is free in the whole level.
   bool confirms(const std::vector<scene::Point>& cell, const validate::Witness& witness) const;
 
+  // For who was judged in scene(): what is seen only through brushes becomes undecided, missing or listed.
+  void take_back(validate::Judgement& judgement) const;
+
  private:
+  bool is_free_of_brushes(const validate::Witness& witness) const;
+
   scene::FlaggedMesh whole_;
+  scene::SolidBrushes brushes_;
 };
 
 }  // namespace clues::app

@@ -18,6 +18,7 @@ using scene::Point;
 using Polygon = std::vector<Point>;
 
 constexpr double most_boxes = 1e7;
+constexpr double most_index = 0x1p52;  // beyond, doubles next to each other are in different boxes
 
 Polygon below(const Polygon& polygon, std::size_t axis, double sign, double bound) {
   Polygon part;
@@ -62,13 +63,23 @@ AutoCells auto_cells(const scene::FlaggedMesh& scene, double size, double height
   for (const auto& corners : triangles) {
     for (const auto c : corners) around = scene::hull_of(around, {scene.mesh.points[c], scene.mesh.points[c]});
   }
-  const auto& [low, high] = around;
+  auto& [low, high] = around;
+  high[z] += height;  // which may be far above the scene
   double boxes = 1;
-  for (std::size_t i = 0; i < 3; ++i) boxes *= std::floor(high[i] / size) - std::floor(low[i] / size) + 1;
-  if (!(boxes <= most_boxes))
-    throw scene::Error(
-        scene::ErrorCode::bad_argument,
-        fmt::format("--cells auto:{}: would make a grid of {:.3g} boxes; take larger ones", size, boxes));
+  bool are_counted = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double first = std::floor(low[i] / size), last = std::floor(high[i] / size);
+    are_counted = are_counted && first >= -most_index && last <= most_index;
+    boxes *= last - first + 1;
+  }
+  if (!are_counted || !(boxes <= most_boxes))
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       are_counted ? fmt::format("--cells auto:{}: would make a grid of {:.3g} boxes; take larger ones "
+                                                 "or a lower height",
+                                                 size, boxes)
+                                   : fmt::format("--cells auto:{}: the scene, with the height above it, is too many "
+                                                 "boxes away from the origin; take larger ones",
+                                                 size));
   out.boxes = static_cast<std::uint64_t>(boxes);
   for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
     if (!scene.blocking(t)) continue;

@@ -11,7 +11,7 @@ namespace clues::app {
 
 struct AutoCells {
   std::vector<scene::BakePlace> cells;    // named "i,j,k"; x fastest
-  std::uint64_t boxes = 0;                // of the grid around the scene
+  std::uint64_t boxes = 0;                // of the grid around the scene and the height above it
   std::uint64_t walkable = 0, steep = 0;  // triangles that block
 };
 

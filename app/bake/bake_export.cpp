@@ -27,9 +27,10 @@ using scene::Point;
 
 using Plane = std::array<double, 4>;
 
-// n x <= d for every point of the cell, as a reader computes it: d is the largest value at the cell's points, widened by more than what two sums of three
-// products may be off, 4 units of 2^-53 of the largest terms each.
-Plane plane_around(const Point& normal, const std::vector<Point>& cell) {
+// Adds n x <= d for every point of the cell, as a reader computes it: d is the largest value at the cell's points, widened
+// by more than what two sums of three products may be off, 4 units of 2^-53 of the largest terms each, and of 2^-1074 where
+// they underflow. Left out where that is no finite number: no point of the cell is lost by it.
+void add_plane_around(std::vector<Plane>& planes, const Point& normal, const std::vector<Point>& cell) {
   double highest = -std::numeric_limits<double>::infinity();
   Point terms{};
   for (const auto& p : cell) {
@@ -40,7 +41,16 @@ Plane plane_around(const Point& normal, const std::vector<Point>& cell) {
     }
     highest = std::max(highest, height);
   }
-  return {normal[0], normal[1], normal[2], highest + 0x1p-48 * (terms[0] + terms[1] + terms[2])};
+  const double distance = highest + 0x1p-48 * (terms[0] + terms[1] + terms[2]) + 0x1p-1071;
+  if (std::isfinite(distance)) planes.push_back({normal[0], normal[1], normal[2], distance});
+}
+
+// Its largest component is 1 or -1. Scaled before it is rounded: components of a small or large facet are no doubles.
+Point scaled(const exact::Vector3& direction) {
+  const exact::FT size = std::max(
+      {exact::FT(CGAL::abs(direction.x())), exact::FT(CGAL::abs(direction.y())), exact::FT(CGAL::abs(direction.z()))});
+  return {CGAL::to_double(exact::FT(direction.x() / size)), CGAL::to_double(exact::FT(direction.y() / size)),
+          CGAL::to_double(exact::FT(direction.z() / size))};
 }
 
 // The box of the cell, and its facets where it is no box.
@@ -49,17 +59,14 @@ std::vector<Plane> planes_around(const std::vector<Point>& points) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     Point normal{};
     normal[axis] = 1;
-    planes.push_back(plane_around(normal, points));
+    add_plane_around(planes, normal, points);
     normal[axis] = -1;
-    planes.push_back(plane_around(normal, points));
+    add_plane_around(planes, normal, points);
   }
   const auto cell = exact::ConvexCell::from_doubles(points);
   for (const auto& facet : cell.facets()) {
-    const auto direction = facet.plane.orthogonal_vector();
-    Point normal{CGAL::to_double(direction.x()), CGAL::to_double(direction.y()), CGAL::to_double(direction.z())};
-    const double size = std::max({std::fabs(normal[0]), std::fabs(normal[1]), std::fabs(normal[2])});
-    for (double& x : normal) x /= size;
-    if (std::count(normal.begin(), normal.end(), 0.0) < 2) planes.push_back(plane_around(normal, points));
+    const Point normal = scaled(facet.plane.orthogonal_vector());
+    if (std::count(normal.begin(), normal.end(), 0.0) < 2) add_plane_around(planes, normal, points);
   }
   return planes;
 }
@@ -71,6 +78,7 @@ struct Voxels {
 
   // As the header computes it. Both operations are monotone, so what lies between two points is in a voxel between theirs.
   std::uint32_t at(std::size_t axis, double x) const {
+    if (grid[axis] == 1) return 0;
     const double voxel = std::floor((x - low[axis]) * per_unit[axis]);
     return static_cast<std::uint32_t>(std::clamp(voxel, 0.0, static_cast<double>(grid[axis] - 1)));
   }
@@ -86,10 +94,13 @@ Voxels voxels_over(const std::vector<scene::BakePlace>& cells) {
   const double most = std::min(128.0, std::ceil(4 * std::cbrt(static_cast<double>(cells.size()))));
   for (std::size_t i = 0; i < 3; ++i) {
     const double size = high[i] - low[i];
-    v.grid[i] = size > 0 ? static_cast<std::uint32_t>(std::max(1.0, std::ceil(most * size / longest))) : 1;
+    v.grid[i] = 1;
     v.low[i] = low[i];
-    // So that the highest point is in the last voxel.
-    v.per_unit[i] = size > 0 ? static_cast<double>(v.grid[i]) / size * (1 - 0x1p-40) : 1;
+    if (size > 0 && std::isfinite(most * longest) && std::isfinite(most / size)) {
+      v.grid[i] = static_cast<std::uint32_t>(std::max(1.0, std::ceil(most * size / longest)));
+      // So that the highest point is in the last voxel.
+      v.per_unit[i] = static_cast<double>(v.grid[i]) / size * (1 - 0x1p-40);
+    }  // else 0: one voxel for all
   }
   v.cells.resize(std::size_t{v.grid[0]} * v.grid[1] * v.grid[2]);
   for (std::uint32_t c = 0; c < cells.size(); ++c) {
@@ -160,6 +171,12 @@ std::string engine_file(const scene::FinishedBake& bake) {
   header.bytes = file.size();
   std::memcpy(file.data(), &header, sizeof header);
   return file;
+}
+
+void require_exportable(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(folder, error))) return make_empty_folder(folder);  // it is there: nothing is made
+  require_writable_parent(folder.has_filename() ? folder : folder.parent_path());
 }
 
 void export_bake(const fs::path& folder, const scene::FinishedBake& bake, const scene::FlaggedMesh& scene) {

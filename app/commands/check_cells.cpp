@@ -63,10 +63,14 @@ Asked shipped_with(const scene::BspFile& level, const scene::LevelScene& scene) 
   return asked;
 }
 
-Asked baked_in(const CheckCellsRequest& request, const std::string& sha256) {
+Asked baked_in(const CheckCellsRequest& request, const std::string& sha256, std::size_t triangles) {
   const scene::FinishedBake bake(request.bake);
   if (bake.plan().scene_sha256 != sha256)
     throw Error(ErrorCode::bad_argument, request.bake + ": is of another scene than " + request.scene);
+  // The same bytes, read by another version: its ids may be those of other triangles.
+  if (bake.plan().triangles != triangles)
+    throw Error(ErrorCode::bad_argument, fmt::format("{}: is of {} triangles, and {} has {}; bake it again",
+                                                     request.bake, bake.plan().triangles, request.scene, triangles));
   Asked asked;
   for (std::uint32_t c = 0; c < bake.plan().cells.size(); ++c) {
     const auto& cell = bake.plan().cells[c];
@@ -201,6 +205,7 @@ std::string table_of(const Asked& asked, const scene::FlaggedMesh& mesh, const T
       "{:>7}  {:>9}  {:>11}  {:>9}  {:>10}  {:>7}  {:>9}\n{:>7}  {:>9.1f}  {:>11.1f}  {:>9.1f}  {:>10}  {:>7}  {:>9}\n",
       "cells", "listed", "may be seen", "witnessed", "with holes", "holes", "undecided", asked.cells.size(),
       average(t.listed), average(t.ours), average(t.witnessed), t.with_holes, t.holes, t.undecided);
+  if (asked.cells.empty()) text += "no cell was judged\n";
   if (asked.slivers > 0) text += fmt::format("{} slivers without an inner cell were not judged\n", asked.slivers);
   text += fmt::format("{} sight lines decided exactly\n", t.sight_lines);
   if (t.contradictions > 0)
@@ -219,6 +224,13 @@ std::string table_of(const Asked& asked, const scene::FlaggedMesh& mesh, const T
   return text;
 }
 
+// What nobody looked at is not fine: a sliver, or a level or bake without cells.
+int exit_code_of(const Asked& asked, const Totals& t) {
+  if (t.contradictions > 0) return oracle_contradiction;
+  if (t.holes > 0) return findings;
+  return t.undecided > 0 || asked.slivers > 0 || asked.cells.empty() ? not_everything_ran : fine;
+}
+
 }  // namespace
 
 int check_all_cells(const CheckCellsRequest& request) {
@@ -231,14 +243,14 @@ int check_all_cells(const CheckCellsRequest& request) {
                 request.scene + ": no level (.bsp), so no lists were shipped with it; name those to judge with --bake");
   const auto of_level = level ? scene::scene_of_level(*level) : scene::LevelScene{};
   const auto mesh = level ? of_level.scene : scene::read_scene(request.scene);
-  Asked asked = request.bake.empty() ? shipped_with(*level, of_level) : baked_in(request, sha256);
+  Asked asked =
+      request.bake.empty() ? shipped_with(*level, of_level) : baked_in(request, sha256, mesh.mesh.triangles.size());
   judge(asked, mesh, request.threads);
   if (level) confirm_in_the_whole_level(asked, *level);
   const Totals totals = totals_of(asked.cells);
   if (request.json.asked()) request.json.write(json_text(request, sha256, asked, mesh, totals));
   if (!request.json.on_stdout()) print(table_of(asked, mesh, totals));
-  if (totals.contradictions > 0) return oracle_contradiction;
-  return totals.holes > 0 ? findings : totals.undecided > 0 ? not_everything_ran : fine;
+  return exit_code_of(asked, totals);
 }
 
 }  // namespace clues::app

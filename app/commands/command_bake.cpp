@@ -126,6 +126,19 @@ void report(const BakeRequest& request, const Summary& s, const std::string& not
                   s.average(), s.least, s.most, s.fallbacks, fs::file_size(request.out), note));
 }
 
+// What could only be found when hours are over, or with a store begun that nobody can use.
+void require_unspoilt(const BakeRequest& request) {
+  std::vector<const std::string*> inputs{&request.scene, &request.cells};
+  for (const auto& file : request.merged) inputs.push_back(&file);
+  require_apart({&request.out, &request.json.file(), &request.exported}, inputs);
+  if (request.exported.empty()) return;
+  require_exportable(request.exported);
+  std::error_code ignored;
+  if (fs::equivalent(fs::absolute(request.out).parent_path(), request.exported, ignored))
+    throw Error(ErrorCode::bad_argument,
+                request.exported + ": must be empty when " + request.out + " is exported; name another folder");
+}
+
 int run_bake(const BakeRequest& request) {
   Cluster cluster;
   std::optional<std::string> question;
@@ -134,7 +147,7 @@ int run_bake(const BakeRequest& request) {
   if (cluster.leads()) {  // the others write nothing
     require_writable_parent(request.out);
     require_writable_parent(request.json.file());
-    require_apart({&request.out, &request.json.file()}, {&request.scene, &request.cells});
+    require_unspoilt(request);
   }
   const auto sha256 = scene::sha256_of_file(request.scene);
   const auto level = scene::read_level(request.scene);
@@ -148,6 +161,9 @@ int run_bake(const BakeRequest& request) {
   if (!cluster.leads()) {
     serve_bake(cluster, threads, scene, plan, make_lister, *question);
     return fine;
+  }
+  if (!fs::exists(request.out)) {  // else they are looked at when it is open, and only if it is not finished
+    for (const auto& file : request.merged) scene::BakeStore::require_store_of(plan, file);
   }
   {
     scene::BakeStore store(request.out, plan);

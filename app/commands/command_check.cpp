@@ -1,5 +1,6 @@
 // clues check: judges one PVS for one scene and cell (D19, basic form).
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "app/common.h"
 #include "app/json_output.h"
 #include "app/progress.h"
+#include "app/whole_level.h"
 #include "scene/cell_spec.h"
 #include "scene/levels/bsp_scene.h"
 #include "scene/messages/error.h"
@@ -48,11 +50,13 @@ void judge_plain(validate::Judgement& judgement, validate::Surroundings& around,
 
 struct SceneAndList {
   scene::FlaggedMesh scene;
-  std::vector<std::uint32_t> pvs;  // ascending
+  std::vector<std::uint32_t> pvs;   // ascending
+  std::optional<WholeLevel> level;  // that scene
 };
 
-// A level is judged with all sides of its hulls, since to leave out what blocks would accuse lists of what only cracks show. The lists of `clues map` are of the
-// scene without the covered sides; drawn triangles have the same ids in both, and no others count.
+// A level is judged with all sides of its hulls, since to leave out what blocks would accuse lists of what only cracks
+// show. The lists of `clues map` are of the scene without the covered sides; drawn triangles have the same ids in both,
+// and no others count.
 SceneAndList read_what_is_judged(const CheckRequest& request, const std::vector<scene::Point>& cell) {
   const auto list_for = [&](const scene::FlaggedMesh& scene) {
     return scene::read_pvs(
@@ -62,12 +66,14 @@ SceneAndList read_what_is_judged(const CheckRequest& request, const std::vector<
   if (!level) {
     auto scene = scene::read_scene(request.scene);
     auto pvs = list_for(scene);
-    return {std::move(scene), std::move(pvs)};
+    return {std::move(scene), std::move(pvs), std::nullopt};
   }
   const auto mapped = scene::scene_of_level(*level).scene;
   auto pvs = list_for(mapped);
   std::erase_if(pvs, [&](std::uint32_t t) { return !mapped.counting(t); });
-  return {scene::scene_of_level(*level, scene::HullSides::all).scene, std::move(pvs)};
+  WholeLevel whole(*level);
+  auto scene = whole.scene();
+  return {std::move(scene), std::move(pvs), std::move(whole)};
 }
 
 int run_check(const CheckRequest& request) {
@@ -88,7 +94,7 @@ int run_check(const CheckRequest& request) {
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.pvs});
   const auto spec = scene::parse_cell(request.cell);
-  const auto [scene, pvs] = read_what_is_judged(request, spec.points);
+  const auto [scene, pvs, level] = read_what_is_judged(request, spec.points);
   const auto& mesh = scene.mesh;
   if (!scene.is_plain() && request.method.mode == "solid") {
     throw scene::Error(scene::ErrorCode::unsupported,
@@ -110,6 +116,7 @@ int run_check(const CheckRequest& request) {
     } else {
       judge_plain(judgement, around, mesh, cell, pvs, options, bar);
     }
+    if (level) level->take_back(judgement);
     around.counts = validate::count_weights(judgement);
     around.areas = validate::area_weights(judgement, mesh);
   }
@@ -160,7 +167,8 @@ void add_check_command(CLI::App& program, int& status) {
           "  visible and missing, over visible ones; from the lowest to the highest value that the undecided "
           "allow.\n"
           "  A level is judged with all sides of its hulls (docs/real-levels.md), whatever scene the list was made "
-          "in.\n\n"
+          "in, and\n"
+          "  what is seen only through brushes stays undecided.\n\n"
           "ALL CELLS\n"
           "  The fast kernel says what may be seen from each cell; what is missing of that is looked for by sight "
           "lines that "
@@ -181,7 +189,8 @@ void add_check_command(CLI::App& program, int& status) {
       "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 -o town.bake\n"
       "  clues check town.obj --all-cells --bake town.bake\n\n"
       "EXIT CODES\n"
-      "  0 sound   1 unsound   2 bad usage or input   3 undecided   4 an oracle contradicted itself");
+      "  0 sound   1 unsound   2 bad usage or input   3 undecided, or not all cells were judged\n"
+      "  4 an oracle contradicted itself");
   command->callback([request, &status] { status = run_check(*request); });
 }
 

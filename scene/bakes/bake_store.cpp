@@ -93,7 +93,7 @@ BakeStore::BakeStore(const fs::path& file, const BakePlan& plan)
   if (is_empty(*db_)) {
     make(plan);
   } else {
-    require_same(*db_);
+    require_same(plan, *db_);
   }
   finished_ = says_finished(*db_);
 }
@@ -132,11 +132,15 @@ void BakeStore::make(const BakePlan& plan) {
   }
 }
 
-void BakeStore::require_same(const Database& db) const {
+void BakeStore::require_store_of(const BakePlan& plan, const fs::path& file) {
+  require_same(plan, Database(file, Database::Access::read, "the bake", "name a bake"));
+}
+
+void BakeStore::require_same(const BakePlan& plan, const Database& db) {
   require_format(db);
-  for (const auto& [name, value] : {std::pair<std::string, std::string>{"scene_sha256", plan_.scene_sha256},
-                                    {"triangles", std::to_string(plan_.triangles)},
-                                    {"question", plan_.question}}) {
+  for (const auto& [name, value] : {std::pair<std::string, std::string>{"scene_sha256", plan.scene_sha256},
+                                    {"triangles", std::to_string(plan.triangles)},
+                                    {"question", plan.question}}) {
     if (about(db, name) == value) continue;
     throw Error(ErrorCode::bad_argument, db.file() + ": holds another bake (" +
                                              (name == "question" ? "of other cells or options" : "of another scene") +
@@ -144,8 +148,8 @@ void BakeStore::require_same(const Database& db) const {
   }
   Statement count(db, "SELECT (SELECT count(*) FROM cells), (SELECT count(*) FROM nodes)");
   count.next();
-  if (count.number(0) != static_cast<std::int64_t>(plan_.cells.size()) ||
-      count.number(1) != static_cast<std::int64_t>(plan_.nodes.size()) - 1)
+  if (count.number(0) != static_cast<std::int64_t>(plan.cells.size()) ||
+      count.number(1) != static_cast<std::int64_t>(plan.nodes.size()) - 1)
     throw Error(ErrorCode::malformed, db.file() + ": cells are missing; the store was damaged");
 }
 
@@ -186,7 +190,7 @@ void BakeStore::commit(const std::vector<Done>& done) {
 
 std::uint64_t BakeStore::take_from(const fs::path& file) {
   const Database other(file, Database::Access::read, "the bake", "name a bake");
-  require_same(other);
+  require_same(plan_, other);
   std::vector<Done> taken;
   std::uint64_t cells = 0;
   const auto take = [&](PlaceKind kind, std::uint32_t index) {

@@ -63,12 +63,14 @@ class BakeStore {
   // Takes over what another store of the same bake holds and this one does not; returns how many cells. Throws Error bad_argument where it is of another
   // bake, malformed, file_unreadable.
   std::uint64_t take_from(const std::filesystem::path& file);
+  // Throws what take_from would where the file is no store of this bake.
+  static void require_store_of(const BakePlan& plan, const std::filesystem::path& file);
   // When all cells are there. The file is replaced as a whole; nothing may be asked afterwards.
   void finish();
 
  private:
   void make(const BakePlan& plan);
-  void require_same(const Database& db) const;
+  static void require_same(const BakePlan& plan, const Database& db);
 
   std::filesystem::path file_;
   BakePlan plan_;

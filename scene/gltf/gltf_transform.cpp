@@ -1,5 +1,7 @@
 #include "scene/gltf/gltf_transform.h"
 
+#include <gmpxx.h>
+
 #include <cmath>
 
 namespace clues::scene {
@@ -42,10 +44,19 @@ Point Transform::operator()(const Point& p) const {
   return q;
 }
 
+// Exactly: in doubles the determinant of a matrix that makes things very small is 0.
 bool Transform::mirrors() const {
-  const auto& [a, b, c] = rows;
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]) <
-         0;
+  std::array<std::array<mpq_class, 3>, 3> m;
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      if (!std::isfinite(rows[row][column])) return false;  // no point has a place
+      m[row][column] = rows[row][column];
+    }
+  }
+  const auto& [a, b, c] = m;
+  const mpq_class determinant =
+      a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+  return sgn(determinant) < 0;
 }
 
 Transform product(const Transform& outer, const Transform& inner) {

@@ -4,6 +4,7 @@
 
 #include "scene/levels/bsp_bounds.h"
 #include "scene/levels/bsp_scene.h"
+#include "scene/levels/bsp_solids.h"
 #include "scene/levels/rounding.h"
 
 namespace clues::scene {
@@ -70,7 +71,7 @@ std::vector<LevelCell> cells_of_level(const BspFile& level) {
       continue;
     }
     const auto& node = level.nodes[static_cast<std::size_t>(at)];
-    const HalfSpace behind{to_rational(level.planes[node.plane].normal), mpq_class(level.planes[node.plane].distance)};
+    const HalfSpace behind = half_space_of(level.planes[node.plane]);
     if (auto part = intersection(polytope, behind)) open.emplace_back(node.children[1], std::move(*part));
     if (auto part = intersection(polytope, behind.opposite())) open.emplace_back(node.children[0], std::move(*part));
   }

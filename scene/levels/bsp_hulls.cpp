@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "scene/levels/bsp_solids.h"
 #include "scene/levels/rounding.h"
 
 namespace clues::scene {
 namespace {
-
-HalfSpace half_space_of(const BspFile::Plane& plane) { return {to_rational(plane.normal), mpq_class(plane.distance)}; }
 
 // Rounded, with a wide margin and one for the rounding (below 2^-51 of the terms): who is within comes to the exact test.
 bool may_be_near(const BspFile::Plane& plane, const Point& p) {
@@ -23,32 +23,67 @@ bool may_be_near(const BspFile::Plane& plane, const Point& p) {
   return !(std::abs(height) > 2 * side_thickness + 0x1p-50 * terms);
 }
 
-// How far the side has to be moved inwards so that no drawing of it is behind it; in units of its normal.
-mpq_class depth_of_drawings(const BspFile::Plane& plane, const std::vector<const std::array<Point, 3>*>& drawn) {
-  const HalfSpace side = half_space_of(plane);
-  mpq_class depth;
-  for (const auto* triangle : drawn) {
-    if (!std::all_of(triangle->begin(), triangle->end(), [&](const Point& p) { return may_be_near(plane, p); }))
-      continue;
-    mpq_class lowest;
-    bool near = true;
-    for (const Point& p : *triangle) {
-      const mpq_class height = side.height(to_rational(p));
-      near = near && abs(height) <= mpq_class(side_thickness);
-      lowest = std::min(lowest, height);
-    }
-    if (near && -lowest > depth) depth = -lowest;
-  }
-  return depth;
+std::vector<HalfSpace> sides_of(const BspFile& level, const BspFile::Brush& brush) {
+  std::vector<HalfSpace> sides;
+  for (std::uint32_t i = 0; i < brush.sides.count; ++i)
+    sides.push_back(half_space_of(level.planes[level.sides[brush.sides.first + i].plane]));
+  return sides;
 }
 
-std::optional<Polytope> solid_of(const BspFile& level, const BspFile::Brush& brush, const Polytope& bounds,
-                                 const std::vector<mpq_class>& depths) {
+// Whether a point of the triangle is in the interior. It is cut by one side after the other; what is left is convex, so
+// its middle is in the interior where it does not lie in a side as a whole.
+bool enters(const std::array<Point, 3>& triangle, const std::vector<HalfSpace>& sides) {
+  std::vector<RationalPoint> left;
+  for (const Point& p : triangle) left.push_back(to_rational(p));
+  for (const auto& side : sides) {
+    std::vector<RationalPoint> part;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      const RationalPoint &a = left[i], &b = left[(i + 1) % left.size()];
+      const mpq_class at_a = side.height(a), at_b = side.height(b);
+      if (sgn(at_a) <= 0) part.push_back(a);
+      if (sgn(at_a) * sgn(at_b) >= 0) continue;
+      const mpq_class share = at_a / (at_a - at_b);
+      RationalPoint& crossing = part.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) crossing[axis] = a[axis] + share * (b[axis] - a[axis]);
+    }
+    left = std::move(part);
+  }
+  return !left.empty() && std::all_of(sides.begin(), sides.end(), [&](const HalfSpace& side) {
+    return std::any_of(left.begin(), left.end(), [&](const RationalPoint& p) { return sgn(side.height(p)) < 0; });
+  });
+}
+
+// How far each side has to be moved inwards so that no drawing of it is behind it, in units of its normal. What does not
+// enter the brush is none, however close to the plane of the side it lies: the hull cannot hide it.
+std::vector<mpq_class> depths_of_drawings(const BspFile& level, const BspFile::Brush& brush,
+                                          const std::vector<HalfSpace>& sides,
+                                          const std::vector<const std::array<Point, 3>*>& drawn) {
+  std::vector<mpq_class> depths(sides.size());
+  for (const auto* triangle : drawn) {
+    std::optional<bool> is_in;
+    for (std::uint32_t i = 0; i < brush.sides.count; ++i) {
+      const auto& plane = level.planes[level.sides[brush.sides.first + i].plane];
+      if (!std::all_of(triangle->begin(), triangle->end(), [&](const Point& p) { return may_be_near(plane, p); }))
+        continue;
+      mpq_class lowest;
+      bool near = true;
+      for (const Point& p : *triangle) {
+        const mpq_class height = sides[i].height(to_rational(p));
+        near = near && abs(height) <= mpq_class(side_thickness);
+        lowest = std::min(lowest, height);
+      }
+      if (!near || -lowest <= depths[i]) continue;
+      if (!is_in) is_in = enters(*triangle, sides);
+      if (*is_in) depths[i] = -lowest;
+    }
+  }
+  return depths;
+}
+
+std::optional<Polytope> solid_of(const std::vector<HalfSpace>& sides, const Polytope& bounds) {
   std::optional<Polytope> solid = bounds;
-  for (std::uint32_t i = 0; i < brush.sides.count && solid; ++i) {
-    HalfSpace side = half_space_of(level.planes[level.sides[brush.sides.first + i].plane]);
-    if (!depths.empty()) side.offset -= depths[i];
-    solid = intersection(*solid, side);
+  for (const auto& side : sides) {
+    if (solid) solid = intersection(*solid, side);
   }
   return solid;
 }
@@ -77,19 +112,19 @@ bool meets_box(const std::array<Point, 3>& t, const std::array<Point, 2>& box) {
 
 Hull hull_of_brush(const BspFile& level, const BspFile::Brush& brush, const Polytope& bounds,
                    const std::vector<std::array<Point, 3>>& drawn) {
-  auto solid = solid_of(level, brush, bounds, {});
+  auto sides = sides_of(level, brush);
+  auto solid = solid_of(sides, bounds);
   if (!solid) return {};
   const auto box = rough_box(*solid);
   std::vector<const std::array<Point, 3>*> near;
   for (const auto& triangle : drawn) {
     if (meets_box(triangle, box)) near.push_back(&triangle);
   }
-  std::vector<mpq_class> depths;
-  for (std::uint32_t i = 0; i < brush.sides.count; ++i) {
-    depths.push_back(depth_of_drawings(level.planes[level.sides[brush.sides.first + i].plane], near));
+  const auto depths = depths_of_drawings(level, brush, sides, near);
+  if (std::any_of(depths.begin(), depths.end(), [](const mpq_class& depth) { return sgn(depth) > 0; })) {
+    for (std::size_t i = 0; i < sides.size(); ++i) sides[i].offset -= depths[i];
+    solid = solid_of(sides, bounds);
   }
-  const bool shrinks = std::any_of(depths.begin(), depths.end(), [](const mpq_class& depth) { return sgn(depth) > 0; });
-  if (shrinks) solid = solid_of(level, brush, bounds, depths);
   if (!solid) return {};
   const auto corners = inner_vertices(*solid);
   if (!corners) return {};

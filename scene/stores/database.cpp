@@ -11,6 +11,18 @@ namespace clues::scene {
 namespace {
 
 constexpr int most_bytes = 100 << 20;  // of one value
+constexpr int most_links = 40;         // as many as the system follows
+
+// Where a link leads, be it to a file that is not there yet.
+std::filesystem::path followed(std::filesystem::path file) {
+  std::error_code error;
+  for (int i = 0; i < most_links && std::filesystem::is_symlink(file, error); ++i) {
+    const auto target = std::filesystem::read_symlink(file, error);
+    if (error) break;
+    file = file.parent_path() / target;  // which is the target where that is absolute
+  }
+  return file;
+}
 
 }  // namespace
 
@@ -111,8 +123,9 @@ std::string Statement::bytes(int column) const {
 
 bool Statement::null(int column) const { return sqlite3_column_type(statement_, column) == SQLITE_NULL; }
 
-void replace_database(const std::filesystem::path& file,
+void replace_database(const std::filesystem::path& name,
                       const std::function<void(const std::filesystem::path& copy)>& write) {
+  const std::filesystem::path file = followed(name);
   const std::filesystem::path copy = file.string() + ".finishing";
   std::error_code error;
   const auto remove_copy = [&] {

@@ -61,7 +61,8 @@ class Statement {
 };
 
 // Another database in the place of `file`: `write` makes it in the file beside it whose name it is given, and that is moved there. What
-// `write` throws is thrown on; then nothing is left beside `file`, which is as it was. Throws Error file_unwritable where it cannot be moved.
+// `write` throws is thrown on; then nothing is left beside `file`, which is as it was. Where `file` is a link, that stays,
+// and what it leads to is replaced. Throws Error file_unwritable where it cannot be moved.
 void replace_database(const std::filesystem::path& file,
                       const std::function<void(const std::filesystem::path& copy)>& write);
 

@@ -134,6 +134,20 @@ TEST(Gltf, TurnsTrianglesThatAreMirrored) {
   EXPECT_THAT(corners_of(read(made.text())), ElementsAre(ElementsAre(Point{0, 0, 0}, Point{0, 1, 0}, Point{-1, 0, 0})));
 }
 
+// In doubles the determinants are 0, or no numbers.
+TEST(Gltf, TurnsTrianglesThatAreMirroredAndVerySmallOrLarge) {
+  for (const double size : {1e-120, 1e120}) {
+    SCOPED_TRACE(size);
+    auto made = one_triangle();
+    made.json["nodes"] = {{{"mesh", 0}, {"scale", {-size, size, size}}}};
+    EXPECT_THAT(corners_of(read(made.text())),
+                ElementsAre(ElementsAre(Point{0, 0, 0}, Point{0, size, 0}, Point{-size, 0, 0})));
+    made.json["nodes"] = {{{"mesh", 0}, {"scale", {size, size, size}}}};
+    EXPECT_THAT(corners_of(read(made.text())),
+                ElementsAre(ElementsAre(Point{0, 0, 0}, Point{size, 0, 0}, Point{0, size, 0})));
+  }
+}
+
 TEST(Gltf, ReadsTheDefaultScene) {
   auto made = one_triangle();
   made.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {5, 0, 0}}, {"name", "far"}}};

@@ -1,0 +1,87 @@
+#include "scene/levels/bsp_solids.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "scene/levels/bsp_flags.h"
+#include "scene/levels/bsp_hulls.h"
+
+namespace clues::scene {
+namespace {
+
+RationalPoint minus(const RationalPoint& a, const RationalPoint& b) {
+  return {mpq_class(a[0] - b[0]), mpq_class(a[1] - b[1]), mpq_class(a[2] - b[2])};
+}
+RationalPoint cross(const RationalPoint& a, const RationalPoint& b) {
+  return {mpq_class(a[1] * b[2] - a[2] * b[1]), mpq_class(a[2] * b[0] - a[0] * b[2]),
+          mpq_class(a[0] * b[1] - a[1] * b[0])};
+}
+mpq_class dot(const RationalPoint& a, const RationalPoint& b) {
+  return mpq_class(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+
+struct Meeting {
+  mpq_class share;           // of the way from v to p, where the segment enters the solid
+  bool with_p_in_it = true;  // not on its boundary
+};
+
+// Of the segment with the closed solid; none where they do not meet.
+std::optional<Meeting> meeting(const std::vector<HalfSpace>& sides, const RationalPoint& v, const RationalPoint& p) {
+  Meeting found;
+  mpq_class leaves = 1;
+  for (const auto& side : sides) {
+    const mpq_class at_v = side.height(v), at_p = side.height(p);
+    if (sgn(at_v) > 0 && sgn(at_p) > 0) return std::nullopt;
+    if (sgn(at_p) >= 0) found.with_p_in_it = false;
+    if (sgn(at_v) <= 0 && sgn(at_p) <= 0) continue;
+    const mpq_class share = at_v / (at_v - at_p);
+    if (sgn(at_v) > 0) {
+      found.share = std::max(found.share, share);
+    } else {
+      leaves = std::min(leaves, share);
+    }
+  }
+  if (found.share > leaves) return std::nullopt;
+  return found;
+}
+
+// Whether q is in the prism over the triangle that reaches side_thickness to both sides.
+bool is_over(const std::array<Point, 3>& drawn, const RationalPoint& q) {
+  const std::array corners{to_rational(drawn[0]), to_rational(drawn[1]), to_rational(drawn[2])};
+  const RationalPoint normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+  const mpq_class height = dot(normal, minus(q, corners[0])), thickness = side_thickness;
+  if (height * height > thickness * thickness * dot(normal, normal)) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const RationalPoint edge = minus(corners[(i + 1) % 3], corners[i]);
+    if (sgn(dot(normal, cross(edge, minus(q, corners[i])))) < 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+HalfSpace half_space_of(const BspFile::Plane& plane) { return {to_rational(plane.normal), mpq_class(plane.distance)}; }
+
+SolidBrushes::SolidBrushes(const BspFile& level) {
+  const auto& world = level.models[0].brushes;
+  for (std::uint32_t i = 0; i < world.count; ++i) {
+    const auto& brush = level.brushes[world.first + i];
+    if (!is_structural(level.shaders[brush.shader])) continue;
+    auto& sides = brushes_.emplace_back();
+    for (std::uint32_t k = 0; k < brush.sides.count; ++k)
+      sides.push_back(half_space_of(level.planes[level.sides[brush.sides.first + k].plane]));
+  }
+}
+
+bool SolidBrushes::block(const RationalPoint& v, const RationalPoint& p, const std::array<Point, 3>& drawn) const {
+  return std::any_of(brushes_.begin(), brushes_.end(), [&](const std::vector<HalfSpace>& sides) {
+    const auto met = meeting(sides, v, p);
+    if (!met || met->share == 1) return false;
+    if (!met->with_p_in_it) return true;
+    RationalPoint entry = v;
+    for (std::size_t axis = 0; axis < 3; ++axis) entry[axis] += met->share * (p[axis] - v[axis]);
+    return !is_over(drawn, entry);
+  });
+}
+
+}  // namespace clues::scene
