@@ -129,6 +129,10 @@ void RefineChoice::check_retract(validate::Refinement wanted) const {
     throw Error(ErrorCode::bad_argument, "--retract is about backprojection; add --refine backprojection or both");
 }
 
+std::string problem_of_count(const std::string& word) {
+  return word.find('-') == std::string::npos ? "" : word + " is below 0";
+}
+
 void print(const std::string& text, std::FILE* to) {
   const auto shown = scene::printable_lines(text);
   std::fwrite(shown.data(), 1, shown.size(), to);

@@ -246,8 +246,10 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   auto& options = request->options;
   add_subject(*fuzz, request->subject,
               "What is tested: reference (default), another name, or a command line, see below");
-  fuzz->add_option("--seed", options.seed, "Which scenes (default 1)")->type_name("N");
-  fuzz->add_option("--first", options.first, "Number of the first scene of each generator (default 0)")->type_name("N");
+  fuzz->add_option("--seed", options.seed, "Which scenes (default 1)")->type_name("N")->check(problem_of_count);
+  fuzz->add_option("--first", options.first, "Number of the first scene of each generator (default 0)")
+      ->type_name("N")
+      ->check(problem_of_count);
   fuzz->add_option("--cases", request->cases, "Cases in all, those of earlier runs in DIR included")
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000'000}));
@@ -270,7 +272,8 @@ void add_fuzz_commands(CLI::App& program, int& status) {
       ->type_name("1/N");
   fuzz->add_option("--oracle", options.oracles, "Only this oracle; may be repeated")->type_name("NAME");
   fuzz->add_option("--errors", options.errors, "Stop at this many different findings; 0: never (default)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(problem_of_count);
   fuzz->add_flag("--require-coverage", options.require_coverage,
                  "Exit with 3 where something that the campaign must meet never occurred, however short it was");
   auto* shard = fuzz->add_option("--shard", request->shard,
@@ -320,7 +323,9 @@ void add_fuzz_commands(CLI::App& program, int& status) {
       ->required();
   add_subject(*shrink, folder->subject, "Ask this subject instead of the one that the finding names");
   add_run_subject(*shrink, folder->run_subject);
-  shrink->add_option("--max-steps", folder->steps, "Scenes put to the subject at most (default 600)")->type_name("N");
+  shrink->add_option("--max-steps", folder->steps, "Scenes put to the subject at most (default 600)")
+      ->type_name("N")
+      ->check(problem_of_count);
   shrink->add_option("--time", folder->time, "At most: 90 or 90s, 10m, 2h (default 60)")->type_name("T");
   shrink->footer(
       "DESCRIPTION\n"

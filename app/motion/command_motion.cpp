@@ -131,11 +131,6 @@ std::string table_row(const std::string& name, const Run& run) {
                      1000 * run.seconds / frames, 1000 * run.slowest);
 }
 
-// CLI11 takes -1 for the largest number of 64 digits.
-std::string problem_of_count(const std::string& word) {
-  return word.find('-') == std::string::npos ? "" : word + " is below 0";
-}
-
 int run_motion(const MotionRequest& request) {
   if (request.scene.empty())
     throw scene::Error(scene::ErrorCode::bad_argument, "SCENE is required (or check, or verify)");

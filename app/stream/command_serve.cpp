@@ -92,7 +92,7 @@ void add_serve_command(CLI::App& program, int& status) {
       ->add_option("--horizon", request->horizon, "Send what is seen from all cells within so many steps (default: 0)")
       ->type_name("N")
       ->check(CLI::Range(0, 1000));
-  command->add_option("--drop", request->drop, drop_help)->type_name("N");
+  command->add_option("--drop", request->drop, drop_help)->type_name("N")->check(problem_of_count);
   request->method.add_to(*command);
   command->footer(
       std::string(

@@ -287,7 +287,7 @@ void add_walk_command(CLI::App& program, int& status) {
       ->type_name("S")
       ->needs(link)
       ->check(number_between(0, 1e6));
-  command->add_option("--drop", request->drop, drop_help)->type_name("N");
+  command->add_option("--drop", request->drop, drop_help)->type_name("N")->check(problem_of_count);
   command->add_flag("--binary", request->binary, "Packets in place of lines, in the file and in the figures");
   request->method.add_to(*command);
   command->add_option("-o,--out", request->out, "The messages (docs/delta.md)")->type_name("FILE");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/common.h"
 #include "reference/delta/camera_route.h"
 #include "scene/messages/error.h"
 #include "scene/messages/shell_word.h"
@@ -37,7 +38,7 @@ void RouteChoice::add_to(CLI::App& command, const char* of_steps) {
       ->type_name("FILE")
       ->excludes(file);
   command.add_option("--steps", steps, of_steps)->type_name("N")->check(CLI::Range(1, 1000000));
-  command.add_option("--seed", seed, "Of the random steps (default: 1)")->type_name("N");
+  command.add_option("--seed", seed, "Of the random steps (default: 1)")->type_name("N")->check(problem_of_count);
 }
 
 std::string RouteChoice::as_options() const {

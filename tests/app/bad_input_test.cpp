@@ -227,5 +227,27 @@ TEST(BadInput, PvsThatIsNoList) {
   EXPECT_THAT(ran.err, AllOf(StartsWith("clues: error: "), HasSubstr("pvs.txt"), HasSubstr("2")));
 }
 
+// CLI11 takes -1 for the largest number of 64 digits: a seed that nobody gave, or a limit that is none.
+TEST(BadNumbers, BelowZeroAreRefused) {
+  const TestFolder folder;
+  folder.write("scene.off", triangle_off);
+  const std::vector<std::vector<std::string>> commands{
+      {"fuzz", "--cases", "1", "--seed"},
+      {"fuzz", "--cases", "1", "--first"},
+      {"fuzz", "--cases", "1", "--errors"},
+      {"shrink", "finding", "--max-steps"},
+      {"walk", "scene.off", "--cells", "grid:2x1x1:box:0,0,0,2,1,1", "--steps", "2", "--seed"},
+      {"walk", "scene.off", "--cells", "grid:2x1x1:box:0,0,0,2,1,1", "--steps", "2", "--drop"},
+      {"serve", "scene.off", "--cells", "grid:2x1x1:box:0,0,0,2,1,1", "--drop"}};
+  for (auto command : commands) {
+    const std::string option = command.back();
+    command.emplace_back("-1");
+    const auto ran = run_clues(command, folder.path());
+    EXPECT_EQ(ran.exit_code, 2) << command[0] << " " << option;
+    EXPECT_THAT(ran.err, AllOf(StartsWith("clues: error: "), HasSubstr(option + ": -1 is below 0"))) << command[0];
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"scene.off"}) << command[0] << " " << option;
+  }
+}
+
 }  // namespace
 }  // namespace clues::tests
