@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 
@@ -98,6 +99,28 @@ TEST(EngineFile, HoldsTheListsOfSkewCells) {
       run_clues({"bake", "scene.off", "--cells", "cells.txt", "-o", "s.bake", "--export", "engine"}, folder.path());
   ASSERT_EQ(ran.exit_code, 0) << ran.err;
   expect_lists_of_cells(folder, "s.bake", "engine");
+}
+
+// Normals of facets that are no doubles until they are scaled, and distances that are none at all.
+TEST(EngineFile, HoldsTheListsOfTinyAndHugeCells) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  for (const char* size : {"1e-310", "1e-300", "1e-165", "1e-110", "1e155", "1e160", "1e300", "1.7e308"}) {
+    SCOPED_TRACE(size);
+    const std::string s = size;
+    folder.write("cell.obj", "v 0 0 0\nv " + s + " 0 0\nv 0 " + s + " 0\nv 0 0 " + s + "\n");
+    folder.write("cells.txt", "only cell.obj\n");
+    const auto ran =
+        run_clues({"bake", "scene.off", "--cells", "cells.txt", "-o", s + ".bake", "--export", s}, folder.path());
+    ASSERT_EQ(ran.exit_code, 0) << ran.err;
+    const auto file = load(read_all(folder.path() / s / "engine.cluespvs"));
+    ASSERT_NE(file.pvs, nullptr);
+    const scene::FinishedBake baked(folder.path() / (s + ".bake"));
+    for (const auto& p : baked.plan().cells[0].points)
+      EXPECT_THAT(cells_at(file.pvs, p), testing::ElementsAre(0U)) << p[0] << " " << p[1] << " " << p[2];
+    const double quarter = std::strtod(size, nullptr) / 4;
+    EXPECT_THAT(cells_at(file.pvs, {quarter, quarter, quarter}), testing::ElementsAre(0U));
+  }
 }
 
 TEST(EngineFile, HoldsTheLeavesOfALevel) {

@@ -88,7 +88,7 @@ void judge(const fuzz::Case& c, std::size_t samples, Judged& judged) {
     const auto point_in_cell = [&](int spread) {
       std::vector<double> weights(scene.cell.vertices.size());
       for (double& w : weights) w = std::ldexp(random.between(1, 64), -5 * random.between(0, spread));
-      return scene.cell.combination(weights);
+      return scene.cell.combination({weights.begin(), weights.end()});
     };
     const auto view_points = apex.views_of_cell(point_in_cell(0));
     std::vector<Exact3> directions;

@@ -324,6 +324,25 @@ TEST(LocalMap, AGrooveThatStandsOnACornerOfTheCellNeedsNoFallback) {
   EXPECT_EQ(map.counts().conservative_fallbacks + map.conservative_labels(), 0U);
 }
 
+// Only the tip of the cell is in front of these surfaces, and it was looked for down to 2^-992 of the cell: walks ended undecided, all was called visible, and
+// wedges of that made wedges without end (EngineFile.HoldsTheListsOfTinyAndHugeCells).
+TEST(LocalMap, FindsTheTipOfAHugeCellThatIsInFrontOfASurface) {
+  const auto cell = exact::ConvexCell::from_doubles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  const auto counts = [&](int smaller) {
+    scene::TriangleMesh mesh;
+    mesh.points = {{-6, -4, 2}, {6, -4, 2}, {0, 8, 2}, {-20, -20, 4}, {20, -20, 4}, {20, 20, 4}, {-20, 20, 4}};
+    for (auto& p : mesh.points) {
+      for (double& x : p) x = std::ldexp(x, -smaller);
+    }
+    mesh.triangles = {{0, 1, 2}, {3, 5, 4}, {3, 6, 5}};
+    mesh.face_of = {0, 1, 2};
+    return fast_map(mesh, cell, false).counts();
+  };
+  const LocalMapCounts small = counts(300), least = counts(1030);
+  EXPECT_EQ(least.conservative_fallbacks, small.conservative_fallbacks);
+  EXPECT_EQ(least.csv, small.csv);
+}
+
 TEST(LocalMap, SaysWhichBoxesItsPiecesMayTouch) {
   scene::TriangleMesh mesh;
   mesh.points = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};

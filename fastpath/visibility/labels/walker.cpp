@@ -56,15 +56,22 @@ const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::
   const auto& s = scene_->cell.vertices;
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (!good(s[i])) continue;
-    // Closer and closer to the vertex, by 2^-k; where doubles are too coarse for that, exactly.
-    constexpr int kSteady = 20, kLevels = kSteady + 5;
+    // Closer and closer to the vertex, by 2^-k; where doubles are too coarse for that, exactly, and as near as planes of doubles may come to it (walker.h).
+    constexpr int kSteady = 20, kLevels = kSteady + 7;
     const auto place = [&](int level) {
       const int k = level < kSteady ? 2 + 3 * level : 62 << (level - kSteady);
-      std::vector<double> weights(s.size());
-      for (std::size_t j = 0; j < s.size(); ++j)
-        weights[j] = std::ldexp(static_cast<double>(1 + mix(seed * 31 + j) % 61), j == i ? 0 : -k);
-      weights[i] = 61;
-      return k < 40 ? scene_->cell.interior_point(weights) : scene_->cell.combination(weights);
+      const auto part = [&](std::size_t j) { return static_cast<double>(1 + mix(seed * 31 + j) % 61); };
+      if (k < 40) {
+        std::vector<double> weights(s.size());
+        for (std::size_t j = 0; j < s.size(); ++j) weights[j] = j == i ? 61 : std::ldexp(part(j), -k);
+        return scene_->cell.interior_point(weights);
+      }
+      std::vector<Rational> weights(s.size());
+      for (std::size_t j = 0; j < s.size(); ++j) {
+        weights[j] = j == i ? 61 : part(j);
+        if (j != i) mpq_div_2exp(weights[j].get_mpq_t(), weights[j].get_mpq_t(), static_cast<mp_bitcnt_t>(k));
+      }
+      return scene_->cell.combination(weights);
     };
     if (const auto v = near_enough(kLevels, place, good)) return pool.keep(*v);
   }

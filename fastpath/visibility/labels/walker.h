@@ -85,7 +85,7 @@ class Walker {
   };
   int height_sign(const Surface& s, const ExactPoint& x) const;
   // A point of int V strictly in front of the surface (and of `also`, if given and possible); none if V has none in front of the first, or it is not found
-  // within 2^-992 of a vertex.
+  // within 2^-3968 of a vertex. What is in front of a plane of doubles is: heights over it are multiples of 2^-3222, and below 2^400 in the standard range.
   const ExactPoint* in_front(const Surface& on, const Surface* also, std::uint64_t seed, Pool& pool) const;
   enum class Both : std::uint8_t { apart, touch, meet };  // V, or the closed V only, with the space in front of both
   using Chain = std::array<std::uint32_t, 2>;             // the ends of edges that are connected

@@ -137,7 +137,7 @@ ExactPoint LocalCell::interior_point(const std::vector<double>& weights) const {
     ExactPoint p(sum);
     if (interior_contains(p)) return p;
   }
-  return combination(weights);
+  return combination(std::vector<Rational>(weights.begin(), weights.end()));
 }
 
 std::optional<ExactPoint> LocalCell::foot(const ExactPoint& p) const {
@@ -160,13 +160,12 @@ std::optional<ExactPoint> LocalCell::foot(const ExactPoint& p) const {
   return ExactPoint(x);
 }
 
-ExactPoint LocalCell::combination(const std::vector<double>& weights) const {
+ExactPoint LocalCell::combination(const std::vector<Rational>& weights) const {
   Exact3 sum{0, 0, 0};
   Rational total = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const Rational w(weights[i]);
-    sum = sum + w * vertices[i].exact();
-    total += w;
+    sum = sum + weights[i] * vertices[i].exact();
+    total += weights[i];
   }
   return ExactPoint(Rational(1 / total) * sum);
 }

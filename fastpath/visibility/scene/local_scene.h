@@ -45,7 +45,7 @@ struct LocalCell {
   // The point of a flat cell or a segment that is nearest to p, if that is in int V.
   std::optional<ExactPoint> foot(const ExactPoint& p) const;
   // Exactly that combination.
-  ExactPoint combination(const std::vector<double>& weights) const;
+  ExactPoint combination(const std::vector<Rational>& weights) const;
 };
 
 struct LocalOrigin {
