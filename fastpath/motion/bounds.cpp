@@ -90,7 +90,9 @@ bool fit(const Row& a, const Row& b, const Row& c) { return fits(a) && fits(b) &
 }  // namespace
 
 BoundThresholds::BoundThresholds(const scene::MotionThresholds& t)
-    : kappa(t.kappa), secant(std::sqrt(1 + t.kappa * t.kappa) * kUp), sine(std::sqrt(t.sigma) * kUp) {}
+    : kappa(t.kappa), secant(std::sqrt(1 + t.kappa * t.kappa) * kUp), sine(std::sqrt(t.sigma) * kUp) {
+  require_thresholds(t);
+}
 
 double facing_bound(const Row& a, const Row& b, const Row& c) {
   if (!fit(a, b, c)) return 0;

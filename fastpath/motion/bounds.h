@@ -18,6 +18,7 @@ inline constexpr double kDown = 1 - 0x1p-40, kUp = 1 + 0x1p-40, kInfinity = std:
 
 // Thresholds as the bounds need them.
 struct BoundThresholds {
+  // Throws scene::Error non_finite, and bad_argument where sigma is no square of a sine.
   explicit BoundThresholds(const scene::MotionThresholds& t);
   double kappa, secant;  // secant >= sqrt(1 + kappa^2) = 1 / sin(phi)
   double sine;           // >= sqrt(sigma)

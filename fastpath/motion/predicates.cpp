@@ -31,15 +31,19 @@ Answer separation_filtered(const Row& p, const Row& a, const Row& b, double sine
   return low > need * (1 + 0x1p-40) ? Answer::yes : Answer::unsure;
 }
 
-Constraints::Constraints(const scene::MotionThresholds& thresholds)
-    : thresholds_(thresholds), sine_(std::sqrt(thresholds.sigma) * (1 + 0x1p-50)) {
-  require_float_rules();
+void require_thresholds(const scene::MotionThresholds& thresholds) {
   if (!std::isfinite(thresholds.kappa) || !std::isfinite(thresholds.sigma)) {
     throw scene::Error(scene::ErrorCode::non_finite, "motion: a threshold is not finite");
   }
   if (thresholds.sigma < 0 || thresholds.sigma > 1) {
     throw scene::Error(scene::ErrorCode::bad_argument, "motion: sigma = sin^2(eps) has to be between 0 and 1");
   }
+}
+
+Constraints::Constraints(const scene::MotionThresholds& thresholds)
+    : thresholds_(thresholds), sine_(std::sqrt(thresholds.sigma) * (1 + 0x1p-50)) {
+  require_float_rules();
+  require_thresholds(thresholds);
   if (std::fabs(thresholds.kappa) > 0x1p50) {
     throw scene::Error(scene::ErrorCode::bad_argument, "motion: kappa = cot(phi) is out of range; at most 2^50");
   }

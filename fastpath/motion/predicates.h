@@ -67,9 +67,12 @@ struct Seen {
   const Row* row;
 };
 
+// Finite, and sigma from 0 to 1: throws scene::Error non_finite, bad_argument.
+void require_thresholds(const scene::MotionThresholds& thresholds);
+
 class Constraints {
  public:
-  // Throws scene::Error for thresholds that are not finite, and a sigma outside of [0, 1].
+  // Throws as require_thresholds(), and bad_argument for a kappa beyond 2^50.
   explicit Constraints(const scene::MotionThresholds& thresholds);
 
   const scene::MotionThresholds& thresholds() const { return thresholds_; }

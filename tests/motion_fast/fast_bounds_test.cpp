@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "exact/motion/compare_bounds.h"
 #include "fastpath/motion/bounds.h"
 #include "fastpath/motion/predicates.h"
+#include "scene/messages/error.h"
 #include "tests/motion_fast/exact_checks.h"
 
 namespace clues::tests {
@@ -103,6 +106,44 @@ TEST(FastBounds, FacingAndEdgesAreNeverAboveTheExactOnesAndHardlyBelow) {
     EXPECT_GT(branches[branch][0], 40) << static_cast<int>(branch);
     EXPECT_GT(branches[branch][1], branches[branch][0] * 3 / 4) << static_cast<int>(branch);
   }
+}
+
+// Where the square of kappa is no double any more, no bound is left, but none is too large.
+TEST(FastBounds, OfTheGreatestCotangentsAreNotAboveTheExactOnes) {
+  fuzz::Random random(3);
+  int bounds = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const Scene scene = scene_of(random);
+    MotionThresholds thresholds;
+    thresholds.kappa = std::array{1e16, -1e16, 1e60, 1e150, 1e200, 1e308}[static_cast<std::size_t>(k % 6)];
+    const auto rows = scene.rows();
+    const double e = edge_bound(rows[0], rows[1], BoundThresholds(thresholds));
+    if (!(e > 0 && std::isfinite(e))) continue;
+    ++bounds;
+    ASSERT_GE(exact::compare_edge_bound(scene.s[0], scene.s[1], exact::exact_viewpoint(scene.v),
+                                        exact::ExactThresholds(thresholds), squared(e)),
+              0)
+        << k;
+  }
+  EXPECT_GT(bounds, 700);
+}
+
+// With one that is no number every bound was 0, or that of the other constraints, and nobody was told.
+TEST(FastBounds, WhatIsNoThresholdIsRefused) {
+  const auto code_of = [](double kappa, double sigma) -> std::optional<scene::ErrorCode> {
+    try {
+      const BoundThresholds limits({kappa, sigma, false});
+    } catch (const scene::Error& e) {
+      return e.code();
+    }
+    return std::nullopt;
+  };
+  const double inf = kInfinity, nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double kappa : {inf, -inf, nan}) EXPECT_EQ(code_of(kappa, 4e-14), scene::ErrorCode::non_finite) << kappa;
+  for (const double sigma : {inf, nan}) EXPECT_EQ(code_of(2000, sigma), scene::ErrorCode::non_finite) << sigma;
+  for (const double sigma : {-1e-300, 1.5}) EXPECT_EQ(code_of(2000, sigma), scene::ErrorCode::bad_argument) << sigma;
+  for (const double sigma : {0.0, 5e-324, 1.0}) EXPECT_EQ(code_of(2000, sigma), std::nullopt) << sigma;
+  for (const double kappa : {0.0, -2.0, 1e308}) EXPECT_EQ(code_of(kappa, 4e-14), std::nullopt) << kappa;
 }
 
 // Viewpoints on the sphere just below the bound: none violates. The most adverse direction first: against the gradient.
