@@ -201,6 +201,7 @@ constexpr const char* scripted_server = R"sh(
         echo "{\"end\":$n}" ;;
     esac
   done
+  [ "$how" = last ] && echo rubbish
   [ "$how" = killed ] && kill -9 $$
   [ "$how" = status ] && exit 3
   exit 0
@@ -234,6 +235,7 @@ TEST(ScriptedServers, EachAnswerEntersItsCellOnce) {
 TEST(ScriptedServers, NothingIsSaidThatWasNotAskedFor) {
   EXPECT_NE(run_scripted("early").failed, "");
   EXPECT_NE(run_scripted("trail").failed, "");
+  expect_failed("last", "what was not asked for");
 }
 
 TEST(ScriptedServers, TheProgramEndsWithItsInput) {

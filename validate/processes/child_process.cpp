@@ -157,6 +157,13 @@ void ChildProcess::read_errors() {
   if (errors_.size() > 2 * kept_errors) errors_.erase(0, errors_.size() - kept_errors);
 }
 
+// That there is something is of interest, not what it is.
+void ChildProcess::read_last() {
+  std::string last;
+  read_some(out_, last);
+  if (read_.empty()) read_ = std::move(last);
+}
+
 // Waits for something to happen on the pipes, and does what can be done. False: the deadline is over.
 bool ChildProcess::pump(Clock::time_point deadline, std::size_t most_bytes) {
   std::array<pollfd, 4> polled{{{out_, POLLIN, 0}, {err_, POLLIN, 0}, {in_, POLLOUT, 0}, {keeper_fd_, POLLIN, 0}}};
@@ -234,14 +241,14 @@ ChildProcess::End ChildProcess::finish(Clock::time_point deadline) {
     std::array<pollfd, 3> polled{{{keeper_fd_, POLLIN, 0}, {out_, POLLIN, 0}, {err_, POLLIN, 0}}};
     const int ready = poll(polled.data(), polled.size(), late ? 0 : milliseconds_until(deadline));
     if (ready <= 0) continue;
-    std::string ignored;
-    if (polled[1].revents != 0) read_some(out_, ignored);
+    if (polled[1].revents != 0) read_last();
     if (polled[2].revents != 0) read_errors();
     ended = polled[0].revents != 0;
   }
   reap(!ended);
-  // Its last words may still be in the pipe, which holds no more than this.
+  // Its last words may still be in the pipes, which hold no more than this.
   constexpr int most_reads = 64;
+  for (int i = 0; i < most_reads && out_ >= 0 && read_.empty(); ++i) read_last();
   std::size_t before = errors_.size() + 1;
   for (int i = 0; i < most_reads && err_ >= 0 && errors_.size() != before; ++i) {
     before = errors_.size();

@@ -45,7 +45,7 @@ class ChildProcess {
   // What it has written, at least a byte. `closed`: there is nothing more.
   Io read_bytes(std::string& bytes, Clock::time_point deadline);
 
-  // Closes its input, waits for its end, and kills it at the deadline; what it started, in any case.
+  // Closes its input, waits for its end, and kills it at the deadline; what it started, in any case. What it writes meanwhile counts as unread output.
   End finish(Clock::time_point deadline);
 
   // Whether it wrote something that no read_line has taken.
@@ -57,6 +57,7 @@ class ChildProcess {
  private:
   bool pump(Clock::time_point deadline, std::size_t most_bytes);
   void read_errors();
+  void read_last();
   void reap(bool killed_here);
   void close_all();
 

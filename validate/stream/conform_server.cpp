@@ -77,6 +77,7 @@ class ServerPipe {
   void finish() {
     require_silence();
     const auto end = program_.finish(ChildProcess::Clock::now() + time_);
+    require_silence();
     if (end.killed_here || end.killed_keeper || end.exit_code != 0)
       throw NoAnswer{"when there was nothing more to answer the program " + describe(end) + "; " +
                      program_.stderr_tail()};
@@ -159,7 +160,6 @@ class ServerTrial {
       resume(server, route_, have);
       ++run_.resumed;
     }
-    resume(server, route_, all().size());  // once more: what stood behind the last answer comes before this one
     server.finish();
     for (const std::uint64_t have : std::set<std::uint64_t>{1, (1 + all().size()) / 2, all().size()}) {
       go_on_anew(have);
