@@ -33,11 +33,25 @@ Box on(const std::array<Point, 3>& triangle, const std::array<Interval, 3>& weig
   return out;
 }
 
+// The largest component becomes 1 to 2: products of four lengths would vanish below 2^-268, and be infinite above 2^255.
+void scale_together(const std::array<Point*, 3>& vectors) {
+  double largest = 0;
+  for (const Point* v : vectors) {
+    for (const double x : *v) largest = std::max(largest, std::abs(x));
+  }
+  if (!(largest > 0) || !std::isfinite(largest)) return;
+  const int exponent = std::ilogb(largest);
+  for (Point* v : vectors) {
+    for (double& x : *v) x = std::ldexp(x, -exponent);
+  }
+}
+
 // Weights of a point of the triangle that is near to p; any will do, so that rounding is no harm.
 std::array<double, 2> near_weights(const Point& p, const std::array<Point, 3>& t) {
   const auto minus = [](const Point& a, const Point& b) { return Point{a[0] - b[0], a[1] - b[1], a[2] - b[2]}; };
   const auto dot = [](const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  const Point u = minus(t[1], t[0]), v = minus(t[2], t[0]), w = minus(p, t[0]);
+  Point u = minus(t[1], t[0]), v = minus(t[2], t[0]), w = minus(p, t[0]);
+  scale_together({&u, &v, &w});
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), uw = dot(u, w), vw = dot(v, w);
   const double det = uu * vv - uv * uv;
   std::array<double, 2> best{0, 0};

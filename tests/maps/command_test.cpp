@@ -80,6 +80,21 @@ scene::TriangleMesh scaled_ball(double by) {
   return mesh;
 }
 
+// Up to where squares of distances are doubles no more.
+TEST(MapsCommand, ReachesAnErrorInSmallAndLargeUnits) {
+  for (const double unit : {0x1p-490, 0x1p490}) {
+    const tests::TestFolder folder;
+    folder.write("ball.off", scene::to_off_text(scaled_ball(unit)));
+    const auto ran = tests::run_clues(
+        {"maps", "ball.off", "--base", "20", "--adaptive", "5", "--remesh", "r.ply", "-o", "b.maps", "--proof", "p"},
+        folder.path());
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    const auto judged =
+        tests::run_clues({"maps", "verify", "b.maps", "--remesh", "r.ply", "--proof", "p"}, folder.path());
+    EXPECT_EQ(judged.exit_code, 0) << judged.out << judged.err;
+  }
+}
+
 // Near the largest double positions became infinite; the box is infinitely wide there, and a part of that was "reached".
 TEST(MapsCommand, WritesFinitePositionsOfHugeCoordinates) {
   const tests::TestFolder folder;
@@ -112,6 +127,7 @@ TEST(MapsCommand, RefusesAndWritesNothing) {
   folder.write("strip.off", scene::to_off_text(fuzz::moebius(5)));
   folder.write("huge.off", scene::to_off_text(scaled_ball(0x1p1020)));
   folder.write("point.off", scene::to_off_text(scaled_ball(0)));
+  folder.write("tiny.off", scene::to_off_text(scaled_ball(0x1p-1040)));
   const auto refused = [&](std::vector<std::string> words, const std::string& why) {
     words.insert(words.begin(), "maps");
     const auto ran = tests::run_clues(words, folder.path());
@@ -133,7 +149,8 @@ TEST(MapsCommand, RefusesAndWritesNothing) {
   refused({"huge.off", "--adaptive", "5", "--remesh", "r.ply"}, "coordinates below 2^500");
   refused({"huge.off", "--uniform", "1", "--remesh", "r.glb"}, "glTF has floats");
   refused({"point.off", "--adaptive", "5", "--remesh", "r.ply"}, "the longest side of the box is 0");
-  EXPECT_THAT(folder.names(), ElementsAre("ball.off", "huge.off", "point.off", "strip.off"));
+  refused({"tiny.off", "--adaptive", "5", "--remesh", "r.ply"}, "boxes above 2^-500");
+  EXPECT_THAT(folder.names(), ElementsAre("ball.off", "huge.off", "point.off", "strip.off", "tiny.off"));
   EXPECT_EQ(tests::read_all(folder.path() / "ball.off"), ball);
 }
 

@@ -118,6 +118,28 @@ TEST(Remesh, IsAsNearAsItSays) {
   }
 }
 
+// Products of four lengths vanish below 2^-268 and are infinite above 2^255: the nearest point of a triangle was taken for its first corner, no error was ever
+// reached, and every base triangle was cut as often as can be, for hours.
+TEST(Remesh, ReachesTheSameInAnyUnitOfLength) {
+  const auto adaptive = [](int exponent) {
+    auto h = test::hierarchy_over(fuzz::ball(6), 40);
+    for (Point& p : h.input.points) {
+      for (double& x : p) x = std::ldexp(x, exponent);
+    }
+    reference::RemeshOptions options;
+    options.error = std::ldexp(0.1, exponent);
+    options.most = 4;
+    return reference::remeshed(h, options);
+  };
+  const auto plain = adaptive(0);
+  EXPECT_LE(plain.error(), 0.1);
+  for (const int exponent : {-490, -300, -270, 270, 300, 490}) {
+    const auto other = adaptive(exponent);
+    EXPECT_EQ(other.mesh.triangles, plain.mesh.triangles) << exponent;
+    EXPECT_NEAR(std::ldexp(other.error(), -exponent), plain.error(), 1e-6) << exponent;
+  }
+}
+
 TEST(Remesh, ReachesWhatIsAskedAndIsClosed) {
   const auto h = test::hierarchy_over(fuzz::ball(10), 20);
   std::size_t before = 0;
