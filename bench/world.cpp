@@ -28,6 +28,7 @@ struct Settings {
   std::size_t cells = 6;
   int rounds = 3;
   bool exact = false;
+  std::string only;  // families whose name begins so
   std::vector<std::string> files;
 };
 
@@ -77,8 +78,9 @@ void measure(const clues::bench::WorldScene& scene, const Settings& settings) {
 
 [[noreturn]] void usage() {
   fmt::print(stderr,
-             "usage: clues_bench_world [--threads N] [--cells N] [--rounds N] [--exact] [MESH...]\n"
-             "Without meshes: the generated families. Cells (default 6 a mesh) stand beside walls.\n");
+             "usage: clues_bench_world [--threads N] [--cells N] [--rounds N] [--exact] [--only NAME] [MESH...]\n"
+             "Without meshes: the generated families, or those whose name begins with NAME. Cells (default 6 a mesh)\n"
+             "stand beside walls.\n");
   std::exit(2);
 }
 
@@ -99,6 +101,8 @@ Settings settings_of(int count, char** words) {
       settings.rounds = number();
     } else if (word == "--exact") {
       settings.exact = true;
+    } else if (word == "--only" && i + 1 < count) {
+      settings.only = words[++i];
     } else if (word.starts_with("--")) {
       usage();
     } else {
@@ -126,12 +130,17 @@ int main(int count, char** words) {
     measure(scene, settings);
   }
   if (!settings.files.empty()) return 0;
+  using clues::bench::WorldScene;
+  const auto measure_family = [&](const std::string& name, WorldScene (*make)(std::uint32_t, std::uint64_t),
+                                  std::uint32_t size) {
+    if (name.starts_with(settings.only)) measure(make(size, kSeed), settings);
+  };
   for (const std::uint32_t scale : {1U, 2U}) {
-    measure(clues::bench::turned_boxes(200 * scale, kSeed), settings);
-    measure(clues::bench::axis_grid(10 * scale, kSeed), settings);
-    measure(clues::bench::honeycomb(16 * scale, kSeed), settings);
-    measure(clues::bench::blinds(25 * scale, kSeed), settings);
-    measure(clues::bench::terrain(10 * scale, kSeed), settings);
-    measure(clues::bench::loose_triangles(100 * scale, kSeed), settings);
+    measure_family("turned boxes", clues::bench::turned_boxes, 200 * scale);
+    measure_family("axis grid", clues::bench::axis_grid, 10 * scale);
+    measure_family("honeycomb", clues::bench::honeycomb, 16 * scale);
+    measure_family("blinds", clues::bench::blinds, 25 * scale);
+    measure_family("terrain", clues::bench::terrain, 10 * scale);
+    measure_family("loose triangles", clues::bench::loose_triangles, 100 * scale);
   }
 }

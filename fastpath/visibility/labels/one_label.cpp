@@ -16,29 +16,12 @@ std::array<IntervalBox, 3> to_intervals(const Corners& t) {
   return {to_intervals(t[0]), to_intervals(t[1]), to_intervals(t[2])};
 }
 
+std::array<Around, 3> around(const std::array<IntervalBox, 3>& t) { return {Around(t[0]), Around(t[1]), Around(t[2])}; }
+
 }  // namespace
 
 OneLabel::OneLabel(const Walker& walker, const PieceSet& pieces, const LeftOut& left_out)
-    : walker_(walker), pieces_(pieces), left_out_(left_out) {
-  for (const ValidPiece& p : pieces.pieces()) piece_bounds_.push_back(bounds_of(p));
-}
-
-OneLabel::PieceBounds OneLabel::bounds_of(const ValidPiece& piece) {
-  PieceBounds out;
-  const IntervalBox n = piece.on->plane->normal_approximate(), c = piece.on->center->approximate();
-  out.plane = {n, c};
-  const auto left_of = [&](const ExactPoint& a, const ExactPoint& b) {
-    out.inward.push_back({cross(n, b.approximate() - a.approximate()), a.approximate()});
-  };
-  left_of(*piece.on->center, *piece.ray0);
-  left_of(*piece.ray1, *piece.on->center);
-  if (piece.near0) left_of(*piece.near1, *piece.near0);
-  if (piece.blocker >= 0) {
-    const Blocker& b = piece.on->blockers[static_cast<std::size_t>(piece.blocker)];
-    left_of(*b.u, *b.w);
-  }
-  return out;
-}
+    : walker_(walker), pieces_(pieces), left_out_(left_out) {}
 
 SetLabel OneLabel::of_uncut(std::span<const IntervalBox> hull, const ExactPoint& p) const {
   Pool pool;
@@ -68,11 +51,11 @@ SetLabel OneLabel::of_beside(const Corners& triangle, const Box& about) const {
   const std::array<IntervalBox, 3> corner = to_intervals(triangle);
   const IntervalBox all = hull(hull(corner[0], corner[1]), corner[2]), place = to_intervals(about);
   const auto touches_across = [&](const auto& what) {
-    return [&](std::size_t i) { return piece_touches(i, what) && !piece_in_plane(i, triangle); };
+    return [&](std::size_t i) { return pieces_.bounds(i).may_touch(what) && !piece_in_plane(i, triangle); };
   };
-  if (pieces_.any([&](const IntervalBox& b) { return overlap(b, all); }, touches_across(corner)))
+  if (pieces_.any([&](const IntervalBox& b) { return overlap(b, all); }, touches_across(around(corner))))
     return SetLabel::visible;
-  if (pieces_.any([&](const IntervalBox& b) { return overlap(b, place); }, touches_across(place)))
+  if (pieces_.any([&](const IntervalBox& b) { return overlap(b, place); }, touches_across(Around(place))))
     return SetLabel::elsewhere;
   return of_uncut(corner, ExactPoint(middle_of(about)));
 }
@@ -82,38 +65,19 @@ bool OneLabel::piece_in_plane(std::size_t piece, const Corners& triangle) const 
   return std::all_of(triangle.begin(), triangle.end(), [&](const Point& p) { return h.side(ExactPoint(p)) == 0; });
 }
 
-bool OneLabel::piece_touches(std::size_t i, const IntervalBox& box) const {
-  const PieceBounds& piece = piece_bounds_[i];
-  return may_be_zero(piece.plane.at(box)) && std::all_of(piece.inward.begin(), piece.inward.end(),
-                                                         [&](const HalfSpace& h) { return h.at(box).sup() >= 0; });
-}
-
-// Apart if all corners are strictly on one side of the piece's plane, or strictly outside one of its bounds.
-bool OneLabel::piece_touches(std::size_t i, const std::array<IntervalBox, 3>& corner) const {
-  const PieceBounds& piece = piece_bounds_[i];
-  bool above = true, below = true;
-  for (const IntervalBox& c : corner) {
-    const Interval x = piece.plane.at(c);
-    above &= x.inf() > 0;
-    below &= x.sup() < 0;
-  }
-  if (above || below) return false;
-  return std::none_of(piece.inward.begin(), piece.inward.end(), [&](const HalfSpace& h) {
-    return std::all_of(corner.begin(), corner.end(), [&](const IntervalBox& c) { return h.at(c).sup() < 0; });
-  });
-}
-
 bool OneLabel::piece_may_touch(const IntervalBox& box) const {
+  const Around all(box);
   return pieces_.any([&](const IntervalBox& b) { return overlap(b, box); },
-                     [&](std::size_t i) { return piece_touches(i, box); });
+                     [&](std::size_t i) { return pieces_.bounds(i).may_touch(all); });
 }
 
 bool OneLabel::piece_may_touch(const Corners& triangle) const {
   const std::array<IntervalBox, 3> corner = to_intervals(triangle);
+  const std::array<Around, 3> corners = around(corner);
   const IntervalBox box = hull(hull(corner[0], corner[1]), corner[2]);
   const IntervalBox normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
   return pieces_.any([&](const IntervalBox& b) { return overlap(b, box) && may_be_zero(dot(normal, b - corner[0])); },
-                     [&](std::size_t i) { return piece_touches(i, corner); });
+                     [&](std::size_t i) { return pieces_.bounds(i).may_touch(corners); });
 }
 
 }  // namespace clues::fastpath

@@ -60,20 +60,11 @@ class OneLabel {
   std::uint64_t unresolved() const { return unresolved_; }
 
  private:
-  // A piece as a part of its plane.
-  struct PieceBounds {
-    HalfSpace plane;
-    std::vector<HalfSpace> inward;
-  };
-  static PieceBounds bounds_of(const ValidPiece& piece);
-  bool piece_touches(std::size_t piece, const IntervalBox& box) const;
-  bool piece_touches(std::size_t piece, const std::array<IntervalBox, 3>& corner) const;
   bool piece_in_plane(std::size_t piece, const Corners& triangle) const;
 
   const Walker& walker_;
   const PieceSet& pieces_;
   const LeftOut& left_out_;
-  std::vector<PieceBounds> piece_bounds_;
   mutable std::atomic<std::uint64_t> unresolved_{0};
 };
 

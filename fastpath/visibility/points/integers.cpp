@@ -10,16 +10,6 @@ namespace clues::fastpath {
 
 namespace {
 
-using IntegerVector = Vec3<Integer>;
-
-// v / (w 2^e), w > 0.
-struct Homogeneous {
-  IntegerVector v;
-  Integer w;
-  int e = 0;
-  bool whole = false;  // w is 1
-};
-
 Integer imported(const mpz_class& z) {
   Integer out;
   const mpz_srcptr raw = z.get_mpz_t();
@@ -43,7 +33,7 @@ std::pair<std::int64_t, int> parts(double x) {
   return {static_cast<std::int64_t>(std::ldexp(m, 53)), e - 53};
 }
 
-Homogeneous homogeneous(const ExactPoint& p) {
+Homogeneous homogeneous_of(const ExactPoint& p) {
   Homogeneous out;
   if (p.is_double()) {
     const Vec3<Interval>& at = p.approximate();
@@ -75,7 +65,7 @@ Homogeneous homogeneous(const ExactPoint& p) {
   return out;
 }
 
-unsigned bits(const IntegerVector& v) {
+unsigned bits(const Integer3& v) {
   unsigned most = 0;
   for (const Integer* c : {&v.x, &v.y, &v.z}) {
     if (c->sign() != 0) most = std::max(most, static_cast<unsigned>(msb(abs(*c))) + 1);
@@ -84,7 +74,7 @@ unsigned bits(const IntegerVector& v) {
 }
 
 // Without the common power of two.
-void shorten(IntegerVector& v) {
+void shorten(Integer3& v) {
   unsigned zeros = ~0U;
   for (const Integer* c : {&v.x, &v.y, &v.z}) {
     if (c->sign() != 0) zeros = std::min(zeros, static_cast<unsigned>(lsb(abs(*c))));
@@ -93,7 +83,7 @@ void shorten(IntegerVector& v) {
   for (Integer* c : {&v.x, &v.y, &v.z}) *c >>= zeros;
 }
 
-IntegerVector shifted(const IntegerVector& v, unsigned by) {
+Integer3 shifted(const Integer3& v, unsigned by) {
   return {Integer(v.x << by), Integer(v.y << by), Integer(v.z << by)};
 }
 
@@ -105,26 +95,30 @@ double size_of(const Vec3<Interval>& v) {
 
 }  // namespace
 
+const Homogeneous& ExactPoint::homogeneous() const {
+  if (const Homogeneous* known = homogeneous_.load(std::memory_order_acquire)) return *known;
+  return keep_first(homogeneous_, homogeneous_of(*this));
+}
+
 template <>
 Vec3<Integer> direction<Integer>(const ExactPoint& from, const ExactPoint& to) {
-  const Homogeneous a = homogeneous(from), b = homogeneous(to);
+  const Homogeneous &a = from.homogeneous(), &b = to.homogeneous();
   // (b.v a.w 2^a.e - a.v b.w 2^b.e) / (a.w b.w 2^(a.e + b.e)): the smaller power of two cancels.
   const int least = std::min(a.e, b.e);
   const auto scaled = [&](const Homogeneous& p, const Homogeneous& other) {
-    IntegerVector v = shifted(p.v, static_cast<unsigned>(other.e - least));
+    Integer3 v = shifted(p.v, static_cast<unsigned>(other.e - least));
     return other.whole ? v : other.w * v;
   };
-  IntegerVector out = scaled(b, a) - scaled(a, b);
+  Integer3 out = scaled(b, a) - scaled(a, b);
   shorten(out);
   return out;
 }
 
-template <>
-Vec3<Integer> normal_direction<Integer>(const Plane& h) {
-  const auto p = h.corners();
-  IntegerVector n = cross(direction<Integer>(*p[0], *p[1]), direction<Integer>(*p[0], *p[2]));
+const Integer3& Plane::normal_direction() const {
+  if (const Integer3* known = direction_.load(std::memory_order_acquire)) return *known;
+  Integer3 n = cross(direction<Integer>(*a_, *b_), direction<Integer>(*a_, *c_));
   shorten(n);
-  return n;
+  return keep_first(direction_, std::move(n));
 }
 
 template <>
@@ -155,7 +149,7 @@ Vec3<Integer> moved_by<Integer>(const Vec3<Integer>& limit, const Vec3<Integer>&
                                 int exponent) {
   const unsigned most = std::max({bits(limit), bits(aside), bits(off)});
   const auto e = static_cast<unsigned>(exponent);
-  const auto as_long = [&](const IntegerVector& v, unsigned by) { return shifted(v, most - bits(v) + by); };
+  const auto as_long = [&](const Integer3& v, unsigned by) { return shifted(v, most - bits(v) + by); };
   return as_long(limit, 2 * e) + as_long(aside, e) + as_long(off, 0);
 }
 

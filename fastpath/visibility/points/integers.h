@@ -24,7 +24,9 @@ inline Vec3<Interval> normal_direction<Interval>(const Plane& h) {
   return h.normal_approximate();
 }
 template <>
-Vec3<Integer> normal_direction<Integer>(const Plane& h);
+inline Vec3<Integer> normal_direction<Integer>(const Plane& h) {
+  return h.normal_direction();
+}
 
 // a and b, each multiplied by a positive number so that neither is negligible beside the other.
 template <class NT>

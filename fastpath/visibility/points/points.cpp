@@ -16,15 +16,6 @@ Interval near(const Rational& q) {
   return {std::nextafter(d, -HUGE_VAL), std::nextafter(d, HUGE_VAL)};
 }
 
-// Keeps the first of two values that two threads have computed.
-const Exact3& keep(std::atomic<const Exact3*>& slot, const Exact3& value) {
-  const auto* fresh = new Exact3(value);
-  const Exact3* expected = nullptr;
-  if (slot.compare_exchange_strong(expected, fresh, std::memory_order_acq_rel)) return *fresh;
-  delete fresh;
-  return *expected;
-}
-
 // About the binary logarithm of the largest coordinate; no double need hold it. LONG_MIN for the zero vector.
 long magnitude(const Exact3& v) {
   long most = LONG_MIN;
@@ -123,6 +114,7 @@ ExactPoint& ExactPoint::operator=(const ExactPoint& other) {
   t_ = other.t_;
   const Exact3* known = other.exact_.load(std::memory_order_acquire);
   delete exact_.exchange(known ? new Exact3(*known) : nullptr, std::memory_order_acq_rel);
+  delete homogeneous_.exchange(nullptr, std::memory_order_acq_rel);
   return *this;
 }
 
@@ -130,18 +122,18 @@ const Exact3& ExactPoint::exact() const {
   if (const Exact3* known = exact_.load(std::memory_order_acquire)) return *known;
   switch (kind_) {
     case Kind::given:
-      return keep(exact_, {Rational(near_.x.inf()), Rational(near_.y.inf()), Rational(near_.z.inf())});
+      return keep_first(exact_, Exact3{Rational(near_.x.inf()), Rational(near_.y.inf()), Rational(near_.z.inf())});
     case Kind::on_plane: {
       const Rational at_a = plane_->value_exact(*a_), at_b = plane_->value_exact(*b_);
       const Rational t = at_a / (at_a - at_b);
-      return keep(exact_, a_->exact() + t * (b_->exact() - a_->exact()));
+      return keep_first(exact_, a_->exact() + t * (b_->exact() - a_->exact()));
     }
     case Kind::between:
-      return keep(exact_, a_->exact() + Rational(t_) * (b_->exact() - a_->exact()));
+      return keep_first(exact_, a_->exact() + Rational(t_) * (b_->exact() - a_->exact()));
     case Kind::reflected:
       break;
   }
-  return keep(exact_, a_->exact() + (a_->exact() - b_->exact()));
+  return keep_first(exact_, a_->exact() + (a_->exact() - b_->exact()));
 }
 
 Point ExactPoint::estimate() const {
@@ -151,6 +143,7 @@ Point ExactPoint::estimate() const {
 
 Plane::Plane(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) : a_(&a), b_(&b), c_(&c) {
   normal_ = cross(b.approximate() - a.approximate(), c.approximate() - a.approximate());
+  first_look_ = LinearForm(normal_, a.approximate());
   int best = -1;
   double size = 0;
   for (int i = 0; i < 3; ++i) {
@@ -176,7 +169,7 @@ Plane::Plane(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) : a_
 
 const Exact3& Plane::normal_exact() const {
   if (const Exact3* known = exact_.load(std::memory_order_acquire)) return *known;
-  return keep(exact_, cross(b_->exact() - a_->exact(), c_->exact() - a_->exact()));
+  return keep_first(exact_, cross(b_->exact() - a_->exact(), c_->exact() - a_->exact()));
 }
 
 namespace {
@@ -203,6 +196,7 @@ NT determinant(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c, co
 
 [[gnu::flatten]] int Plane::side(const ExactPoint& x) const {
   if (&x == a_ || &x == b_ || &x == c_) return 0;
+  if (const int sure = first_look_.sign(Around(x.approximate()))) return sure;
   const int s = filtered_sign(value_approximate(x));
   return s != kUnsure ? s : side_exactly(*this, x);
 }

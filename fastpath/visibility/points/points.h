@@ -3,10 +3,10 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
-#include <mutex>
+#include <utility>
 
 #include "fastpath/predicates/filter.h"
+#include "fastpath/visibility/points/linear_form.h"
 #include "fastpath/visibility/points/numbers.h"
 
 namespace clues::fastpath {
@@ -14,6 +14,25 @@ namespace clues::fastpath {
 class Plane;
 
 using Exact3 = Vec3<Rational>;
+using Integer3 = Vec3<Integer>;
+
+// The point v / (w 2^e), w > 0.
+struct Homogeneous {
+  Integer3 v;
+  Integer w;
+  int e = 0;
+  bool whole = false;  // w is 1
+};
+
+// Keeps the first of two values that two threads have computed.
+template <class T>
+const T& keep_first(std::atomic<const T*>& slot, T value) {
+  const auto* fresh = new T(std::move(value));
+  const T* expected = nullptr;
+  if (slot.compare_exchange_strong(expected, fresh, std::memory_order_acq_rel)) return *fresh;
+  delete fresh;
+  return *expected;
+}
 
 class ExactPoint {
  public:
@@ -31,11 +50,15 @@ class ExactPoint {
 
   ExactPoint(const ExactPoint& other);
   ExactPoint& operator=(const ExactPoint& other);
-  ~ExactPoint() { delete exact_.load(std::memory_order_relaxed); }
+  ~ExactPoint() {
+    delete exact_.load(std::memory_order_relaxed);
+    delete homogeneous_.load(std::memory_order_relaxed);
+  }
 
   const Vec3<Interval>& approximate() const { return near_; }
   bool is_double() const { return near_.x.is_point() && near_.y.is_point() && near_.z.is_point(); }
   const Exact3& exact() const;
+  const Homogeneous& homogeneous() const;  // integers.cpp
   Point estimate() const;
 
  private:
@@ -46,6 +69,7 @@ class ExactPoint {
   const Plane* plane_ = nullptr;
   double t_ = 0;
   mutable std::atomic<const Exact3*> exact_{nullptr};
+  mutable std::atomic<const Homogeneous*> homogeneous_{nullptr};
 };
 
 // Through three points that are not collinear; positive side: from which a, b, c turn counter-clockwise.
@@ -54,10 +78,14 @@ class Plane {
   Plane(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c);
   Plane(const Plane&) = delete;
   Plane& operator=(const Plane&) = delete;
-  ~Plane() { delete exact_.load(std::memory_order_relaxed); }
+  ~Plane() {
+    delete exact_.load(std::memory_order_relaxed);
+    delete direction_.load(std::memory_order_relaxed);
+  }
 
   const Vec3<Interval>& normal_approximate() const { return normal_; }
   const Exact3& normal_exact() const;
+  const Integer3& normal_direction() const;  // a positive multiple of it, in whole numbers (integers.cpp)
   const ExactPoint& base() const { return *a_; }
   std::array<const ExactPoint*, 3> corners() const { return {a_, b_, c_}; }
 
@@ -71,9 +99,11 @@ class Plane {
 
  private:
   const ExactPoint *a_, *b_, *c_;
+  LinearForm first_look_;
   Vec3<Interval> normal_{};
   std::array<std::uint8_t, 2> axes_{};
   mutable std::atomic<const Exact3*> exact_{nullptr};
+  mutable std::atomic<const Integer3*> direction_{nullptr};
 };
 
 template <class NT>

@@ -362,10 +362,11 @@ class Search::Work {
     }
   }
 
-  // The outline of a piece that runs over an edge in its plane changes the label along that edge.
+  // The outline of a piece that runs over an edge in its plane changes the label along that edge. Outlines are parts of rays: what a ray meets before the near edge,
+  // or beyond what ends the piece there, the piece does not touch.
   void cut_coplanar(const std::vector<ValidPiece>& merged) {
     struct Cut {
-      const OnWedge* on = nullptr;
+      const ValidPiece* piece = nullptr;
       const ExactPoint* ray = nullptr;
       std::uint32_t edge = 0;
       const ExactPoint** at = nullptr;
@@ -376,15 +377,16 @@ class Search::Work {
       for (const std::uint32_t e : piece.on->coplanar_edges) {
         if (!is_contour[e]) continue;
         const ExactPoint &a = scene.points[scene.edges[e].a], &b = scene.points[scene.edges[e].b];
+        if (!may_touch(piece, a, b)) continue;
         for (const ExactPoint* ray : {piece.ray0, piece.ray1}) {
-          if (crosses_ray(*piece.on, ray, a, b)) found[i].push_back({piece.on, ray, e, nullptr});
+          if (crosses_ray(*piece.on, ray, a, b)) found[i].push_back({&piece, ray, e, nullptr});
         }
       }
     });
     std::vector<Cut> all, fresh;
     for (const auto& list : found) {
       for (Cut cut : list) {
-        const auto [known, is_fresh] = coplanar_cuts.try_emplace({cut.on, cut.ray, cut.edge}, nullptr);
+        const auto [known, is_fresh] = coplanar_cuts.try_emplace({cut.piece->on, cut.ray, cut.edge}, nullptr);
         cut.at = &known->second;
         all.push_back(cut);
         if (is_fresh) fresh.push_back(cut);
@@ -393,9 +395,24 @@ class Search::Work {
     workers.for_each(fresh.size(), [&](std::size_t i, Workers::Worker& worker) {
       const Cut& c = fresh[i];
       const LocalEdge& e = scene.edges[c.edge];
-      *c.at = worker.pool.keep(crossing_in_plane(*c.on, *c.ray, scene.points[e.a], scene.points[e.b]));
+      *c.at = worker.pool.keep(crossing_in_plane(*c.piece->on, *c.ray, scene.points[e.a], scene.points[e.b]));
     });
-    for (const Cut& c : all) new_cuts[c.edge].push_back(*c.at);
+    for (const Cut& c : all) {
+      if (reaches(*c.piece, *c.at)) new_cuts[c.edge].push_back(*c.at);
+    }
+  }
+
+  // Whether q, on one of the piece's rays, is neither before its near edge nor beyond its blocker.
+  static bool reaches(const ValidPiece& piece, const ExactPoint* q) {
+    return !is_before(piece, q) && piece.on->reaches(piece.blocker, q);
+  }
+  // False only if all of the segment ab, in the plane, is before the near edge or beyond the blocker.
+  static bool may_touch(const ValidPiece& piece, const ExactPoint& a, const ExactPoint& b) {
+    return !(is_before(piece, &a) && is_before(piece, &b)) &&
+           (piece.on->reaches(piece.blocker, &a) || piece.on->reaches(piece.blocker, &b));
+  }
+  static bool is_before(const ValidPiece& piece, const ExactPoint* q) {
+    return piece.near0 && piece.on->turn(piece.near0, piece.near1, q) > 0;
   }
 
   // Whether the inside of the edge ab, in the plane, crosses the ray in one point, in front of the centre.

@@ -32,6 +32,16 @@ NT crossing(const ValidPiece& piece, const ExactPoint* on_ray) {
   return NT(-det(ray, flat(*b.u, c)) / det(ray, flat(*b.w, *b.u)));
 }
 
+PieceBounds bounds_of(const ValidPiece& piece) {
+  const ExactPoint& c = *piece.on->center;
+  PieceBounds bounds(piece.on->plane->normal_approximate(), c);
+  bounds.add_side(c, *piece.ray0);
+  bounds.add_side(*piece.ray1, c);
+  if (piece.near0) bounds.add_side(*piece.near1, *piece.near0);
+  if (piece.blocker >= 0) bounds.add_side(*blocker_of(piece).u, *blocker_of(piece).w);
+  return bounds;
+}
+
 }  // namespace
 
 IntervalBox far_end(const ValidPiece& piece, const ExactPoint* on_ray) {
@@ -97,13 +107,17 @@ Crossing PieceSet::passes(const ValidPiece& piece, const ExactPoint& a, const Ex
 
 void PieceSet::clear() {
   pieces_.clear();
+  bounds_.clear();
   batches_.clear();
 }
 
 void PieceSet::add(std::vector<ValidPiece> batch) {
   if (batch.empty()) return;
   std::vector<IntervalBox> boxes;
-  for (const ValidPiece& p : batch) boxes.push_back(p.box);
+  for (const ValidPiece& p : batch) {
+    boxes.push_back(p.box);
+    bounds_.push_back(bounds_of(p));
+  }
   batches_.push_back({pieces_.size(), BoxTree(boxes)});
   pieces_.insert(pieces_.end(), batch.begin(), batch.end());
 }

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "fastpath/visibility/wedges/on_wedge.h"
+#include "fastpath/visibility/wedges/piece_bounds.h"
 #include "fastpath/visibility/wedges/piece_kind.h"
 
 namespace clues::fastpath {
@@ -28,13 +30,13 @@ void set_box(ValidPiece& piece, const IntervalBox& bounds);
 // Where the ray through `on_ray` ends at the blocker: an enclosure, and a point of doubles.
 IntervalBox far_end(const ValidPiece& piece, const ExactPoint* on_ray);
 Point far_end_estimate(const ValidPiece& piece, const ExactPoint* on_ray);
-
 class PieceSet {
  public:
   void clear();
   // Adds and indexes a batch.
   void add(std::vector<ValidPiece> batch);
   const std::vector<ValidPiece>& pieces() const { return pieces_; }
+  const PieceBounds& bounds(std::size_t i) const { return bounds_[i]; }
 
   // Calls found(i) for every piece i whose box passes the test, until found returns true; then true.
   template <class Test, class Found>
@@ -52,10 +54,11 @@ class PieceSet {
                    const LeavesOut& leaves_out) const {
     Crossing result = Crossing::no;
     const SegmentTest test(m, p);
+    const Ends ends{Around(m.approximate()), Around(p.approximate())};
     for (const Batch& b : batches_) {
       if (b.begin < first) continue;
       const bool found = b.tree.any(test, [&](std::uint32_t i) {
-        if (pieces_[b.begin + i].holds_cell) return false;
+        if (pieces_[b.begin + i].holds_cell || !bounds_[b.begin + i].may_touch(ends)) return false;
         const Crossing c = crosses(pieces_[b.begin + i], m, p, starts_on, leaves_out);
         if (c == Crossing::touch) result = c;
         return c == Crossing::yes;
@@ -67,9 +70,11 @@ class PieceSet {
 
   // Whether the way from m to p crosses a piece from H- to H+, or may.
   bool may_leave(const ExactPoint& m, const ExactPoint& p) const {
+    const Ends ends{Around(m.approximate()), Around(p.approximate())};
     return any(SegmentTest(m, p), [&](std::size_t i) {
       const Plane& h = *pieces_[i].on->plane;
-      return !pieces_[i].holds_cell && h.side(m) > 0 && h.side(p) <= 0 && passes(pieces_[i], p, m) != Crossing::no;
+      return !pieces_[i].holds_cell && bounds_[i].may_touch(ends) && h.side(m) > 0 && h.side(p) <= 0 &&
+             passes(pieces_[i], p, m) != Crossing::no;
     });
   }
 
@@ -77,9 +82,11 @@ class PieceSet {
   template <class LeavesOut>
   bool may_meet(const ExactPoint& a, const ExactPoint& b, std::size_t first, const LeavesOut& leaves_out) const {
     const SegmentTest test(a, b);
+    const Ends ends{Around(a.approximate()), Around(b.approximate())};
     for (const Batch& batch : batches_) {
       if (batch.begin < first) continue;
       const bool found = batch.tree.any(test, [&](std::uint32_t i) {
+        if (!bounds_[batch.begin + i].may_touch(ends)) return false;
         const ValidPiece& piece = pieces_[batch.begin + i];
         const Plane& h = *piece.on->plane;
         if (leaves_out(h)) return false;
@@ -95,6 +102,7 @@ class PieceSet {
   }
 
  private:
+  using Ends = std::array<Around, 2>;
   struct Batch {
     std::size_t begin;
     BoxTree tree;
@@ -120,6 +128,7 @@ class PieceSet {
   static Crossing passes(const ValidPiece& piece, const ExactPoint& a, const ExactPoint& b);
 
   std::vector<ValidPiece> pieces_;
+  std::vector<PieceBounds> bounds_;  // of each
   std::vector<Batch> batches_;
 };
 
