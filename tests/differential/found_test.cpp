@@ -55,6 +55,16 @@ TEST(Found, AnUmbraThatEndsBesideAnEdge) {
   expect_list("an-umbra-that-ends-beside-an-edge.obj", "box:-1,-1,-2,1,1,-1", {0, 1});
 }
 
+// Three plates about a window, each under the next, as in an iris: each long edge was asked under the next plate, where it is dark, and not at the window, where the light is
+// that cuts it. So no wedge of the window was made, and the triangle behind it was missing, in every kernel. With a vertex more on each edge it was not.
+TEST(Found, ThreePlatesAboutAWindow) {
+  for (const char* cell : {"box:-1,-1,20,1,1,21", "box:-1,-1,20,1,1,20", "box:-1,0,20,1,0,20", "box:0,0,20,0,0,20"}) {
+    SCOPED_TRACE(cell);
+    expect_list("three-plates-about-a-window.off", cell, {0, 1, 2, 3});
+    expect_regions("three-plates-about-a-window.off", cell);
+  }
+}
+
 // Sight lines to beside an edge of triangle 1 came through its plane upon that triangle, which is lit there only if the edge is.
 TEST(Found, ASideFlushWithAThinCell) { expect_list("side-flush-with-a-thin-cell.obj", "box:0,1,-1,1,64,64", {0, 1}); }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fastpath/visibility/scene/surface_vertices.h"
+#include "fastpath/visibility/search/circles.h"
 #include "fastpath/visibility/search/doubtful_sources.h"
 #include "fastpath/visibility/search/sources.h"
 #include "fastpath/visibility/wedges/contacts.h"
@@ -79,6 +80,10 @@ class Search::Work {
     set.clear();
     set.add(std::move(merged));
     if (sources.ask_nearer()) changed = true;
+    if (!changed) {
+      for (const auto& [e, p] : cuts_of_circles(scene, contours, sources.of_edges(), workers))
+        changed |= insert_cut(e, p);
+    }
     if (changed) set.clear();
     return changed;
   }

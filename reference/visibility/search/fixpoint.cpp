@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "reference/visibility/labels/walk.h"
+#include "reference/visibility/search/circles.h"
 #include "reference/visibility/search/sources.h"
 #include "reference/visibility/wedges/apex.h"
 #include "reference/visibility/wedges/contour.h"
@@ -86,6 +87,13 @@ class Search {
       for (const std::uint32_t e : piece.on_wedge->coplanar_edges) cut_coplanar(piece, e);
     }
 
+    if (take_new_cuts()) return true;
+    for (const auto& [e, x] : cuts_of_circles(scene_, contours_, sources_)) new_cuts_[e].push_back(x);
+    return take_new_cuts();
+  }
+
+  // Whether a contour edge has one.
+  bool take_new_cuts() {
     bool changed = false;
     for (std::size_t e = 0; e < cuts_.size(); ++e) {
       std::set<Point3, decltype(&before)> all(cuts_[e].begin(), cuts_[e].end(), &before);
