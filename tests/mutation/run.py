@@ -27,7 +27,7 @@ def sh(command, cwd, seconds):
 
 
 def build(tree):
-    return sh(["cmake", "--build", "build/mutation", "--target", "clues", "-j2"], tree, 1200)
+    return sh(["cmake", "--build", "build/mutation", "--target", "clues", "-j2"], tree, 3600)
 
 
 def kernel_of(file):
