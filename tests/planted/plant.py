@@ -30,6 +30,9 @@ COPIES = {
          "    const Start start{c.at.p, std::nullopt, nullptr};\n"
          "    if (walker_.visible(start, walker_.walk(start, kSourceSeed), wedges_, 0) != Meets::yes) return;\n"
          "    Apex* apex = c.at_vertex ? corner(c.id) : csv(c.id, c.at.p);\n")]),
+    # Parts of edges that wait for each other in a circle go on waiting (T12).
+    "circles_wait": ("reference/fixpoint.cpp", [
+        ("    for (const auto& [e, x] : cuts_of_circles(scene_, contours_, sources_)) new_cuts_[e].push_back(x);\n", "")]),
     # A walk ends at the first surface that it meets (D14).
     "no_rule_3": ("reference/walk.cpp", [
         ("    p = m;\n    surface = SurfaceSide{last.piece, front};\n    contour = nullptr;\n", "    return walk;\n")]),

@@ -10,7 +10,8 @@
 namespace clues::validate {
 
 std::string first_unsound_case(const std::filesystem::path& suite) {
-  constexpr std::array<std::string_view, 5> topics{"hazards", "grazing", "fusion", "portals", "coordinates"};
+  constexpr std::array<std::string_view, 6> topics{"hazards", "grazing",     "fusion",
+                                                   "portals", "coordinates", "cyclic-overlap"};
   for (const auto& c : read_suite(suite)) {
     if (std::find(topics.begin(), topics.end(), c.topic) == topics.end() || c.level != CaseLevel::core) continue;
     reference::Options options;

@@ -77,6 +77,7 @@ bool comes_next_to_edge(const LocalScene& scene, const ContourEdge& c, const Edg
   const OnWedge frame{c.plane, &a, {}, {}, {}, {}, {}, {}};
   if (frame.turn(&b, &through) != frame.turn(&b, &scene.cell.vertices[static_cast<std::size_t>(c.touching.front())]))
     return false;
+  if (scene.may_meet(through, beside)) return false;
   return !scene.tree.any(SegmentTest(through, *part.y), [&](std::uint32_t i) {
     const std::uint32_t t = scene.occluders[i];
     return std::find(edge.pieces.begin(), edge.pieces.end(), t) == edge.pieces.end() &&

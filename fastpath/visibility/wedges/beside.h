@@ -29,7 +29,7 @@ std::optional<ExactPoint> beside_edge(const LocalScene& scene, const PieceSet& s
                                       const EdgePart& part, int& level);
 
 // Whether the sight line from v to that point comes through the wedge's plane next to y, as one to y itself does: on the side of the touching vertices, with no
-// surface between but one that ends at the edge. A line that comes through elsewhere may meet a surface in that plane, or a wedge upon it, that is lit only if this
+// surface between but one that ends at the edge, and in H- with nothing before the point. A line that comes through elsewhere may meet a surface in that plane, or a wedge upon it, that is lit only if this
 // edge is; then both would be dark for want of each other (D17a). Not for planes that hold V.
 bool comes_next_to_edge(const LocalScene& scene, const ContourEdge& c, const EdgePart& part, const ExactPoint& v,
                         const ExactPoint& beside);
