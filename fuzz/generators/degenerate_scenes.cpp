@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "fuzz/generators/grid_mesh.h"
 #include "fuzz/generators/parts.h"
@@ -223,6 +224,58 @@ GeneratedScene thin_gaps(std::uint64_t seed, std::uint64_t index) {
   return scene;
 }
 
+// 3 to 6 long triangles about a window, each under the next, as the blades of an iris, and one to three triangles behind it. The long edge of each is seen at the window alone, and
+// would be cut there by the wedge of the next (T12). The dial is the number of blades, and whether they are bent at the long edges.
+GeneratedScene irises(std::uint64_t seed, std::uint64_t index) {
+  Random random = random_of(seed, index, 12);
+  const int blades = 3 + dial_of(index) % 4;
+  const auto to_grid = [](double x) { return std::nearbyint(16 * x) / 16; };
+  const auto axis = static_cast<std::size_t>(random.between(0, 2));  // along which the window is looked through
+  const auto point = [&](double x, double y, double z) {
+    Point p;
+    p[(axis + 1) % 3] = to_grid(x);
+    p[(axis + 2) % 3] = to_grid(y);
+    p[axis] = to_grid(z);
+    return p;
+  };
+  GeneratedScene scene;
+  const double first = random.between(0, 99) / 100.0;
+  for (int k = 0; k < blades; ++k) {
+    const double turn = 2 * std::numbers::pi * (k + first + random.between(-10, 10) / 100.0) / blades;
+    const double c = std::cos(turn), s = std::sin(turn);
+    // u along the long edge, w away from the window.
+    const auto at = [&](double u, double w, double z) { return point(c * u + s * w, s * u - c * w, z); };
+    const double beside = random.between(4, 12) / 8.0, begin = -beside - random.between(2, 8),
+                 end = random.between(8, 24), upper = random.between(2, 16) / 8.0, lower = -random.between(2, 16) / 8.0,
+                 away = random.between(20, 40);
+    const Point a = at(begin, beside, upper), b = at(end, beside, lower);
+    add(scene.mesh, a, b, at(begin - random.between(0, 20), away, upper));
+    if (dial_of(index) >= 4)
+      add(scene.mesh, b, a, at(begin, beside + random.between(1, 8), upper + random.between(1, 8)));
+  }
+  for (int n = random.between(1, 3); n > 0; --n) {
+    const double depth = -random.between(24, 64) / 8.0;
+    const auto corner = [&] {
+      const double x = random.between(-48, 48) / 8.0, y = random.between(-48, 48) / 8.0;
+      return point(x, y, depth + random.between(-4, 4) / 8.0);
+    };
+    const Point a = corner(), b = corner(), c = corner();
+    add(scene.mesh, a, b, c);
+  }
+  // A cell of any dimension.
+  const double x = random.between(-16, 16) / 8.0, y = random.between(-16, 16) / 8.0, z = random.between(8, 30);
+  const int dimension = random.between(0, 3);
+  const auto size = [&](int least_dimension) {
+    const double extent = random.between(1, 16) / 16.0;
+    return dimension >= least_dimension ? extent : 0.0;
+  };
+  const double dx = size(1), dy = size(2), dz = size(3);
+  scene.cell = box_of(point(x, y, z), point(x + dx, y + dy, z + dz));
+  std::sort(scene.cell.begin(), scene.cell.end());
+  scene.cell.erase(std::unique(scene.cell.begin(), scene.cell.end()), scene.cell.end());
+  return scene;
+}
+
 }  // namespace
 
 const std::vector<DegenerateGenerator>& degenerate_generators() {
@@ -243,7 +296,9 @@ const std::vector<DegenerateGenerator>& degenerate_generators() {
       {"flat_cells", "points, segments and polygons as cells", flat_cells},
       {"thin_gaps",
        "rectangles flush with the cell's sides; gaps, steps and cells 1 to 2^-28 as wide as the rest (dial)",
-       thin_gaps}};
+       thin_gaps},
+      {"irises", "3 to 6 long plates (dial modulo 4) about a window, each under the next; bent ones (dial 4 to 7)",
+       irises}};
   return all;
 }
 

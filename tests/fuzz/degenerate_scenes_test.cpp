@@ -67,6 +67,38 @@ TEST(DegenerateScenes, FlatCellsHaveAllDimensions) {
   for (int d = 0; d <= 2; ++d) EXPECT_GT(dimensions[d], 0) << d;
 }
 
+// Seen from the cell's first vertex each long edge is in part before the others and in part behind the next blade.
+TEST(DegenerateScenes, IrisesOverlapInACircle) {
+  std::uint64_t circles = 0;
+  for (std::uint64_t i = 0; i < kScenes; ++i) {
+    const GeneratedScene scene = named("irises").make(kSeed, i);
+    const std::size_t blades = 3 + i % 4, triangles = i % 8 >= 4 ? 2 : 1;
+    const auto corner = [&](std::size_t t, std::size_t k) {
+      return exact::to_exact(scene.mesh.points[scene.mesh.triangles[t][k]]);
+    };
+    const exact::Point3 v = exact::to_exact(scene.cell.front());
+    const auto is_hidden_by = [&](std::size_t blade, const exact::Point3& p) {
+      const std::size_t t = blade * triangles;
+      return CGAL::do_intersect(exact::Kernel::Segment_3(v, p),
+                                exact::Kernel::Triangle_3(corner(t, 0), corner(t, 1), corner(t, 2)));
+    };
+    bool circle = true;
+    for (std::size_t k = 0; k < blades; ++k) {
+      const exact::Point3 a = corner(k * triangles, 0), b = corner(k * triangles, 1);
+      bool hidden = false, seen = false;
+      for (int part = 1; part < 16; ++part) {
+        const exact::Point3 p = a + exact::FT(part) / 16 * (b - a);
+        const bool behind_next = is_hidden_by((k + 1) % blades, p) || is_hidden_by((k + blades - 1) % blades, p);
+        hidden |= behind_next;
+        seen |= !behind_next;
+      }
+      circle &= hidden && seen;
+    }
+    circles += circle;
+  }
+  EXPECT_GT(circles, kScenes / 2);
+}
+
 TEST(DegenerateScenes, TouchingCellsTouch) {
   for (std::uint64_t i = 0; i < kScenes; ++i) {
     const GeneratedScene scene = named("touching_cells").make(kSeed, i);

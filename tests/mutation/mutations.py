@@ -47,7 +47,7 @@ MUTATIONS = [
     ("regions-facing-away-swapped", "reference/regions.cpp", "if (!faces_cell(scene_.complex(), scene_.cell(), r.piece, r.front)) {", "if (!faces_cell(scene_.complex(), scene_.cell(), r.piece, !r.front)) {"),
     ("star-free-between-always", "reference/local_star.cpp", "    if (in_arc(a, b, arc.normal, CGAL::is_zero(at0)", "    if (false && in_arc(a, b, arc.normal, CGAL::is_zero(at0)"),
     ("star-spreads-never", "reference/local_star.cpp", "  if (turn(inner) == way) return true;", "  if (turn(inner) == way) return false;"),
-    ("d3-contact-is-not-visible", "reference/visibility_map.cpp", "    if (!scene.meets_cell(t)) continue;", "    continue;"),
+    ("d3-contact-is-not-visible", "reference/visibility_map.cpp", "    if (!scene.meets_cell(t)) continue;", "    if (!scene.meets_cell(t) || t < ~0U) continue;"),
     ("fixpoint-nothing-lit-outright", "reference/fixpoint.cpp", "const Meets label = walker_.visible(start, s.walk, wedges_, first);", "const Meets label = s.walk.ends_at_cell ? Meets::no : walker_.visible(start, s.walk, wedges_, first);"),
     ("fast-no-last-legs", "fastpath/sources.cpp", "c == Crossing::no && walker_.visible_by_last_leg(s.walk, first) != Crossing::no;", "false;"),
     ("fixpoint-no-last-legs", "reference/fixpoint.cpp", "if (walker_.visible_by_last_leg(start, s.walk, wedges_, first) == Meets::no) return label;", "return label;"),

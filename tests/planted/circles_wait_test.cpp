@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "../fuzz/found_and_shrunk.h"
 #include "../validate/first_unsound_case.h"
 
 namespace clues::test {
@@ -13,6 +14,14 @@ TEST(CirclesWait, IsUnsoundInThePublishedSuite) {
   const std::string found = validate::first_unsound_case(CLUES_SOURCE_DIR "/vectors");
   EXPECT_NE(found.find("iris"), std::string::npos) << found;
   std::cout << "unsound on " << found << "\n";
+}
+
+TEST(CirclesWait, IsFoundByACampaign) {
+  fuzz::CampaignOptions options;
+  options.seed = 7;
+  options.cases = 200;
+  options.generators = {"irises"};
+  fuzz::is_found_and_shrunk(options, *fuzz::make_subject("reference"));
 }
 
 }  // namespace
