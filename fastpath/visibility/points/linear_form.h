@@ -26,7 +26,7 @@ struct Around {
 
 // With n known up to d in a coordinate, c up to r and x up to h the true value is (n + d).(x - c + h - r). It is off from n.(x - c) by |n| (h + r) + d (|x - c| + h + r) at most,
 // and a difference, a product and two sums lose less than 2^-49 |n||x - c|, in any rounding mode; where products underflow 2^-1074 each. The rest of 2^-48 is for a difference
-// whose size is rounded down. Infinite or not known: no comparison holds.
+// whose size is rounded down. Infinite intervals: no comparison holds. Products must not overflow: finite coordinates are in the standard range.
 class LinearForm {
  public:
   LinearForm() = default;
