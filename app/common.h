@@ -43,10 +43,10 @@ struct RefineChoice {
 // The two paragraphs about SPEC and exit codes that every footer needs.
 extern const char* const cell_help;
 
-// Text for a person: with nothing in it that a terminal would obey, wherever it came from (scene/messages/printable.h).
 // A check of an option whose number is unsigned: CLI11 takes -1 for the largest number of 64 digits. "", or what is wrong.
 std::string problem_of_count(const std::string& word);
 
+// Text for a person: with nothing in it that a terminal would obey, wherever it came from (scene/messages/printable.h).
 void print(const std::string& text, std::FILE* to = stdout);
 
 // Throws Error file_unwritable now, and not after an hour, when a file could not be made at `path`. No path: fine.

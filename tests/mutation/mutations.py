@@ -75,7 +75,7 @@ MUTATIONS = [
     ("fast-pieces-unbounded", "fastpath/piece_set.cpp", "    if (!left_of(*blocker.u, *blocker.w)) return Crossing::no;", "    if (blocker.u == blocker.w) return Crossing::no;"),
     ("fast-pieces-box-of-one-end", "fastpath/piece_set.cpp", "hull(far_end(piece, piece.ray0), far_end(piece, piece.ray1))", "far_end(piece, piece.ray0)"),
     ("fast-sides-without-a-bound", "fastpath/linear_form.h", "return value > bound ? 1 : -value > bound ? -1 : 0;", "return value > 0 ? 1 : value < 0 ? -1 : 0;"),
-    ("fast-pieces-bounds-turned-over", "fastpath/piece_set.cpp", "  bounds.add_side(*piece.ray1, c);\n", "  bounds.add_side(c, *piece.ray1);\n"),
+    ("fast-pieces-bounds-turned-over", "fastpath/piece_set.cpp", "  bounds.add_side(n, *piece.ray1, c);\n", "  bounds.add_side(n, c, *piece.ray1);\n"),
     ("fast-scene-graze-does-not-block", "fastpath/local_scene.cpp", "return touch ? Crossing::touch : Crossing::yes;", "return touch ? Crossing::no : Crossing::yes;"),
     ("fast-scene-first-crossing", "fastpath/local_scene.cpp", "parameter.template operator()<NT>(*out.piece))) > 0;", "parameter.template operator()<NT>(*out.piece))) < 0;"),
     ("fast-scene-blocks-inside-the-cell", "fastpath/local_scene.cpp", "    if (pieces[t].in_cell) continue;\n", ""),

@@ -10,7 +10,7 @@
 
 namespace clues::fastpath {
 
-// A point inside a part at which that has to be cut, and the edge; the pools of the workers keep it. Of whole circles, whether their parts are lit or not. The same for any number of
+// The edges of parts that have to be cut, and points inside the parts at which; the pools of the workers keep these. Of whole circles, whether their parts are lit or not. The same for any number of
 // threads. Needs RoundedUp in scope. O(parts * parts in front of them).
 std::vector<std::pair<std::uint32_t, const ExactPoint*>> cuts_of_circles(const LocalScene& scene,
                                                                          const std::vector<ContourEdge>& contours,

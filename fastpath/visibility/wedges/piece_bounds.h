@@ -14,11 +14,10 @@ namespace clues::fastpath {
 class PieceBounds {
  public:
   // Of the plane with this normal, through `base`. Needs RoundedUp in scope, here and below.
-  PieceBounds(const Vec3<Interval>& normal, const ExactPoint& base)
-      : normal_(&normal), plane_(normal, base.approximate()) {}
-  // Of the side from a to b of the outline, counter-clockwise; at most four.
-  void add_side(const ExactPoint& a, const ExactPoint& b) {
-    inward_[sides_++] = LinearForm(cross(*normal_, b.approximate() - a.approximate()), a.approximate());
+  PieceBounds(const Vec3<Interval>& normal, const ExactPoint& base) : plane_(normal, base.approximate()) {}
+  // Of the side from a to b of the outline, counter-clockwise about the same normal; at most four.
+  void add_side(const Vec3<Interval>& normal, const ExactPoint& a, const ExactPoint& b) {
+    inward_[sides_++] = LinearForm(cross(normal, b.approximate() - a.approximate()), a.approximate());
   }
 
   // False only if the piece surely has no point in common with the hull of what these hold.
@@ -33,7 +32,6 @@ class PieceBounds {
   bool may_touch(const Around& box) const { return may_touch({&box, 1}); }
 
  private:
-  const Vec3<Interval>* normal_;
   LinearForm plane_;
   std::array<LinearForm, 4> inward_;
   std::ptrdiff_t sides_ = 0;

@@ -34,11 +34,12 @@ NT crossing(const ValidPiece& piece, const ExactPoint* on_ray) {
 
 PieceBounds bounds_of(const ValidPiece& piece) {
   const ExactPoint& c = *piece.on->center;
-  PieceBounds bounds(piece.on->plane->normal_approximate(), c);
-  bounds.add_side(c, *piece.ray0);
-  bounds.add_side(*piece.ray1, c);
-  if (piece.near0) bounds.add_side(*piece.near1, *piece.near0);
-  if (piece.blocker >= 0) bounds.add_side(*blocker_of(piece).u, *blocker_of(piece).w);
+  const Vec3<Interval>& n = piece.on->plane->normal_approximate();
+  PieceBounds bounds(n, c);
+  bounds.add_side(n, c, *piece.ray0);
+  bounds.add_side(n, *piece.ray1, c);
+  if (piece.near0) bounds.add_side(n, *piece.near1, *piece.near0);
+  if (piece.blocker >= 0) bounds.add_side(n, *blocker_of(piece).u, *blocker_of(piece).w);
   return bounds;
 }
 

@@ -30,6 +30,7 @@ void set_box(ValidPiece& piece, const IntervalBox& bounds);
 // Where the ray through `on_ray` ends at the blocker: an enclosure, and a point of doubles.
 IntervalBox far_end(const ValidPiece& piece, const ExactPoint* on_ray);
 Point far_end_estimate(const ValidPiece& piece, const ExactPoint* on_ray);
+
 class PieceSet {
  public:
   void clear();
