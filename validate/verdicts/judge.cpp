@@ -8,6 +8,7 @@
 #include "exact/sight/scene_query.h"
 #include "exact/sight/witness.h"
 #include "validate/certificates/region_points.h"
+#include "validate/verdicts/light_search.h"
 
 namespace clues::validate {
 namespace {
@@ -90,6 +91,7 @@ Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::Visibility
   const Judge judge(mesh, map);
   const auto& degenerate = map.complex.degenerate;
   const auto total = static_cast<std::uint32_t>(mesh.triangles.size());
+  std::optional<LightSearch> light;
   Judgement result;
   result.triangles.resize(total, TriangleVerdict::hidden);
   for (std::uint32_t t = 0; t < total; ++t) {
@@ -107,7 +109,12 @@ Judgement judge_pvs(const scene::TriangleMesh& mesh, const reference::Visibility
         result.witnesses.push_back(*witness);
       }
     } else if (options.cross_check && surface) {
-      if (auto witness = judge.find_witness(t, false, 1)) {
+      auto witness = judge.find_witness(t, false, 1);
+      if (!witness) {
+        if (!light) light.emplace(mesh, map.cell, map.mode == reference::Mode::sheet);
+        witness = light->find(t);
+      }
+      if (witness) {
         seen = true;
         result.witnesses.push_back(*witness);
         result.contradictions.push_back(*witness);

@@ -51,7 +51,8 @@ struct Judgement {
 
 struct JudgeOptions {
   std::size_t points_per_region = 12;  // places on each visible region of a triangle without a witness so far
-  // Whether one point of each hidden region is put to the oracle too, so that a wrong map is noticed.
+  // Whether one point of each hidden region is put to the oracle too, and light is looked for on hidden triangles past
+  // what blocks (light_search.h), so that a wrong map is noticed.
   bool cross_check = true;
   std::vector<std::uint32_t> only;  // not empty: only these triangles (ascending) are judged, the others left `hidden`
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;
