@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "exact/sight/scene_query.h"
 #include "exact/sight/witness.h"
@@ -71,6 +72,51 @@ Changed split(const Case& scene, Random& random) {
   out.heirs[t].push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
   mesh.triangles.push_back({middle, old[1], old[2]});
   mesh.face_of.push_back(static_cast<std::uint32_t>(mesh.face_of.size()));
+  return out;
+}
+
+// Where a vertex more goes on the longest edge: a quarter along, from the lesser end on, so that triangles on both sides of an edge get the same one. None where
+// that is no double.
+struct MoreVertex {
+  std::size_t first = 0;  // corner of the triangle at which the edge begins
+  Point at{};
+};
+std::optional<MoreVertex> on_longest_edge(const scene::TriangleMesh& mesh, const scene::Triangle& t) {
+  std::array<Point3, 3> p;
+  for (std::size_t i = 0; i < 3; ++i) p[i] = exact::to_exact(mesh.points[t[i]]);
+  MoreVertex out;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (CGAL::compare_distance(p[out.first], p[(out.first + 1) % 3], p[i], p[(i + 1) % 3]) == CGAL::SMALLER)
+      out.first = i;
+  }
+  const Point3 &a = std::min(p[out.first], p[(out.first + 1) % 3]), &b = std::max(p[out.first], p[(out.first + 1) % 3]);
+  const Point3 quarter = a + (b - a) / 4;
+  out.at = exact::to_double_estimate(quarter);
+  if (exact::to_exact(out.at) != quarter) return std::nullopt;
+  return out;
+}
+
+// One triangle in two, or every one, at a vertex more on its longest edge. Neighbours that have the edge keep it: there is a T-junction then.
+Changed with_more_vertices(const Case& scene, Random& random) {
+  Changed out = unchanged(scene);
+  auto& mesh = out.scene.mesh;
+  const auto all = static_cast<std::uint32_t>(mesh.triangles.size());
+  const bool one = random.one_in(2);
+  const auto only = static_cast<std::uint32_t>(random.between(0, static_cast<int>(all) - 1));
+  for (std::uint32_t t = one ? only : 0; t < (one ? only + 1 : all); ++t) {
+    const auto more = on_longest_edge(scene.mesh, scene.mesh.triangles[t]);
+    if (!more) continue;
+    const auto middle = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.push_back(more->at);
+    scene::Triangle first = mesh.triangles[t], second = first;
+    first[(more->first + 1) % 3] = middle;
+    second[more->first] = middle;
+    mesh.triangles[t] = first;
+    out.heirs[t].push_back(static_cast<std::uint32_t>(mesh.triangles.size()));
+    mesh.triangles.push_back(second);
+    mesh.face_of.push_back(static_cast<std::uint32_t>(mesh.face_of.size()));
+  }
+  out.same_geometry = true;
   return out;
 }
 
@@ -166,7 +212,8 @@ class Metamorphic : public Oracle {
  public:
   const char* name() const override { return "metamorphic"; }
   const char* what() const override {
-    return "permuted, split, scaled, moved, fewer triangles, the cell larger or cut, cell and target swapped: what was "
+    return "permuted, split, with vertices more on edges, scaled, moved, fewer triangles, the cell larger or cut, cell "
+           "and target swapped: what was "
            "seen is still seen";
   }
 
@@ -174,6 +221,7 @@ class Metamorphic : public Oracle {
     return {"witnesses carried to changed scenes",
             "relations: permute",
             "relations: split",
+            "relations: vertices more",
             "relations: scale",
             "relations: move",
             "relations: remove",
@@ -186,18 +234,19 @@ class Metamorphic : public Oracle {
     Random random = exam.random(name());
     const auto witnesses = some_witnesses(exam, random);
     // In solid mode the mesh must stay closed.
-    static constexpr int all[] = {permute, split_one, scale, move, grow, cut, remove, swap};
+    static constexpr int all[] = {permute, split_one, scale, move, grow, cut, remove, swap, add_vertices};
     static constexpr int closed[] = {permute, scale, move, grow, cut};
-    const int relation = exam.scene().solid ? closed[random.between(0, 4)] : all[random.between(0, 7)];
+    const int relation = exam.scene().solid ? closed[random.between(0, 4)] : all[random.between(0, 8)];
     exam.count(std::string("relations: ") + relations[relation]);
     if (relation != swap) return ask_again(exam, relation, random, witnesses);
     if (!witnesses.empty()) ask_swapped(exam, any(witnesses, random), random);
   }
 
  private:
-  enum Relation { permute, split_one, scale, move, remove, grow, cut, swap };
-  static constexpr const char* relations[] = {"permute", "split",         "scale",        "move",
-                                              "remove",  "grow the cell", "cut the cell", "swap cell and target"};
+  enum Relation { permute, split_one, scale, move, remove, grow, cut, swap, add_vertices };
+  static constexpr const char* relations[] = {"permute",      "split",         "scale",        "move",
+                                              "remove",       "grow the cell", "cut the cell", "swap cell and target",
+                                              "vertices more"};
 
   static std::vector<Witness> some_witnesses(Exam& exam, Random& random) {
     std::vector<Witness> out;
@@ -225,6 +274,8 @@ class Metamorphic : public Oracle {
         return permuted(scene, random);
       case split_one:
         return split(scene, random);
+      case add_vertices:
+        return with_more_vertices(scene, random);
       case scale:
         return moved(scene, std::ldexp(1, random.between(-40, 40)), {});
       case move:
@@ -268,6 +319,12 @@ class Metamorphic : public Oracle {
     return true;
   }
 
+  // Exactly the triangles of Omega. Refined maps depend on where the cell was cut, limited ones on what was left out.
+  static bool is_omega(const Answer& answer) {
+    if (!answer.map) return answer.in_doubt && answer.in_doubt->empty();
+    return answer.map->method == "first-order" && answer.map->statistics.conservative_fallbacks == 0;
+  }
+
   void ask_swapped(Exam& exam, const Witness& witness, Random& random) const {
     const Swapped changed = swapped(exam.scene(), witness, random);
     const auto answer = answer_to(exam, changed.scene);
@@ -291,14 +348,14 @@ class Metamorphic : public Oracle {
           return;
       }
     }
-    // Refined maps depend on where the cell was cut, limited ones on what was left out.
-    if (is_limited(exam.scene().dials) || !answer->map || answer->map->method != "first-order" ||
-        answer->map->statistics.conservative_fallbacks > 0)
-      return;
+    if (is_limited(exam.scene().dials) || !is_omega(exam.answer()) || !is_omega(*answer)) return;
+    exam.count("lists compared with those of changed scenes");
     for (std::uint32_t t = 0; t < changed.heirs.size(); ++t) {
-      if (changed.heirs[t].empty()) continue;
-      const bool before = exam.lists(t),
-                 after = std::binary_search(answer->pvs.begin(), answer->pvs.end(), changed.heirs[t].front());
+      const auto& heirs = changed.heirs[t];
+      if (heirs.empty()) continue;
+      const bool before = exam.lists(t), after = std::any_of(heirs.begin(), heirs.end(), [&](std::uint32_t heir) {
+                                           return std::binary_search(answer->pvs.begin(), answer->pvs.end(), heir);
+                                         });
       if (!(changed.same_geometry ? before != after : changed.part_of_cell && after && !before)) continue;
       Finding f;
       f.oracle = name();

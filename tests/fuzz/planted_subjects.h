@@ -58,6 +58,23 @@ class FromTheCentre : public Subject {
   std::string name() const override { return "from-the-centre"; }
 };
 
+// Claims to be exactly Omega, and loses the last triangle of a mesh of few: with vertices more it does not.
+class LosesOneOfFew : public Subject {
+ public:
+  explicit LosesOneOfFew(std::size_t few) : few_(few) {}
+  Answer answer(const Case& scene) const override {
+    Answer out = make_subject("reference")->answer(scene);
+    out.map.reset();
+    out.in_doubt.emplace();
+    if (!out.pvs.empty() && scene.mesh.triangles.size() <= few_) out.pvs.pop_back();
+    return out;
+  }
+  std::string name() const override { return "loses-one-of-few"; }
+
+ private:
+  std::size_t few_;
+};
+
 // Claims to be exactly Omega, and is not: one triangle too few, or all of them.
 class ClaimsOmega : public Subject {
  public:

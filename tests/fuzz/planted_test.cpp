@@ -44,6 +44,32 @@ TEST(Agreement, FindsATriangleTooFewAndTrianglesTooMany) {
   EXPECT_EQ(disagreements(*make_subject("fast")), std::set<std::string>{});
 }
 
+// What the oracle `metamorphic` says of a scene by one of its relations, in the first cases that have it.
+std::set<std::string> changed_by(const char* relation, const Subject& subject, const Case& scene) {
+  std::set<std::string> verdicts;
+  int cases = 0;
+  for (std::uint64_t i = 0; i < 200 && cases < 4; ++i) {
+    Case numbered = scene;
+    numbered.index = i;
+    const Outcome outcome = judge_case(numbered, subject, oracles_named({"metamorphic"}));
+    EXPECT_TRUE(outcome.contradictions.empty());
+    if (!outcome.counters.contains(std::string("relations: ") + relation)) continue;
+    ++cases;
+    for (const Finding& f : outcome.findings) verdicts.insert(f.verdict);
+  }
+  EXPECT_EQ(cases, 4) << relation;
+  return verdicts;
+}
+
+TEST(Metamorphic, AVertexMoreOnAnEdgeChangesNoList) {
+  const GivenScenes none;
+  const Case scene = generators_named({"irises"}, none).front().make(7, 0);
+  const LosesOneOfFew subject(scene.mesh.triangles.size());
+  EXPECT_EQ(changed_by("vertices more", subject, scene), std::set<std::string>{"answer/other-answer"});
+  for (const char* kernel : {"reference", "fast"})
+    EXPECT_EQ(changed_by("vertices more", *make_subject(kernel), scene), std::set<std::string>{}) << kernel;
+}
+
 // The verdicts of the oracle `see-through` in the first cases of two generators, and how many had flags.
 std::set<std::string> seen_through(const Subject& subject, std::uint64_t& scenes) {
   std::set<std::string> verdicts;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "fuzz/oracles/oracle.h"
+#include "fuzz/subjects/subject.h"
 #include "reference/visibility/first_order.h"
 #include "validate/vectors/reader.h"
 #include "validate/verdicts/judge.h"
@@ -29,6 +31,22 @@ TEST(CirclesWait, IsContradictedByTheJudge) {
   }
   EXPECT_GE(irises, 5U);
   EXPECT_GE(missed, 5U);
+}
+
+// And a vertex more on an edge, which the parts of that edge do not wait beyond, changes its list.
+TEST(CirclesWait, IsNoticedByVerticesMore) {
+  std::size_t noticed = 0;
+  for (const auto& c : validate::read_suite(CLUES_SOURCE_DIR "/vectors")) {
+    if (c.id.find("iris") == c.id.npos) continue;
+    for (std::uint64_t i = 0; i < 40; ++i) {
+      const auto outcome = fuzz::judge_case({"irises", 7, i, c.mesh, c.cell, false}, *fuzz::make_subject("reference"),
+                                            fuzz::oracles_named({"metamorphic"}));
+      for (const auto& f : outcome.findings) {
+        if (f.verdict == "answer/other-answer" && f.explanation.find("vertices more") != f.explanation.npos) ++noticed;
+      }
+    }
+  }
+  EXPECT_GT(noticed, 0U);
 }
 
 }  // namespace
