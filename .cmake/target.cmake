@@ -79,8 +79,10 @@ set(demo_sources
   reference/visibility/map/discontinuity_mesh.cpp reference/visibility/map/in_doubt.cpp reference/visibility/map/omega.cpp
   reference/visibility/map/regions.cpp reference/visibility/map/side_faces.cpp reference/visibility/map/visibility_map.cpp
   reference/visibility/hidden/render_states.cpp
+  fastpath/predicates fastpath/queries
   validate/certificates/chain.cpp validate/certificates/chain_search.cpp validate/certificates/region_points.cpp
-  validate/verdicts/area.cpp validate/verdicts/judge.cpp validate/verdicts/judge_report.cpp validate/verdicts/measures.cpp
+  validate/verdicts/area.cpp validate/verdicts/judge.cpp validate/verdicts/judge_report.cpp
+  validate/verdicts/light_search.cpp validate/verdicts/measures.cpp
   fuzz/generators/city.cpp fuzz/generators/grid_mesh.cpp
   app/common.cpp app/json_output.cpp app/program.cpp app/progress.cpp app/demo app/commands/command_demo.cpp
   app/view/page_data.cpp app/view/page_json.cpp app/view/viewer_page.cpp)
@@ -101,6 +103,8 @@ function(clues_demo_part name)
   clues_chapters(${name}_of_demo)
   get_target_property(libraries ${name} LINK_LIBRARIES)
   target_link_libraries(${name}_of_demo PRIVATE ${libraries})
+  get_target_property(options ${name} COMPILE_OPTIONS)
+  target_compile_options(${name}_of_demo PRIVATE ${options})
   get_target_property(header ${name} PRECOMPILE_HEADERS_REUSE_FROM)
   if(header)
     target_precompile_headers(${name}_of_demo REUSE_FROM ${header})
