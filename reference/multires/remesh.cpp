@@ -5,15 +5,20 @@
 #include <fmt/format.h>
 
 #include <deque>
+#include <exception>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "reference/multires/room.h"
 #include "scene/messages/error.h"
 
 namespace clues::reference {
 namespace {
 
 using scene::CarrierPoint;
+
+constexpr double kWorthARound = 0.9;  // of the error of the round before
 
 struct ByPlace {
   bool operator()(const CarrierPoint& a, const CarrierPoint& b) const {
@@ -26,16 +31,20 @@ struct ByPlace {
 
 class Remesher {
  public:
-  Remesher(const scene::Hierarchy& hierarchy, const RemeshOptions& options)
-      : h_(with_coarse_parameters(hierarchy)), options_(options) {}
+  Remesher(const scene::Hierarchy& hierarchy, const RemeshOptions& options) : h_(hierarchy), options_(options) {}
 
+  // Throws Error unsupported where the grids do not let it cut what has to be cut.
   Remesh run() {
     for (Patch& patch : base_patches(h_)) refine(std::move(patch));
+    if (not_cut_) std::rethrow_exception(not_cut_);
     while (close()) {
     }
     write();
     return std::move(out_);
   }
+
+  // The base triangles in which the grids, or `most`, did not let a patch be cut.
+  const std::set<std::uint32_t>& crowded() const { return crowded_; }
 
  private:
   scene::Point position(const CarrierPoint& source) const { return remesh_position(source, h_.input, options_.single); }
@@ -50,16 +59,35 @@ class Remesher {
                .worst() > options_.error;
   }
 
+  template <typename Cut>
+  std::vector<Patch> noted(const Patch& patch, const Cut& cut) {
+    try {
+      return cut();
+    } catch (const scene::Error& error) {
+      if (error.code() == scene::ErrorCode::unsupported) crowded_.insert(patch.base);
+      throw;
+    }
+  }
+  std::vector<Patch> in_four(const Patch& patch) {
+    return noted(patch, [&] { return cut_in_four(patch, h_); });
+  }
+  std::vector<Patch> in_two(const Patch& patch, std::size_t edge) {
+    return noted(patch, [&] { return cut_in_two(patch, edge, h_); });
+  }
+
   void refine(Patch patch) {
+    const bool has_to = patch.level < options_.level;
     std::vector<Patch> parts;
-    if (patch.level < options_.level) {
-      parts = cut_in_four(patch, h_);
-    } else if (patch.level < options_.most && too_far(patch)) {
-      // What the grids do not let us cut stays, and the bound says so.
+    if (!has_to && patch.level >= options_.most) {
+      if (too_far(patch))
+        crowded_.insert(patch.base);  // a large part of the input is squeezed into a small one of the base domain
+    } else if (has_to || too_far(patch)) {
+      // What the grids do not let us cut stays. For an error the bound says so; for a level the others are looked at before that is the end.
       try {
-        parts = cut_in_four(patch, h_);
+        parts = in_four(patch);
       } catch (const scene::Error& error) {
         if (error.code() != scene::ErrorCode::unsupported) throw;
+        if (has_to && !not_cut_) not_cut_ = std::current_exception();
       }
     }
     for (Patch& part : parts) refine(std::move(part));
@@ -98,14 +126,14 @@ class Remesher {
       const Finer finer = finer_neighbours(patch);
       bool cut = finer.twice || finer.edges.size() > 1;
       if (!cut && finer.edges.size() == 1 && patch.level < options_.most) {
-        for (const Patch& half : cut_in_two(patch, finer.edges[0], h_)) cut = cut || too_far(half);
+        for (const Patch& half : in_two(patch, finer.edges[0])) cut = cut || too_far(half);
       }
       if (!cut) {
         leaves_.push_back(std::move(patch));
         continue;
       }
       changed = true;
-      for (Patch& part : cut_in_four(patch, h_)) keep(std::move(part));
+      for (Patch& part : in_four(patch)) refine(std::move(part));  // its parts may be farther off than it is
     }
     return changed;
   }
@@ -180,7 +208,7 @@ class Remesher {
         if (finer.edges.empty()) {
           write_triangle(*patch);
         } else {
-          for (const Patch& half : cut_in_two(*patch, finer.edges[0], h_)) write_triangle(half);
+          for (const Patch& half : in_two(*patch, finer.edges[0])) write_triangle(half);
         }
       }
     }
@@ -188,8 +216,10 @@ class Remesher {
     out_.reached = !(out_.error() > options_.error);
   }
 
-  const scene::Hierarchy h_;
+  const scene::Hierarchy& h_;
   const RemeshOptions& options_;
+  std::set<std::uint32_t> crowded_;
+  std::exception_ptr not_cut_;
   std::deque<Patch> leaves_;
   std::set<CarrierPoint, ByPlace> used_;
   std::map<CarrierPoint, std::uint32_t, ByPlace> numbers_;
@@ -225,17 +255,35 @@ Remesh remeshed(const scene::Hierarchy& hierarchy, const RemeshOptions& options)
     throw scene::Error(scene::ErrorCode::bad_argument,
                        fmt::format("remesh: a level is from 0 to {}", std::min(options.most, most_levels - 2)));
   }
-  // Neighbours of fine triangles are cut too, and may lie where the grids do not let them: then all are to be coarser.
+  scene::Hierarchy h = with_coarse_parameters(hierarchy);
   RemeshOptions coarser = options;
-  while (coarser.most > coarser.level && coarser.error < std::numeric_limits<double>::infinity()) {
+  std::optional<Remesh> best;
+  for (std::size_t crowded_before = std::numeric_limits<std::size_t>::max();;) {
+    Remesher remesher(h, coarser);
+    std::exception_ptr failed;
+    bool better = false;
     try {
-      return Remesher(hierarchy, coarser).run();
+      Remesh out = remesher.run();
+      if (out.reached) return out;
+      better = !best || out.error() < kWorthARound * best->error();
+      if (!best || out.error() < best->error()) best = std::move(out);
     } catch (const scene::Error& error) {
       if (error.code() != scene::ErrorCode::unsupported) throw;
-      --coarser.most;
+      failed = std::current_exception();
+      better = remesher.crowded().size() < crowded_before;
     }
+    crowded_before = remesher.crowded().size();
+    if (better && crowded_before > 0) {
+      make_room(h, remesher.crowded());
+      continue;
+    }
+    if (best) return std::move(*best);
+    // Neighbours of fine triangles are cut too, and may lie where the grids do not let them: then all are to be coarser.
+    if (coarser.most == coarser.level || coarser.error == std::numeric_limits<double>::infinity())
+      std::rethrow_exception(failed);
+    --coarser.most;
+    crowded_before = std::numeric_limits<std::size_t>::max();
   }
-  return Remesher(hierarchy, coarser).run();
 }
 
 }  // namespace clues::reference

@@ -6,11 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "fuzz/multires/surfaces.h"
 #include "reference/multires/hierarchy.h"
+#include "reference/multires/patch.h"
 #include "reference/multires/remesh_error.h"
+#include "reference/multires/room.h"
+#include "scene/mesh/bounds.h"
+#include "scene/multires/image_triangles.h"
 #include "tests/maps/hierarchy_over.h"
+#include "validate/multires/check_remesh.h"
 #include "validate/multires/level_topology.h"
 
 namespace clues {
@@ -155,6 +161,68 @@ TEST(Remesh, ReachesWhatIsAskedAndIsClosed) {
     EXPECT_EQ(topology.defect, "");
     EXPECT_EQ(topology.euler(), 2);
     EXPECT_EQ(topology.boundaries, 0);  // no T-junction is left
+  }
+}
+
+// By the judge, which knows the hierarchy's map only: another one is as right.
+void expect_verified(const scene::Hierarchy& h, const reference::Remesh& remesh) {
+  validate::HierarchyReport report;
+  validate::check_remesh(h, remesh.mesh, remesh.proof, false, report);
+  EXPECT_TRUE(report.sound());
+}
+
+// Triangles were cut in four because of finer neighbours, and nobody asked whether the parts were near enough, which the whole had been.
+TEST(Remesh, PartsCutForTheirNeighboursAreNearEnough) {
+  for (const std::uint64_t index : {4U, 26U}) {
+    const auto h = test::hierarchy_over(fuzz::surface_case(7, index).mesh, 8);
+    const auto box = scene::bounds_of(h.input.points);
+    reference::RemeshOptions options;
+    options.error = 0.05 * std::max({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
+    const auto remesh = reference::remeshed(h, options);
+    EXPECT_TRUE(remesh.reached) << index;
+    EXPECT_LE(remesh.error(), options.error) << index;
+    expect_verified(h, remesh);
+  }
+}
+
+// Folded and flat surfaces over few base triangles: lines through pieces of 2^-60 had no place on the grids, and the remesh was refused.
+TEST(Remesh, CrowdedPiecesGetRoom) {
+  for (const std::uint64_t index : {3U, 14U, 28U}) {
+    const auto h = test::hierarchy_over(fuzz::surface_case(7, index).mesh, 8);
+    reference::RemeshOptions options;
+    options.level = 3;
+    const auto remesh = reference::remeshed(h, options);
+    EXPECT_EQ(remesh.mesh.triangles.size(), h.base.size() << 6) << index;
+    expect_verified(h, remesh);
+  }
+}
+
+// The smallest piece of the overlay on either surface, in units of 2^-120 of its triangle.
+std::array<exact::Wide, 2> smallest_pieces(const scene::Hierarchy& h) {
+  const scene::ImageTriangles base(h.base);
+  std::array<exact::Wide, 2> least{exact::Wide{1} << 120, exact::Wide{1} << 120};
+  for (const auto& piece : h.pieces) {
+    const auto &a = h.points[piece.corners[0]], &b = h.points[piece.corners[1]], &c = h.points[piece.corners[2]];
+    least[0] = std::min(least[0], exact::area_in(h.input.triangles[piece.input], a.source, b.source, c.source));
+    least[1] = std::min(least[1], exact::area_in(h.base[base.of(piece, h.points)], a.image, b.image, c.image));
+  }
+  return least;
+}
+
+TEST(Room, LetsPiecesGrowAndKeepsWhatCarriesTheirPoints) {
+  const auto before = reference::with_coarse_parameters(test::hierarchy_over(fuzz::surface_case(7, 14).mesh, 8));
+  auto after = before;
+  std::set<std::uint32_t> all;
+  for (std::uint32_t t = 0; t < before.base.size(); ++t) all.insert(t);
+  reference::make_room(after, all);
+  const auto small = smallest_pieces(before), large = smallest_pieces(after);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_TRUE(small[k] > 0);
+    EXPECT_TRUE(large[k] > small[k]) << k;
+  }
+  for (std::size_t p = 0; p < before.points.size(); ++p) {
+    EXPECT_EQ(after.points[p].source.corner, before.points[p].source.corner) << p;
+    EXPECT_EQ(after.points[p].image.corner, before.points[p].image.corner) << p;
   }
 }
 
