@@ -7,10 +7,10 @@
 #include <mutex>
 #include <utility>
 
-#include "app/cluster/thread_pool.h"
 #include "scene/bakes/packed_list.h"
 #include "scene/messages/error.h"
 #include "validate/processes/dispatcher.h"
+#include "validate/processes/thread_pool.h"
 
 namespace clues::app {
 namespace {
@@ -123,8 +123,8 @@ void bake_by_ranks(Cluster& cluster, int threads, const scene::FlaggedMesh& scen
     return text_of(done, plan.triangles);
   };
   const auto own = [&](std::uint64_t piece) { return work.map(piece); };
-  const auto pool = cluster.pool(question_to_ranks(plan), std::make_unique<ThreadPool>(threads, own), threads, known,
-                                 [&](std::uint64_t piece, const std::string& text) { work.learn(piece, text); });
+  const auto pool = cluster.pool(question_to_ranks(plan), std::make_unique<validate::ThreadPool>(threads, own), threads,
+                                 known, [&](std::uint64_t piece, const std::string& text) { work.learn(piece, text); });
   const auto order = validate::longest_first(expected);
   std::size_t next = 0;
   const auto hand_out = [&] {
@@ -152,7 +152,7 @@ void serve_bake(Cluster& cluster, int threads, const scene::FlaggedMesh& scene, 
     throw scene::Error(scene::ErrorCode::bad_argument,
                        plan.scene_file + ": is another scene, or asked about otherwise, than on the first rank");
   PieceWork work(scene, plan, make_lister);
-  ThreadPool own(threads, [&](std::uint64_t piece) { return work.map(piece); });
+  validate::ThreadPool own(threads, [&](std::uint64_t piece) { return work.map(piece); });
   cluster.serve(own, threads, [&](std::uint64_t piece, const std::string& known) { work.learn(piece, known); });
 }
 

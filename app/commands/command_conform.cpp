@@ -4,9 +4,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "app/cluster/cluster.h"
 #include "app/commands.h"
 #include "app/commands/conform_stream.h"
 #include "app/common.h"
@@ -22,6 +24,7 @@
 #include "validate/conform/report.h"
 #include "validate/conform/result_files.h"
 #include "validate/conform/runner.h"
+#include "validate/processes/thread_pool.h"
 #include "validate/vectors/reader.h"
 
 namespace clues::app {
@@ -111,6 +114,9 @@ void require_no_answer(const std::string& output, const std::string& results) {
 }
 
 int run_conform(const ConformRequest& request) {
+  Cluster cluster;
+  std::optional<std::string> question;
+  if (!cluster.leads() && !(question = cluster.question())) return fine;
   if (!request.implementation.empty() + !request.results.empty() + !request.export_to.empty() != 1) {
     fail_usage("give exactly one of --impl, --results and --export");
   }
@@ -148,8 +154,23 @@ int run_conform(const ConformRequest& request) {
   }
 
   const auto subject = make_subject(request);
-  options.jobs = request.jobs > 0 ? request.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int jobs = cluster.threads(request.jobs);
+  options.jobs = jobs > 0 ? jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   options.error_limit = static_cast<std::uint64_t>(request.errors);
+  if (!cluster.leads()) {
+    validate::serve_cases(*subject, cases, options, [&](const std::string& plan, const validate::Work& work) {
+      if (plan != question) throw Error(ErrorCode::bad_argument, "clues conform: other cases than on the first rank");
+      validate::ThreadPool own(options.jobs, work);
+      cluster.serve(own, options.jobs, nullptr);
+    });
+    return fine;
+  }
+  if (!cluster.alone()) {
+    options.pool = [&](const std::string& plan, const validate::Work& work) {
+      return cluster.pool(plan, std::make_unique<validate::ThreadPool>(options.jobs, work), options.jobs, nullptr,
+                          nullptr);
+    };
+  }
   validate::Run run;
   {
     ProgressBar bar("clues conform");
@@ -211,6 +232,7 @@ EXAMPLES
   clues conform --impl ./libmine.so --topic grazing --junit conform.xml
   clues conform --impl 'clues iut --kernel exact' --case '*-one-ulp-*' -v
   clues conform --export cases && ./my_tool cases && clues conform --results cases
+  mpirun -n 2 clues conform --impl 'clues iut --kernel exact' --jobs 1     # docs/clusters.md
 
 EXIT CODES
   0  no failure, or expected ones only

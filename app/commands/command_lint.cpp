@@ -1,8 +1,10 @@
 // clues lint: proves the conformance suite anew, and formats it.
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "app/cluster/cluster.h"
 #include "app/commands.h"
 #include "app/common.h"
 #include "app/json_output.h"
@@ -10,6 +12,7 @@
 #include "scene/messages/error.h"
 #include "validate/motion/lint_motion.h"
 #include "validate/multires/lint_multires.h"
+#include "validate/processes/workers.h"
 #include "validate/vectors/lint.h"
 
 namespace clues::app {
@@ -36,6 +39,9 @@ int end_side_lint(const LintRequest& request, const validate::SideLintReport& re
 }
 
 int run_lint(const LintRequest& request) {
+  Cluster cluster;
+  std::optional<std::string> question;
+  if (!cluster.leads() && !(question = cluster.question())) return fine;
   auto options = request.options;
   if (options.accept && !options.write) {
     throw scene::Error(scene::ErrorCode::bad_argument, "--accept goes with --write (see `clues lint --help`)");
@@ -50,7 +56,23 @@ int run_lint(const LintRequest& request) {
     return end_side_lint(request, validate::lint_multires_suite(request.folder, side), "maps of surfaces",
                          "clues-multires-lint/1");
   }
+  options.jobs = cluster.threads(options.jobs);
   if (options.jobs == 0) options.jobs = static_cast<int>(std::thread::hardware_concurrency());
+  if (!cluster.leads()) {
+    validate::serve_lint(request.folder, options, [&](const std::string& plan, const validate::Work& work) {
+      if (plan != question)
+        throw scene::Error(scene::ErrorCode::bad_argument, "clues lint: other cases than on the first rank");
+      validate::Workers own(options.jobs, work, std::nullopt);
+      cluster.serve(own, options.jobs, nullptr);
+    });
+    return fine;
+  }
+  if (!cluster.alone()) {
+    options.pool = [&](const std::string& plan, const validate::Work& work) {
+      return cluster.pool(plan, std::make_unique<validate::Workers>(options.jobs, work, std::nullopt), options.jobs,
+                          nullptr, nullptr);
+    };
+  }
   validate::LintReport report;
   {
     ProgressBar bar("clues lint");
@@ -112,7 +134,8 @@ void add_lint_command(CLI::App& program, int& status) {
       "  clues lint vectors/motion\n"
       "  clues lint vectors/multires\n"
       "  clues lint vectors --case 'edge-*' --jobs 2\n"
-      "  clues lint my-cases --write\n\n"
+      "  clues lint my-cases --write\n"
+      "  mpirun -n 2 clues lint                                          # docs/clusters.md\n\n"
       "EXIT CODES\n"
       "  0 all is proved   1 findings   2 bad usage, or a file is malformed\n"
       "  3 a process that proved a case was killed   4 an oracle contradicted itself");

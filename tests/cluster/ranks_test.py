@@ -131,6 +131,27 @@ def wrong_commands(work):
     assert ran.stderr.count("clues: error:") == 1, ran.stderr
 
 
+def same_reports(clues, folder):
+    """Of commands that keep no store."""
+    root = pathlib.Path(__file__).resolve().parents[2]
+    suite = root / "vectors"
+    adapter = (root / "validate/adapters/python/clues_adapter.py").read_text()
+    (folder / "adapter.py").write_text(adapter.replace("if t not in not_counted]", "if t % 7 == 0 and t not in not_counted]"))
+    words = {"conform": ["conform", "--impl", f"{clues} iut --kernel fast", "--suite", suite, "--case", "i*"],
+             # Stops in the middle: what others did meanwhile does not count.
+             "stopped": ["conform", "--impl", "python3 adapter.py", "--suite", suite, "--errors", "20"],
+             "lint": ["lint", suite, "--case", "iris*"]}
+    for name, command in words.items():
+        reports = {}
+        for ranks in (None, 1, 2, 3):
+            ahead = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks else []
+            ran = subprocess.run([*ahead, clues, *command, "--jobs", "1", "--json", "report.json"], cwd=folder, env=ENVIRONMENT,
+                                 capture_output=True, text=True)
+            reports[ranks] = (ran.returncode, (folder / "report.json").read_bytes() if ran.returncode in (0, 1, 3) else ran.stderr.splitlines()[0])
+        assert len(set(reports.values())) == 1, (name, reports)
+        print(f"{name}: the same report by 1, 2, 3 ranks, exit code {reports[None][0]}")
+
+
 def main():
     clues, what = os.path.abspath(sys.argv[1]), sys.argv[2]
     if not shutil.which("mpirun"):
@@ -151,6 +172,8 @@ def main():
             if what == "same":
                 wrong_commands(work)
                 same(work)
+                if kind == "bake":
+                    same_reports(clues, folder)
             else:
                 kills(work, int(sys.argv[3]))
 

@@ -12,15 +12,16 @@ namespace {
 using testing::HasSubstr;
 
 TEST(Workers, ACrashStopsNobodyElse) {
-  const auto answers = run_in_children(
-      6, 2,
+  Workers workers(
+      2,
       [](std::uint64_t i) -> std::string {
         if (i == 1) std::abort();
         if (i == 3) std::_Exit(5);
         if (i == 4) throw std::runtime_error("no");
         return std::string(i * 100'000, 'x');
       },
-      nullptr);
+      std::nullopt);
+  const auto answers = replies_of(workers, 6, nullptr);
   ASSERT_EQ(answers.size(), 6U);
   for (const std::size_t i : {0, 2, 5}) {
     EXPECT_TRUE(answers[i].finished);

@@ -1,17 +1,14 @@
 // Blocks of cases in parallel; what is counted is counted in order.
 #include "validate/conform/runner.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/partitioner.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
-#include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 
+#include "scene/messages/error.h"
+#include "scene/result.h"
+#include "validate/processes/thread_pool.h"
 #include "validate/vectors/reader.h"
 
 namespace clues::validate {
@@ -32,13 +29,9 @@ class Progress {
 
   std::size_t blocks() const { return blocks_.size(); }
 
-  bool is_wanted() {
-    const std::lock_guard lock(mutex_);
-    return options_.error_limit == 0 || problems_ < options_.error_limit;
-  }
+  bool is_wanted() const { return options_.error_limit == 0 || problems_ < options_.error_limit; }
 
   void put(std::size_t block, std::vector<CaseResult> results) {
-    const std::lock_guard lock(mutex_);
     done_ += results.size();
     blocks_[block] = std::move(results);
     for (; complete_ < blocks_.size() && blocks_[complete_]; ++complete_) {
@@ -64,12 +57,72 @@ class Progress {
   }
 
  private:
-  std::mutex mutex_;
   std::size_t total_, done_ = 0, complete_ = 0;
   std::uint64_t problems_ = 0;
   const Run& run_;
   const RunOptions& options_;
   std::vector<std::optional<std::vector<CaseResult>>> blocks_;
+};
+
+// Blocks as tasks: a reply is the answers to its cases, which are graded where the run is.
+class Blocks {
+ public:
+  Blocks(const Subject& subject, const std::vector<const VectorCase*>& cases, const Run& run, std::uint64_t error_limit)
+      : subject_(subject), cases_(cases), run_(run), error_limit_(error_limit) {}
+
+  std::size_t size() const { return (cases_.size() + block_size - 1) / block_size; }
+
+  std::string plan() const {
+    std::string questions;
+    for (std::uint32_t i = 0; i < cases_.size(); ++i) questions += cases_[i]->id + run_request(i, *cases_[i]);
+    return "clues conform\n" + subject_.about().name + "\n" + subject_.about().version + "\n" +
+           scene::sha256_of(questions);
+  }
+
+  Work work() const {
+    return [this](std::uint64_t block) { return text_of(answers(block)); };
+  }
+
+  std::vector<CaseResult> results(std::uint64_t block, const std::string& text) const {
+    const auto block_cases = of(block);
+    std::vector<CaseResult> results;
+    for (const auto& value : nlohmann::json::from_cbor(text)) {
+      Answer answer{static_cast<AnswerKind>(value[0].get<int>()), value[1], value[2], value[3], value[4]};
+      results.push_back(grade(*block_cases[results.size()], std::move(answer)));
+    }
+    return results;
+  }
+
+ private:
+  std::span<const VectorCase* const> of(std::uint64_t block) const {
+    const auto first = static_cast<std::size_t>(block) * block_size;
+    return std::span(cases_).subspan(first, std::min(block_size, cases_.size() - first));
+  }
+
+  std::vector<Answer> answers(std::uint64_t block) const {
+    const auto block_cases = of(block);
+    // With as many problems in this block alone, the run ends in it.
+    std::uint64_t problems = 0;
+    return subject_.answer(block_cases, [&](std::size_t i, const Answer& answer) {
+      problems += run_.is_problem(grade(*block_cases[i], answer)) ? 1 : 0;
+      return error_limit_ == 0 || problems < error_limit_;
+    });
+  }
+
+  // What programs say may be no UTF-8, which CBOR does not mind.
+  static std::string text_of(const std::vector<Answer>& answers) {
+    auto values = nlohmann::json::array();
+    for (const auto& a : answers)
+      values.push_back({static_cast<int>(a.kind), a.visible, a.message, a.issue_url, a.stderr_tail});
+    std::string text;
+    nlohmann::json::to_cbor(values, text);
+    return text;
+  }
+
+  const Subject& subject_;
+  const std::vector<const VectorCase*>& cases_;
+  const Run& run_;
+  const std::uint64_t error_limit_;
 };
 
 }  // namespace
@@ -128,35 +181,22 @@ std::uint64_t Run::unanswered() const {
 Run run_cases(const Subject& subject, const std::vector<const VectorCase*>& cases, const RunOptions& options) {
   Run run;
   run.expected = options.expected;
-  Progress progress(cases.size(), run, options);
-  // More jobs than cores are fine: they wait for other processes.
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(options.jobs));
-  tbb::task_arena arena(options.jobs);
-  arena.execute([&] {
-    const tbb::blocked_range<std::size_t> blocks(0, progress.blocks(), 1);
-    tbb::parallel_for(
-        blocks,
-        [&](const auto& range) {
-          for (std::size_t block = range.begin(); block != range.end(); ++block) {
-            if (!progress.is_wanted()) continue;
-            const auto first = block * block_size;
-            const std::span block_cases(cases.data() + first, std::min(block_size, cases.size() - first));
-            // With as many problems in this block alone, the run ends in it.
-            std::uint64_t problems = 0;
-            auto answers = subject.answer(block_cases, [&](std::size_t i, const Answer& answer) {
-              problems += run.is_problem(grade(*block_cases[i], answer)) ? 1 : 0;
-              return options.error_limit == 0 || problems < options.error_limit;
-            });
-            std::vector<CaseResult> results;
-            for (std::size_t i = 0; i < answers.size(); ++i)
-              results.push_back(grade(*block_cases[i], std::move(answers[i])));
-            progress.put(block, std::move(results));
-          }
-        },
-        tbb::simple_partitioner());
-  });
-  run.results = progress.take();
+  if (!cases.empty()) {
+    Progress progress(cases.size(), run, options);
+    const Blocks blocks(subject, cases, run, options.error_limit);
+    const auto jobs = std::min(blocks.size(), static_cast<std::size_t>(options.jobs));
+    const auto pool = options.pool ? options.pool(blocks.plan(), blocks.work())
+                                   : std::make_unique<ThreadPool>(static_cast<int>(jobs), blocks.work());
+    for (std::size_t next = 0; true;) {
+      while (next < blocks.size() && pool->idle() && progress.is_wanted()) pool->start(next++);
+      if (pool->empty()) break;
+      auto reply = pool->wait(std::chrono::seconds(10));
+      if (!reply) continue;
+      if (!reply->finished) throw scene::Error(scene::ErrorCode::internal, reply->text);
+      progress.put(static_cast<std::size_t>(reply->task), blocks.results(reply->task, reply->text));
+    }
+    run.results = progress.take();
+  }
   run.not_reached = cases.size() - run.results.size();
   for (const auto& result : run.results) {
     run.total.add(result);
@@ -168,6 +208,14 @@ Run run_cases(const Subject& subject, const std::vector<const VectorCase*>& case
     }
   }
   return run;
+}
+
+void serve_cases(const Subject& subject, const std::vector<const VectorCase*>& cases, const RunOptions& options,
+                 const Serve& serve) {
+  Run run;
+  run.expected = options.expected;
+  const Blocks blocks(subject, cases, run, options.error_limit);
+  serve(blocks.plan(), blocks.work());
 }
 
 int exit_code(const Run& run) {

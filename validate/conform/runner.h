@@ -11,6 +11,7 @@
 #include "validate/conform/expected_failures.h"
 #include "validate/conform/grade.h"
 #include "validate/conform/subject.h"
+#include "validate/processes/work_pool.h"
 
 namespace clues::validate {
 
@@ -25,6 +26,7 @@ std::vector<const VectorCase*> select_cases(const std::vector<VectorCase>& suite
 
 struct RunOptions {
   int jobs = 1;                   // blocks at a time
+  PoolMaker pool;                 // that puts blocks; none: `jobs` threads of this process
   std::uint64_t error_limit = 0;  // stop after so many problems; 0: never
   ExpectedFailures expected;
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  // from one thread at a time
@@ -48,6 +50,10 @@ struct Run {
 };
 
 Run run_cases(const Subject& subject, const std::vector<const VectorCase*>& cases, const RunOptions& options);
+
+// Of another machine: puts the blocks that it is given, of the same selection.
+void serve_cases(const Subject& subject, const std::vector<const VectorCase*>& cases, const RunOptions& options,
+                 const Serve& serve);
 
 // 0 no problem, 1 a problem, 3 nothing was executed or a case was left unanswered, 4 the suite contradicts itself.
 int exit_code(const Run& run);

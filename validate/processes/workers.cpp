@@ -197,17 +197,16 @@ std::optional<WorkerReply> Workers::wait(std::chrono::milliseconds most) {
   return std::nullopt;
 }
 
-std::vector<WorkerReply> run_in_children(std::size_t count, int jobs,
-                                         const std::function<std::string(std::uint64_t)>& work,
-                                         const std::function<void(std::size_t done)>& progress) {
-  Workers workers(static_cast<int>(std::min<std::size_t>(count, static_cast<std::size_t>(jobs))), work, std::nullopt);
+std::vector<WorkerReply> replies_of(WorkPool& pool, std::size_t count,
+                                    const std::function<void(std::size_t done)>& progress) {
   std::vector<WorkerReply> replies(count);
   std::size_t next = 0, done = 0;
   while (done < count) {
-    while (next < count && workers.idle()) workers.start(next++);
-    auto reply = workers.wait(std::chrono::seconds(10));
+    while (next < count && pool.idle()) pool.start(next++);
+    auto reply = pool.wait(std::chrono::seconds(10));
     if (!reply) continue;
-    replies[reply->task] = std::move(*reply);
+    const auto task = static_cast<std::size_t>(reply->task);
+    replies[task] = std::move(*reply);
     ++done;
     if (progress) progress(done);
   }

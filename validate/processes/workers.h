@@ -40,10 +40,4 @@ class Workers : public WorkPool {
   std::vector<std::unique_ptr<Worker>> workers_;
 };
 
-// Runs work(0), ..., work(count-1) in `jobs` processes (at least 1) and returns the replies in the order of the tasks. `progress`, if there is
-// one, is called here, after each reply.
-std::vector<WorkerReply> run_in_children(std::size_t count, int jobs,
-                                         const std::function<std::string(std::uint64_t)>& work,
-                                         const std::function<void(std::size_t done)>& progress);
-
 }  // namespace clues::validate

@@ -12,6 +12,7 @@
 #include "scene/formats/file_bytes.h"
 #include "scene/json_reader.h"
 #include "scene/messages/error.h"
+#include "scene/result.h"
 #include "validate/processes/workers.h"
 #include "validate/vectors/reader.h"
 #include "validate/vectors/writer.h"
@@ -72,12 +73,19 @@ class Linter {
   LintReport run() {
     read_files();
     read_index();
+    select();
     prove();
     check_text();
     check_ids();
     std::stable_sort(report_.findings.begin(), report_.findings.end(),
                      [](const auto& a, const auto& b) { return a.file < b.file; });
     return std::move(report_);
+  }
+
+  void serve(const Serve& serve) {
+    read_files();
+    select();
+    serve(plan(), work());
   }
 
  private:
@@ -122,21 +130,33 @@ class Linter {
     }
   }
 
-  void prove() {
-    std::vector<std::pair<File*, VectorCase*>> selected;
+  void select() {
     for (auto& file : files_) {
       for (auto& c : file.content.cases) {
-        if (matches_glob(c.id, options_.glob)) selected.emplace_back(&file, &c);
+        if (matches_glob(c.id, options_.glob)) selected_.emplace_back(&file, &c);
       }
     }
-    report_.selected = selected.size();
-    const auto answers = run_in_children(
-        selected.size(), std::max(options_.jobs, 1),
-        [&](std::uint64_t i) { return pack(look_at(*selected[i].second, options_.write)); },
-        [&](std::size_t done) {
-          if (options_.progress) options_.progress(done, selected.size());
-        });
-    for (std::size_t i = 0; i < selected.size(); ++i) take(*selected[i].first, *selected[i].second, answers[i]);
+    report_.selected = selected_.size();
+  }
+
+  std::string plan() const {
+    std::string text = "clues lint\n" + options_.glob + (options_.write ? "\nwrite\n" : "\n");
+    for (const auto& file : files_) text += scene::sha256_of(file.bytes) + "\n";
+    return text;
+  }
+  Work work() const {
+    return [this](std::uint64_t i) { return pack(look_at(*selected_.at(i).second, options_.write)); };
+  }
+
+  void prove() {
+    if (selected_.empty()) return;
+    const auto jobs = std::min<std::size_t>(selected_.size(), static_cast<std::size_t>(std::max(options_.jobs, 1)));
+    const auto pool = options_.pool ? options_.pool(plan(), work())
+                                    : std::make_unique<Workers>(static_cast<int>(jobs), work(), std::nullopt);
+    const auto answers = replies_of(*pool, selected_.size(), [&](std::size_t done) {
+      if (options_.progress) options_.progress(done, selected_.size());
+    });
+    for (std::size_t i = 0; i < selected_.size(); ++i) take(*selected_[i].first, *selected_[i].second, answers[i]);
   }
 
   void take(const File& file, VectorCase& c, const WorkerReply& raw) {
@@ -246,6 +266,7 @@ class Linter {
   fs::path folder_;
   const LintOptions& options_;
   std::vector<File> files_;
+  std::vector<std::pair<File*, VectorCase*>> selected_;
   std::map<std::string, std::string> why_missing_;  // by case id
   VectorIndex index_;
   std::string index_bytes_;
@@ -270,6 +291,10 @@ const char* to_word(LintKind kind) {
 }  // namespace
 
 LintReport lint_suite(const fs::path& folder, const LintOptions& options) { return Linter(folder, options).run(); }
+
+void serve_lint(const fs::path& folder, const LintOptions& options, const Serve& serve) {
+  Linter(folder, options).serve(serve);
+}
 
 std::string to_text(const LintReport& report) {
   std::string text;

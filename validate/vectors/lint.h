@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "validate/processes/work_pool.h"
 #include "validate/vectors/prove.h"
 
 namespace clues::validate {
@@ -17,6 +18,7 @@ struct LintOptions {
   bool write = false;      // write files canonically, fill in missing expectations and bring the index up to date
   bool accept = false;     // with write: also replace expectations that turned out wrong
   int jobs = 1;            // child processes
+  PoolMaker pool;          // that prove cases; none: `jobs` child processes of this machine
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;
 };
 
@@ -39,6 +41,9 @@ struct LintReport {
 
 // Throws Error file_not_found when there is no such folder, file_unwritable with `write`.
 LintReport lint_suite(const std::filesystem::path& folder, const LintOptions& options);
+
+// Of another machine: proves the cases that it is given, and writes nothing.
+void serve_lint(const std::filesystem::path& folder, const LintOptions& options, const Serve& serve);
 
 std::string to_text(const LintReport& report);
 // "clues-lint/1": keys sorted, two spaces of indent, newline at the end.

@@ -1,9 +1,9 @@
-#include "app/cluster/thread_pool.h"
+#include "validate/processes/thread_pool.h"
 
 #include <exception>
 #include <utility>
 
-namespace clues::app {
+namespace clues::validate {
 
 ThreadPool::ThreadPool(int count, std::function<std::string(std::uint64_t)> work) : work_(std::move(work)) {
   for (int i = 0; i < count; ++i) threads_.emplace_back([this] { work_on(); });
@@ -28,7 +28,7 @@ void ThreadPool::start(std::uint64_t task) {
   changed_.notify_one();
 }
 
-std::optional<validate::WorkerReply> ThreadPool::wait(std::chrono::milliseconds most) {
+std::optional<WorkerReply> ThreadPool::wait(std::chrono::milliseconds most) {
   std::unique_lock lock(mutex_);
   if (!replied_.wait_for(lock, most, [&] { return !replies_.empty(); })) return std::nullopt;
   auto reply = std::move(replies_.front());
@@ -39,7 +39,7 @@ std::optional<validate::WorkerReply> ThreadPool::wait(std::chrono::milliseconds 
 
 void ThreadPool::work_on() {
   while (true) {
-    validate::WorkerReply reply;
+    WorkerReply reply;
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] { return over_ || !waiting_.empty(); });
@@ -59,4 +59,4 @@ void ThreadPool::work_on() {
   }
 }
 
-}  // namespace clues::app
+}  // namespace clues::validate
