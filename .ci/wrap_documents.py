@@ -223,6 +223,9 @@ def main():
     root = pathlib.Path(__file__).resolve().parent.parent
     files = [pathlib.Path(f) for f in sys.argv[1:]] or [root / d for d in documents(root)]
     for file in files:
+        if file.suffix != ".md":
+            sys.exit(f"{file}: no document (.md); left as it is")
+    for file in files:
         before = file.read_bytes().decode("utf-8")
         after = wrapped(before)
         if after != before:

@@ -1,18 +1,25 @@
-#!/usr/bin/env python3 """wrap_documents.py changes white space in paragraphs and nothing else, and what it
-has wrapped it leaves alone.""" import pathlib import sys import unittest
+#!/usr/bin/env python3
+"""wrap_documents.py changes white space in paragraphs and nothing else, and what it has wrapped it leaves alone."""
+import pathlib
+import sys
+import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).parent)) import wrap_documents # noqa: E402 from wrap_documents
-import BLANK, TEXT, classified, wrapped # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import wrap_documents  # noqa: E402
+from wrap_documents import BLANK, TEXT, classified, wrapped  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
-def untouchable(text): """The lines of headings, tables, code and HTML, in order.""" return [line.text for
-line in classified(text.split("\n")) if line.kind not in (TEXT, BLANK)]
+def untouchable(text):
+    """The lines of headings, tables, code and HTML, in order."""
+    return [line.text for line in classified(text.split("\n")) if line.kind not in (TEXT, BLANK)]
 
 
-class Wrapping(unittest.TestCase): def becomes(self, before, after, width=20):
-self.assertEqual(wrapped(before, width), after) self.assertEqual(wrapped(after, width), after)
+class Wrapping(unittest.TestCase):
+    def becomes(self, before, after, width=20):
+        self.assertEqual(wrapped(before, width), after)
+        self.assertEqual(wrapped(after, width), after)
 
     def test_paragraphs(self):
         self.becomes("one two three four five six\nseven", "one two three four\nfive six seven")
@@ -64,4 +71,5 @@ self.assertEqual(wrapped(before, width), after) self.assertEqual(wrapped(after, 
                     self.assertEqual(wrapped(after, width), after)
 
 
-if __name__ == "__main__": unittest.main()
+if __name__ == "__main__":
+    unittest.main()

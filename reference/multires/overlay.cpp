@@ -63,13 +63,14 @@ bool holds(const std::array<DiskPoint, 3>& corners, const FlatPoint& point, Wide
 std::optional<CarrierPoint> weights_in(const scene::Triangle& triangle, const std::array<DiskPoint, 3>& corners,
                                        const FlatPoint& point) {
   const Wide area = exact::orientation(corners[0], corners[1], corners[2]);
+  std::array<Wide, 3> parts;  // of a point outside they may be any size
+  for (std::size_t k = 0; k < 3; ++k) parts[k] = exact::orientation(corners[(k + 1) % 3], corners[(k + 2) % 3], point);
+  if (*std::min_element(parts.begin(), parts.end()) < 0) return std::nullopt;
   std::array<std::pair<std::uint32_t, std::int64_t>, 3> weights;
   std::int64_t left = scene::whole_weight;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Wide part = exact::orientation(corners[(k + 1) % 3], corners[(k + 2) % 3], point);
-    if (part < 0) return std::nullopt;
-    weights[k] = {triangle[k], static_cast<std::int64_t>(part / area)};
-    if (part > 0 && weights[k].second == 0) return std::nullopt;
+    weights[k] = {triangle[k], static_cast<std::int64_t>(parts[k] / area)};
+    if (parts[k] > 0 && weights[k].second == 0) return std::nullopt;
     left -= weights[k].second;
   }
   return exact::rounded_point(weights, left);

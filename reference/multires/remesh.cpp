@@ -18,7 +18,7 @@ namespace {
 
 using scene::CarrierPoint;
 
-constexpr double kWorthARound = 0.9;  // of the error of the round before
+constexpr double kWorthARound = 0.9;  // of the error, or of the number of crowded base triangles, of the round before
 
 struct ByPlace {
   bool operator()(const CarrierPoint& a, const CarrierPoint& b) const {
@@ -43,8 +43,9 @@ class Remesher {
     return std::move(out_);
   }
 
-  // The base triangles in which the grids, or `most`, did not let a patch be cut.
+  // The base triangles in which the grids, or `most`, did not let a patch be cut; and whether one was in the way of the level.
   const std::set<std::uint32_t>& crowded() const { return crowded_; }
+  bool misses_level() const { return not_cut_ != nullptr; }
 
  private:
   scene::Point position(const CarrierPoint& source) const { return remesh_position(source, h_.input, options_.single); }
@@ -76,6 +77,7 @@ class Remesher {
   }
 
   void refine(Patch patch) {
+    if (not_cut_ && crowded_.count(patch.base) != 0) return;
     const bool has_to = patch.level < options_.level;
     std::vector<Patch> parts;
     if (!has_to && patch.level >= options_.most) {
@@ -87,13 +89,18 @@ class Remesher {
         parts = in_four(patch);
       } catch (const scene::Error& error) {
         if (error.code() != scene::ErrorCode::unsupported) throw;
-        if (has_to && !not_cut_) not_cut_ = std::current_exception();
+        if (has_to && !not_cut_) {
+          not_cut_ = std::current_exception();
+          leaves_.clear();
+          used_.clear();
+        }
       }
     }
     for (Patch& part : parts) refine(std::move(part));
     if (parts.empty()) keep(std::move(patch));
   }
   void keep(Patch patch) {
+    if (not_cut_) return;
     for (const CarrierPoint& corner : patch.corners) used_.insert(corner);
     leaves_.push_back(std::move(patch));
     if (options_.progress) options_.progress(leaves_.back().base + 1, h_.base.size());
@@ -258,7 +265,8 @@ Remesh remeshed(const scene::Hierarchy& hierarchy, const RemeshOptions& options)
   scene::Hierarchy h = with_coarse_parameters(hierarchy);
   RemeshOptions coarser = options;
   std::optional<Remesh> best;
-  for (std::size_t crowded_before = std::numeric_limits<std::size_t>::max();;) {
+  double crowded_before = std::numeric_limits<double>::infinity();
+  while (true) {
     Remesher remesher(h, coarser);
     std::exception_ptr failed;
     bool better = false;
@@ -270,19 +278,17 @@ Remesh remeshed(const scene::Hierarchy& hierarchy, const RemeshOptions& options)
     } catch (const scene::Error& error) {
       if (error.code() != scene::ErrorCode::unsupported) throw;
       failed = std::current_exception();
-      better = remesher.crowded().size() < crowded_before;
+      better = static_cast<double>(remesher.crowded().size()) < kWorthARound * crowded_before;
     }
-    crowded_before = remesher.crowded().size();
-    if (better && crowded_before > 0) {
+    if (better && !remesher.crowded().empty()) {
+      crowded_before = static_cast<double>(remesher.crowded().size());
       make_room(h, remesher.crowded());
       continue;
     }
     if (best) return std::move(*best);
     // Neighbours of fine triangles are cut too, and may lie where the grids do not let them: then all are to be coarser.
-    if (coarser.most == coarser.level || coarser.error == std::numeric_limits<double>::infinity())
-      std::rethrow_exception(failed);
+    if (coarser.most == coarser.level || remesher.misses_level()) std::rethrow_exception(failed);
     --coarser.most;
-    crowded_before = std::numeric_limits<std::size_t>::max();
   }
 }
 

@@ -32,6 +32,7 @@ struct Remesh {
   double error() const { return std::max(proof.to_remesh, proof.to_input); }  // bounds the Hausdorff distance
 };
 
+// The map may be another one than that of the overlay, in base triangles that are crowded (room.h), and by that the proof's.
 // Neighbours differ by at most one level, and a triangle whose neighbour is finer is cut in two, so that edges meet whole edges. `hierarchy` has
 // to be a verified one. Where the grids are too coarse for an error that is asked for, parts are larger; for `level`: throws Error unsupported, bad_argument for a level above `most` or most_levels.
 Remesh remeshed(const scene::Hierarchy& hierarchy, const RemeshOptions& options);

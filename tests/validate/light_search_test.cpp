@@ -42,7 +42,7 @@ TEST(LightSearch, LooksThroughTheWindowOfAnIris) {
 }
 
 TEST(LightSearch, WorksInEveryUnit) {
-  for (const double unit : {0x1p-200, 0x1p-30, 0x1p30, 0x1p200}) {
+  for (const double unit : {0x1p-200, 0x1p-30, 0x1p30, 0x1p200, 0x1p1018}) {
     auto mesh = iris();
     auto points = iris_cells.back();
     for (auto* list : {&mesh.points, &points}) {
@@ -52,6 +52,13 @@ TEST(LightSearch, WorksInEveryUnit) {
     }
     EXPECT_TRUE(LightSearch(mesh, exact::ConvexCell::from_doubles(points), true).find(3).has_value()) << unit;
   }
+}
+
+// Vertices that no triangle has are no part of the scene.
+TEST(LightSearch, DoesNotMindVerticesWithoutATriangle) {
+  auto mesh = iris();
+  mesh.points.push_back({0x1p1000, 0, 0});
+  EXPECT_TRUE(LightSearch(mesh, exact::ConvexCell::from_doubles(iris_cells.back()), true).find(3).has_value());
 }
 
 // The side that is seen of triangle 3 is its back.

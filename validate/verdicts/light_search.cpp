@@ -16,9 +16,10 @@ using exact::Point3;
 using scene::Point;
 
 constexpr std::size_t kViewpoints = 16;
-constexpr int kLinesEach = 32,
-              kTrials = 4;  // sight lines from a viewpoint, and of them such as are put to the witness checker
-constexpr double kTooSmall = 0x1p-44;  // of the triangle's area
+constexpr int kLinesEach = 32;            // sight lines from a viewpoint
+constexpr int kTrials = 8;                // of all to a triangle that seem free, such as are put to the witness checker
+constexpr double kBeforePlane = 0x1p-40;  // of the way: so far in front of the triangle's plane lines end
+constexpr double kTooSmall = 0x1p-44;     // of the triangle's area
 
 // In coordinates of the triangle: (1, 0) is its second corner, (0, 1) the third one.
 using Place = std::array<double, 2>;
@@ -128,9 +129,13 @@ std::vector<Point> estimates(const exact::ConvexCell& cell) {
 
 double scale_of(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell) {
   double largest = 0;
-  for (const auto& points : {mesh.points, estimates(cell)}) {
-    for (const Point& p : points) largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  const auto add = [&](const Point& p) {
+    largest = std::max({largest, std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+  };
+  for (const scene::Triangle& t : mesh.triangles) {
+    for (const auto v : t) add(mesh.points[v]);
   }
+  for (const Point& v : estimates(cell)) add(v);
   return largest > 0 ? std::ldexp(1, std::max(-1000, std::min(1000, -std::ilogb(largest) - 1))) : 1;
 }
 
@@ -150,13 +155,15 @@ LightSearch::LightSearch(const scene::TriangleMesh& mesh, const exact::ConvexCel
 }
 
 std::optional<Witness> LightSearch::find(std::uint32_t triangle) const {
+  int trials = 0;
   for (const Viewpoint& from : viewpoints_) {
-    if (auto found = find_from(from, triangle)) return found;
+    if (auto found = find_from(from, triangle, trials)) return found;
+    if (trials == kTrials) break;
   }
   return std::nullopt;
 }
 
-std::optional<Witness> LightSearch::find_from(const Viewpoint& from, std::uint32_t triangle) const {
+std::optional<Witness> LightSearch::find_from(const Viewpoint& from, std::uint32_t triangle, int& trials) const {
   const auto scaled = [&](Point p) {
     for (double& x : p) x *= scale_;
     return p;
@@ -175,16 +182,17 @@ std::optional<Witness> LightSearch::find_from(const Viewpoint& from, std::uint32
   fastpath::SegmentQueries queries(bvh_);
   const std::array<std::uint32_t, 1> itself{triangle};
   std::vector<Polygon2> left{{{0, 0}, {1, 0}, {0, 1}}}, next;
-  int trials = 0;
   for (int lines = 0; lines < kLinesEach && trials < kTrials && !left.empty(); ++lines) {
     const auto largest = std::max_element(left.begin(), left.end(),
                                           [](const Polygon2& x, const Polygon2& y) { return area(x) < area(y); });
     const Place at = middle(*largest);
+    // Sums of parts, as differences of doubles may be none. What lies in the triangle's plane stops nothing.
     Point p;
-    for (std::size_t i = 0; i < 3; ++i)
-      p[i] = corners[0][i] + at[0] * (corners[1][i] - corners[0][i]) + at[1] * (corners[2][i] - corners[0][i]);
-    // What lies in the triangle's plane stops nothing.
-    for (std::size_t i = 0; i < 3; ++i) p[i] += 0x1p-20 * (from.estimate[i] - p[i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double on = (1 - at[0] - at[1]) * corners[0][i] + at[0] * corners[1][i] + at[1] * corners[2][i];
+      p[i] = (1 - kBeforePlane) * on + kBeforePlane * from.estimate[i];
+    }
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) return std::nullopt;
     const auto blocker = queries.first_hit({from.estimate, p}, {itself, &inside_});
     if (!blocker) {
       ++trials;

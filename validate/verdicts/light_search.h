@@ -1,6 +1,7 @@
-// D19: looks for light on a triangle that a map calls hidden, by means that share nothing with maps. From a viewpoint the shadow of one blocker after the other is taken
-// away from the triangle, each time that of what stops a sight line to the middle of what is left; so a window between blockers is found however small it is. All of this
-// is done in doubles, and only says where to look: a sight line counts when exact/sight/witness.h confirms it.
+// D19: looks for light on a triangle that a map calls hidden, without wedges. From a viewpoint the shadow of one blocker after the other is taken away from the triangle, each
+// time that of what stops a sight line to the middle of what is left; so a window between a few blockers is found however small it is (down to 2^-44 of the triangle). All of this
+// is done in doubles, and only says where to look: a sight line counts when exact/sight/witness.h confirms it. Shadows are those of whole blockers, also where these are in the cell and block
+// nothing: light is missed then.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +22,7 @@ class LightSearch {
   LightSearch(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, bool backs);
 
   // A confirmed witness for the triangle; none says little. A function of scene, cell and triangle alone. At most 32 sight lines from each of at most
-  // 16 viewpoints: the cell's centre, places near its corners, and others between the two.
+  // 16 viewpoints: the cell's centre, places near its corners, and, as far as they go, others between the two.
   std::optional<Witness> find(std::uint32_t triangle) const;
 
  private:
@@ -29,7 +30,7 @@ class LightSearch {
     exact::Point3 v;
     scene::Point estimate;
   };
-  std::optional<Witness> find_from(const Viewpoint& from, std::uint32_t triangle) const;
+  std::optional<Witness> find_from(const Viewpoint& from, std::uint32_t triangle, int& trials) const;
 
   const scene::TriangleMesh& mesh_;
   const exact::ConvexCell& cell_;
