@@ -224,8 +224,33 @@ GeneratedScene thin_gaps(std::uint64_t seed, std::uint64_t index) {
   return scene;
 }
 
+// Two plates on either side of a sight line, along a line across it that is as near to it as the window of an iris is wide.
+void add_slit(GeneratedScene& scene, Random& random, const Point& on_line, const Point& along) {
+  const auto in = [&](int low, int high) { return random.between(16 * low, 16 * high) / 16.0; };
+  const auto to_grid = [](double x) { return std::nearbyint(64 * x) / 64; };
+  const Point other{in(-4, 4), in(-4, 4), in(-4, 4) + 1.0 / 32};
+  const auto across = [](const Point& a, const Point& b) {
+    Point n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (double& x : n) x = length > 0 ? x / length : 0;
+    return n;
+  };
+  const Point u = across(along, other), w = across(along, u);
+  const auto at = [&](double by_u, double by_w) {
+    Point p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = to_grid(on_line[i] + by_u * u[i] + by_w * w[i]);
+    return p;
+  };
+  for (const double side : {-1.0, 1.0}) {
+    const double beside = side * random.between(1, 16) / 16.0;
+    const Point a = at(-in(2, 8), beside), b = at(in(2, 8), beside);
+    add(scene.mesh, a, b, at(in(-4, 4), beside + side * in(4, 12)));
+  }
+}
+
 // 3 to 6 long triangles about a window, each under the next, as the blades of an iris, and one to three triangles behind it. The long edge of each is seen at the window alone, and
-// would be cut there by the wedge of the next (T12). The dial is the number of blades, and whether they are bent at the long edges.
+// would be cut there by the wedge of the next (T12). The dial is the number of blades, and whether they are bent at the long edges. Every other eight scenes have one or two slits between the
+// cell and the window.
 GeneratedScene irises(std::uint64_t seed, std::uint64_t index) {
   Random random = random_of(seed, index, 12);
   const int blades = 3 + dial_of(index) % 4;
@@ -273,6 +298,13 @@ GeneratedScene irises(std::uint64_t seed, std::uint64_t index) {
   scene.cell = box_of(point(x, y, z), point(x + dx, y + dy, z + dz));
   std::sort(scene.cell.begin(), scene.cell.end());
   scene.cell.erase(std::unique(scene.cell.begin(), scene.cell.end()), scene.cell.end());
+  if (index / dials % 2 == 1) {
+    const Point& from = any(scene.cell, random);  // towards the middle of the window, which is the origin
+    for (int n = random.between(1, 2); n > 0; --n) {
+      const double t = random.between(3, 13) / 16.0;
+      add_slit(scene, random, {t * from[0], t * from[1], t * from[2]}, from);
+    }
+  }
   return scene;
 }
 
@@ -297,7 +329,9 @@ const std::vector<DegenerateGenerator>& degenerate_generators() {
       {"thin_gaps",
        "rectangles flush with the cell's sides; gaps, steps and cells 1 to 2^-28 as wide as the rest (dial)",
        thin_gaps},
-      {"irises", "3 to 6 long plates (dial modulo 4) about a window, each under the next; bent ones (dial 4 to 7)",
+      {"irises",
+       "3 to 6 long plates (dial modulo 4) about a window, each under the next; bent ones (dial 4 to 7); slits before "
+       "them",
        irises}};
   return all;
 }

@@ -7,6 +7,7 @@
 #include "fuzz/findings/dials.h"
 #include "fuzz/oracles/oracle.h"
 #include "scene/messages/error.h"
+#include "validate/verdicts/light_search.h"
 #include "validate/visible_set/visible_set.h"
 
 namespace clues::fuzz {
@@ -57,6 +58,32 @@ class CellContact : public Oracle {
       return exam.file(std::move(f));
     }
   }
+};
+
+// D6: light past what blocks, on triangles that are not listed (validate/verdicts/light_search.h).
+class Light : public Oracle {
+ public:
+  const char* name() const override { return "light"; }
+  const char* what() const override {
+    return "triangles that are not listed, less the shadows of what blocks, from places of the cell";
+  }
+  std::vector<const char*> needs() const override { return {"triangles searched for light"}; }
+  void examine(Exam& exam) const override {
+    const auto& mesh = exam.scene().mesh;
+    std::optional<validate::LightSearch> search;
+    std::uint64_t searched = 0;
+    for (std::uint32_t t = 0; t < mesh.triangles.size() && searched < most; ++t) {
+      if (exam.lists(t) || !exam.is_surface(t)) continue;
+      if (!search) search.emplace(mesh, exam.cell(), !exam.scene().solid);
+      exam.count("triangles searched for light");
+      ++searched;
+      const auto witness = search->find(t);
+      if (witness && exam.claim(name(), *witness, "there is light on a triangle that is not listed")) return;
+    }
+  }
+
+ private:
+  static constexpr std::uint64_t most = 64;
 };
 
 // D14: the label of a point does not depend on the point of the cell that the walk starts from.
@@ -151,6 +178,7 @@ std::vector<std::unique_ptr<Oracle>> make_all() {
   std::vector<std::unique_ptr<Oracle>> all;
   all.push_back(make_sight_lines());
   all.push_back(make_point_occlusion());
+  all.push_back(std::make_unique<Light>());
   all.push_back(std::make_unique<CellContact>());
   all.push_back(std::make_unique<ExactVisibleSet>());
   all.push_back(make_metamorphic());
