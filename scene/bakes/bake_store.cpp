@@ -31,7 +31,7 @@ static_assert(std::endian::native == std::endian::little, "points are stored as 
 
 std::string bytes_of(const std::vector<Point>& points) {
   std::string bytes(points.size() * sizeof(Point), '\0');
-  std::memcpy(bytes.data(), points.data(), bytes.size());
+  if (!points.empty()) std::memcpy(bytes.data(), points.data(), bytes.size());
   return bytes;
 }
 
