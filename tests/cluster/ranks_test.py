@@ -18,6 +18,7 @@ import time
 SEED = 20261123
 # Whoever the tests run as, in whatever container, and with whatever else on the machine.
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+               "LSAN_OPTIONS": "detect_leaks=0",  # what Open MPI keeps to its end
                "OMPI_MCA_btl_vader_single_copy_mechanism": "none", "OMPI_MCA_hwloc_base_binding_policy": "none"}
 
 

@@ -156,8 +156,10 @@ COPIES = {
     "remesh_vertex_moved": ("reference/remesh.cpp", [
         ("  scene::Point at = position_estimate(source, input);\n",
          "  scene::Point at = position_estimate(source, input);\n  at[0] += 0x1p-40;\n")]),
-    # A star is carried to another place of its vertex with one spoke uncut.
+    # A star is carried to another place of its vertex with one spoke uncut. Points that lie in no triangle of it then go anywhere, but not out of bounds.
     "smoothing_without_a_cut": ("reference/smoothing.cpp", [
+        ("flat.ring[static_cast<std::size_t>(corner - ring.vertices.begin())]",
+         "flat.ring[static_cast<std::size_t>(corner - ring.vertices.begin()) % flat.ring.size()]"),
         ("    for (std::size_t k = 0; k < n; ++k) {\n      if (!cut_along(",
          "    for (std::size_t k = 1; k < n; ++k) {\n      if (!cut_along("),
         ("      if (!lies_in(closing[t], a.image) || !lies_in(closing[t], b.image) || !lies_in(closing[t], c.image)) continue;\n"
