@@ -130,6 +130,21 @@ std::unique_ptr<WorkPool> Cluster::pool(const std::string& question, std::unique
   return std::make_unique<RankPool>(*ranks_, std::move(own), places, std::move(known), std::move(learn));
 }
 
+validate::PoolMaker Cluster::pools(OwnPool own, int places) {
+  if (alone()) return nullptr;
+  return [this, own = std::move(own), places](const std::string& plan, const validate::Work& work) {
+    return pool(plan, own(work), places, nullptr, nullptr);
+  };
+}
+
+validate::Serve Cluster::serves(const std::string& question, OwnPool own, int places, const std::string& otherwise) {
+  return [=, this](const std::string& plan, const validate::Work& work) {
+    if (plan != question) throw scene::Error(scene::ErrorCode::bad_argument, otherwise);
+    const auto pool = own(work);
+    serve(*pool, places, nullptr);
+  };
+}
+
 std::optional<std::string> Cluster::question() {
   while (true) {
     if (const auto message = ranks_->receive())

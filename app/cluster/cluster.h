@@ -34,10 +34,17 @@ class Cluster {
   std::unique_ptr<validate::WorkPool> pool(const std::string& question, std::unique_ptr<validate::WorkPool> own,
                                            int places, Known known, Learn learn);
 
+  // What makes the pool of a rank's own for some work.
+  using OwnPool = std::function<std::unique_ptr<validate::WorkPool>(const validate::Work& work)>;
+  // Rank 0, for tasks about which there is nothing to know: makes pools of all ranks; none where it is alone.
+  validate::PoolMaker pools(OwnPool own, int places);
+
   // The others: what rank 0 asks; none: there is nothing to do.
   std::optional<std::string> question();
   // ... and its tasks, until there are no more.
   void serve(validate::WorkPool& own, int places, const Learn& learn);
+  // ... and all of this for work whose plan is the question. Throws scene::Error bad_argument, `otherwise`, where it is not.
+  validate::Serve serves(const std::string& question, OwnPool own, int places, const std::string& otherwise);
 
  private:
   std::unique_ptr<Ranks> ranks_;

@@ -157,23 +157,19 @@ int run_conform(const ConformRequest& request) {
   const int jobs = cluster.threads(request.jobs);
   options.jobs = jobs > 0 ? jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   options.error_limit = static_cast<std::uint64_t>(request.errors);
+  const auto threads = [&](const validate::Work& work) {
+    return std::make_unique<validate::ThreadPool>(options.jobs, work);
+  };
   if (!cluster.leads()) {
-    validate::serve_cases(*subject, cases, options, [&](const std::string& plan, const validate::Work& work) {
-      if (plan != question) throw Error(ErrorCode::bad_argument, "clues conform: other cases than on the first rank");
-      validate::ThreadPool own(options.jobs, work);
-      cluster.serve(own, options.jobs, nullptr);
-    });
+    validate::serve_cases(
+        *subject, cases, options,
+        cluster.serves(*question, threads, options.jobs, "clues conform: other cases than on the first rank"));
     return fine;
   }
-  if (!cluster.alone()) {
-    options.pool = [&](const std::string& plan, const validate::Work& work) {
-      return cluster.pool(plan, std::make_unique<validate::ThreadPool>(options.jobs, work), options.jobs, nullptr,
-                          nullptr);
-    };
-  }
+  options.pool = cluster.pools(threads, options.jobs);
   validate::Run run;
   {
-    ProgressBar bar("clues conform");
+    ProgressBar bar("clues conform: other cases than on the first rank");
     options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("cases", done, total); };
     run = validate::run_cases(*subject, cases, options);
   }

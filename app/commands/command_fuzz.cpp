@@ -69,20 +69,16 @@ int run_fuzz(FuzzRequest& request) {
     throw Error(ErrorCode::bad_argument, "--shard: a shard cannot know when all have --errors; leave that out");
   const auto subject = fuzz::make_subject(compared(request.subject, request.agreement));
   options.given = fuzz::read_given_scenes(request.scenes);
+  const auto processes = [&](const validate::Work& work) {
+    return std::make_unique<validate::Workers>(options.jobs, work, options.time_for_one);
+  };
   if (!cluster.leads()) {
-    fuzz::serve_campaign(options, *subject, [&](const std::string& plan, const fuzz::CaseWork& work) {
-      if (plan != question) throw Error(ErrorCode::bad_argument, "clues fuzz: other scenes than on the first rank");
-      validate::Workers own(options.jobs, work, options.time_for_one);
-      cluster.serve(own, options.jobs, nullptr);
-    });
+    fuzz::serve_campaign(
+        options, *subject,
+        cluster.serves(*question, processes, options.jobs, "clues fuzz: other scenes than on the first rank"));
     return fine;
   }
-  if (!cluster.alone()) {
-    options.pool = [&](const std::string& plan, const fuzz::CaseWork& work, std::chrono::seconds time_for_one) {
-      return cluster.pool(plan, std::make_unique<validate::Workers>(options.jobs, work, time_for_one), options.jobs,
-                          nullptr, nullptr);
-    };
-  }
+  options.pool = cluster.pools(processes, options.jobs);
   ProgressBar bar("clues fuzz");
   const auto begin = std::chrono::steady_clock::now();
   std::uint64_t first = UINT64_MAX;

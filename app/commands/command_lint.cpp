@@ -58,24 +58,19 @@ int run_lint(const LintRequest& request) {
   }
   options.jobs = cluster.threads(options.jobs);
   if (options.jobs == 0) options.jobs = static_cast<int>(std::thread::hardware_concurrency());
+  const auto processes = [&](const validate::Work& work) {
+    return std::make_unique<validate::Workers>(options.jobs, work, std::nullopt);
+  };
   if (!cluster.leads()) {
-    validate::serve_lint(request.folder, options, [&](const std::string& plan, const validate::Work& work) {
-      if (plan != question)
-        throw scene::Error(scene::ErrorCode::bad_argument, "clues lint: other cases than on the first rank");
-      validate::Workers own(options.jobs, work, std::nullopt);
-      cluster.serve(own, options.jobs, nullptr);
-    });
+    validate::serve_lint(
+        request.folder, options,
+        cluster.serves(*question, processes, options.jobs, "clues lint: other cases than on the first rank"));
     return fine;
   }
-  if (!cluster.alone()) {
-    options.pool = [&](const std::string& plan, const validate::Work& work) {
-      return cluster.pool(plan, std::make_unique<validate::Workers>(options.jobs, work, std::nullopt), options.jobs,
-                          nullptr, nullptr);
-    };
-  }
+  options.pool = cluster.pools(processes, options.jobs);
   validate::LintReport report;
   {
-    ProgressBar bar("clues lint");
+    ProgressBar bar("clues lint: other cases than on the first rank");
     options.progress = [&](std::uint64_t done, std::uint64_t total) { bar.show("cases", done, total); };
     report = validate::lint_suite(request.folder, options);
   }

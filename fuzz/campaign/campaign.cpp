@@ -235,8 +235,7 @@ class Campaign {
 
   std::unique_ptr<validate::WorkPool> new_pool() const {
     const auto judged = [this](std::uint64_t n) { return cases_.judged(n); };
-    if (options_.pool)
-      return options_.pool(cases_.plan(options_.shard, options_.shards), judged, options_.time_for_one);
+    if (options_.pool) return options_.pool(cases_.plan(options_.shard, options_.shards), judged);
     return std::make_unique<validate::Workers>(options_.jobs, judged, options_.time_for_one);
   }
 
@@ -344,8 +343,7 @@ CampaignSummary run_campaign(const CampaignOptions& options, const Subject& subj
   return Campaign(options, subject).run();
 }
 
-void serve_campaign(const CampaignOptions& options, const Subject& subject,
-                    const std::function<void(const std::string& plan, const CaseWork& work)>& serve) {
+void serve_campaign(const CampaignOptions& options, const Subject& subject, const validate::Serve& serve) {
   const Cases cases(options, subject);
   serve(cases.plan(options.shard, options.shards), [&](std::uint64_t number) { return cases.judged(number); });
 }

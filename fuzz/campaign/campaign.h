@@ -19,12 +19,6 @@
 
 namespace clues::fuzz {
 
-// Judges the case of a number; what it answers is the outcome, as a text.
-using CaseWork = std::function<std::string(std::uint64_t number)>;
-// Makes the pool that the cases of the campaign `plan` are given to.
-using PoolMaker = std::function<std::unique_ptr<validate::WorkPool>(const std::string& plan, const CaseWork& work,
-                                                                    std::chrono::seconds time_for_one)>;
-
 struct CampaignOptions {
   std::uint64_t seed = 1, first = 0;
   std::vector<std::string> generators, oracles;  // empty: all
@@ -44,7 +38,7 @@ struct CampaignOptions {
   std::function<void(const std::string& stage, std::uint64_t done, std::uint64_t total)> progress;
   bool require_coverage = false;            // a campaign that is too short to be judged is vacuous too
   const std::atomic<bool>* stop = nullptr;  // set by a signal: finish what is begun, commit, leave
-  PoolMaker pool;                           // none: `jobs` processes of this machine
+  validate::PoolMaker pool;                 // that judges cases, by number; none: `jobs` processes of this machine
 };
 
 struct CampaignSummary {
@@ -69,8 +63,7 @@ struct CampaignSummary {
 CampaignSummary run_campaign(const CampaignOptions& options, const Subject& subject);
 
 // Judges cases of another process' campaign: `serve` is told its plan, and how. No file is touched.
-void serve_campaign(const CampaignOptions& options, const Subject& subject,
-                    const std::function<void(const std::string& plan, const CaseWork& work)>& serve);
+void serve_campaign(const CampaignOptions& options, const Subject& subject, const validate::Serve& serve);
 
 std::string to_text(const CampaignSummary& summary, const std::filesystem::path& out);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fastpath/predicates/estimated_vectors.h"
 #include "fuzz/generators/grid_mesh.h"
 #include "fuzz/generators/parts.h"
 
@@ -230,8 +231,8 @@ void add_slit(GeneratedScene& scene, Random& random, const Point& on_line, const
   const auto to_grid = [](double x) { return std::nearbyint(64 * x) / 64; };
   const Point other{in(-4, 4), in(-4, 4), in(-4, 4) + 1.0 / 32};
   const auto across = [](const Point& a, const Point& b) {
-    Point n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    Point n = fastpath::cross_of(a, b);
+    const double length = std::sqrt(fastpath::dot_of(n, n));
     for (double& x : n) x = length > 0 ? x / length : 0;
     return n;
   };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "exact/sight/witness.h"
+#include "fastpath/predicates/estimated_vectors.h"
 #include "fastpath/queries/segment_queries.h"
 
 namespace clues::validate {
@@ -80,8 +81,8 @@ class Frame {
  public:
   Frame(const Point& v, const std::array<Point, 3>& corners) : origin_(corners[0]) {
     const Point a = from_origin(corners[1]), b = from_origin(corners[2]), c = from_origin(v);
-    rows_ = {times(b, c), times(c, a), times(a, b)};
-    determinant_ = a[0] * rows_[0][0] + a[1] * rows_[0][1] + a[2] * rows_[0][2];
+    rows_ = {fastpath::cross_of(b, c), fastpath::cross_of(c, a), fastpath::cross_of(a, b)};
+    determinant_ = fastpath::dot_of(a, rows_[0]);
   }
   bool is_good() const {
     return determinant_ != 0 && std::isfinite(determinant_);
@@ -104,15 +105,11 @@ class Frame {
   }
 
  private:
-  Point from_origin(const Point& p) const { return {p[0] - origin_[0], p[1] - origin_[1], p[2] - origin_[2]}; }
-  static Point times(const Point& a, const Point& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
+  Point from_origin(const Point& p) const { return fastpath::minus(p, origin_); }
   Point local(const Point& p) const {
     const Point q = from_origin(p);
     Point out;
-    for (std::size_t i = 0; i < 3; ++i)
-      out[i] = (q[0] * rows_[i][0] + q[1] * rows_[i][1] + q[2] * rows_[i][2]) / determinant_;
+    for (std::size_t i = 0; i < 3; ++i) out[i] = fastpath::dot_of(q, rows_[i]) / determinant_;
     return out;
   }
 
