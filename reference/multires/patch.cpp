@@ -6,9 +6,9 @@
 #include <map>
 #include <tuple>
 
+#include "reference/multires/pieces_around.h"
 #include "reference/multires/stars/combination.h"
 #include "scene/messages/error.h"
-#include "scene/multires/image_triangles.h"
 
 namespace clues::reference {
 namespace {
@@ -169,26 +169,12 @@ std::vector<Patch> shared_out(const Patch& patch, const std::vector<std::array<C
   return out;
 }
 
-std::uint32_t base_triangle(const scene::ImageTriangles& base, const scene::Hierarchy& h,
-                            const scene::OverlayTriangle& piece) {
-  const std::uint32_t t = base.of(piece, h.points);
-  if (t == scene::no_vertex)
-    throw scene::Error(scene::ErrorCode::bad_argument, "remesh: the hierarchy is not a verified one");
-  return t;
-}
-
 }  // namespace
 
 scene::Hierarchy with_coarse_parameters(const scene::Hierarchy& hierarchy) {
   constexpr std::int64_t step = std::int64_t{1} << 30;
   scene::Hierarchy h = hierarchy;
-  const scene::ImageTriangles base(h.base);
-  std::vector<std::vector<std::uint32_t>> around(h.points.size());
-  std::vector<std::uint32_t> triangle;
-  for (std::uint32_t i = 0; i < h.pieces.size(); ++i) {
-    triangle.push_back(base_triangle(base, h, h.pieces[i]));
-    for (const std::uint32_t p : h.pieces[i].corners) around[p].push_back(i);
-  }
+  const PiecesAround around(h);
   for (std::uint32_t p = 0; p < h.points.size(); ++p) {
     const CarrierPoint old = h.points[p].image;
     CarrierPoint moved = old;
@@ -204,9 +190,9 @@ scene::Hierarchy with_coarse_parameters(const scene::Hierarchy& hierarchy) {
     moved.weight[largest] += left;
     if (!possible || moved.weight[largest] <= 0) continue;
     h.points[p].image = moved;
-    const bool stays = std::all_of(around[p].begin(), around[p].end(), [&](std::uint32_t i) {
+    const bool stays = std::all_of(around.pieces[p].begin(), around.pieces[p].end(), [&](std::uint32_t i) {
       const auto& c = h.pieces[i].corners;
-      return exact::orientation_in(h.base[triangle[i]], h.points[c[0]].image, h.points[c[1]].image,
+      return exact::orientation_in(h.base[around.base[i]], h.points[c[0]].image, h.points[c[1]].image,
                                    h.points[c[2]].image) > 0;
     });
     if (!stays) h.points[p].image = old;
@@ -215,7 +201,7 @@ scene::Hierarchy with_coarse_parameters(const scene::Hierarchy& hierarchy) {
 }
 
 std::vector<Patch> base_patches(const scene::Hierarchy& h) {
-  const scene::ImageTriangles base(h.base);
+  const std::vector<std::uint32_t> triangle_of = base_triangles(h);
   std::vector<Patch> out(h.base.size());
   for (std::uint32_t t = 0; t < h.base.size(); ++t) {
     out[t].base = t;
@@ -223,8 +209,9 @@ std::vector<Patch> base_patches(const scene::Hierarchy& h) {
     for (std::size_t k = 0; k < 3; ++k) out[t].corners[k] = scene::at_vertex(h.base[t][k]);
   }
   std::vector<std::map<std::uint32_t, std::uint32_t>> local(h.base.size());
-  for (const auto& piece : h.pieces) {
-    const std::uint32_t t = base_triangle(base, h, piece);
+  for (std::uint32_t i = 0; i < h.pieces.size(); ++i) {
+    const auto& piece = h.pieces[i];
+    const std::uint32_t t = triangle_of[i];
     Patch& patch = out[t];
     StarPiece copy{{}, piece.input, false};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "exact/multires/grid.h"
-#include "scene/messages/error.h"
-#include "scene/multires/image_triangles.h"
+#include "reference/multires/pieces_around.h"
 
 namespace clues::reference {
 namespace {
@@ -28,20 +26,12 @@ bool lies_within(const CarrierPoint& point, const CarrierPoint& carrier) {
 
 class Room {
  public:
-  explicit Room(scene::Hierarchy& hierarchy) : h_(hierarchy), around_(h_.points.size()) {
-    const scene::ImageTriangles base(h_.base);
-    for (std::uint32_t i = 0; i < h_.pieces.size(); ++i) {
-      base_of_.push_back(base.of(h_.pieces[i], h_.points));
-      if (base_of_.back() == scene::no_vertex)
-        throw scene::Error(scene::ErrorCode::bad_argument, "remesh: the hierarchy is not a verified one");
-      for (const std::uint32_t p : h_.pieces[i].corners) around_[p].push_back(i);
-    }
-  }
+  explicit Room(scene::Hierarchy& hierarchy) : h_(hierarchy), around_(hierarchy) {}
 
   void make(const std::set<std::uint32_t>& base_triangles) {
     std::set<std::uint32_t> points;
     for (std::uint32_t i = 0; i < h_.pieces.size(); ++i) {
-      if (base_triangles.count(base_of_[i]) != 0)
+      if (base_triangles.count(around_.base[i]) != 0)
         points.insert(h_.pieces[i].corners.begin(), h_.pieces[i].corners.end());
     }
     for (int round = 0; round < kRounds; ++round) {
@@ -56,13 +46,13 @@ class Room {
   // What the piece has of its triangle there, in units of 2^-120.
   Wide area(std::uint32_t piece, Place place) const {
     const auto& c = h_.pieces[piece].corners;
-    const scene::Triangle& whole =
-        place == &scene::OverlayVertex::image ? h_.base[base_of_[piece]] : h_.input.triangles[h_.pieces[piece].input];
+    const scene::Triangle& whole = place == &scene::OverlayVertex::image ? h_.base[around_.base[piece]]
+                                                                         : h_.input.triangles[h_.pieces[piece].input];
     return exact::area_in(whole, h_.points[c[0]].*place, h_.points[c[1]].*place, h_.points[c[2]].*place);
   }
   Wide least_around(std::uint32_t p, Place place) const {
-    Wide least = area(around_[p].front(), place);
-    for (const std::uint32_t i : around_[p]) least = std::min(least, area(i, place));
+    Wide least = area(around_.pieces[p].front(), place);
+    for (const std::uint32_t i : around_.pieces[p]) least = std::min(least, area(i, place));
     return least;
   }
 
@@ -70,7 +60,7 @@ class Room {
   std::array<double, 3> middle(std::uint32_t p, Place place) const {
     const CarrierPoint& at = h_.points[p].*place;
     std::set<std::uint32_t> neighbours;
-    for (const std::uint32_t i : around_[p]) {
+    for (const std::uint32_t i : around_.pieces[p]) {
       for (const std::uint32_t q : h_.pieces[i].corners) {
         if (q != p && lies_within(h_.points[q].*place, at)) neighbours.insert(q);
       }
@@ -110,8 +100,7 @@ class Room {
   }
 
   scene::Hierarchy& h_;
-  std::vector<std::uint32_t> base_of_;              // of each piece
-  std::vector<std::vector<std::uint32_t>> around_;  // pieces at each point
+  const PiecesAround around_;
 };
 
 }  // namespace

@@ -27,8 +27,6 @@ class Progress {
   Progress(std::size_t cases, const Run& run, const RunOptions& options)
       : total_(cases), run_(run), options_(options), blocks_((cases + block_size - 1) / block_size) {}
 
-  std::size_t blocks() const { return blocks_.size(); }
-
   bool is_wanted() const { return options_.error_limit == 0 || problems_ < options_.error_limit; }
 
   void put(std::size_t block, std::vector<CaseResult> results) {
