@@ -28,6 +28,53 @@ std::vector<Point> box_around(const RationalPoint& p) {
   return {corners.begin(), corners.end()};
 }
 
+// The points that differ from p, rounded, by so many units in the last place, up or down, in each coordinate that is no double;
+// the others stay. So no plane across an axis that p is in parts them from p.
+std::vector<Point> points_beside(const RationalPoint& p, int units) {
+  std::array<std::array<double, 2>, 3> sides;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    auto& side = sides[axis];
+    side = neighbours(p[axis]);
+    for (int i = 1; i < units && side[0] != side[1]; ++i) {
+      side = {std::nextafter(side[0], -std::numeric_limits<double>::infinity()),
+              std::nextafter(side[1], std::numeric_limits<double>::infinity())};
+    }
+  }
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < 8; ++i) points.push_back({sides[0][i & 1], sides[1][(i >> 1) & 1], sides[2][i >> 2]});
+  return points;
+}
+
+// For each vertex a double point near it that is in none of the half spaces of its faces but on their planes, with the coordinates
+// of the vertex that are doubles: their hull most often holds the polytope, and never reaches over its sides across the axes. A
+// vertex without such a point has the corners of a box around it.
+std::set<Point> points_beyond(const Polytope& polytope, int most_units) {
+  std::vector<std::vector<const HalfSpace*>> faces_at(polytope.vertices.size());
+  for (const auto& face : polytope.faces) {
+    for (const auto v : face.vertices) faces_at[v].push_back(&face.half_space);
+  }
+  std::set<Point> points;
+  for (std::size_t v = 0; v < polytope.vertices.size(); ++v) {
+    const auto is_beyond = [&](const Point& p) {
+      const auto exact = to_rational(p);
+      return std::all_of(faces_at[v].begin(), faces_at[v].end(),
+                         [&](const HalfSpace* face) { return sgn(face->height(exact)) >= 0; });
+    };
+    std::optional<Point> found;
+    for (int units = 1; !found && units <= most_units; units *= 2) {
+      for (const auto& p : points_beside(polytope.vertices[v], units)) {
+        if (!found && is_beyond(p)) found = p;
+      }
+    }
+    if (found) {
+      points.insert(*found);
+    } else {
+      for (const auto& corner : box_around(polytope.vertices[v])) points.insert(corner);
+    }
+  }
+  return points;
+}
+
 RationalPoint center_of(const Polytope& polytope) {
   RationalPoint center;
   for (const auto& v : polytope.vertices) {
@@ -122,23 +169,15 @@ std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope) {
 
 std::vector<Point> outer_points(const Polytope& polytope) {
   constexpr std::size_t most_for_hull = 24;  // beyond, a box around each vertex is cheaper than a proof
-  std::set<Point> exact;
-  for (const auto& v : polytope.vertices) {
-    if (is_double(v)) exact.insert(nearest_corner(v));
+  constexpr int most_units = 64;
+  if (std::all_of(polytope.vertices.begin(), polytope.vertices.end(), is_double)) {
+    std::set<Point> exact;
+    for (const auto& v : polytope.vertices) exact.insert(nearest_corner(v));
+    return {exact.begin(), exact.end()};
   }
-  if (exact.size() == polytope.vertices.size()) return {exact.begin(), exact.end()};
-  if (polytope.vertices.size() <= most_for_hull) {
-    const RationalPoint center = center_of(polytope);
-    for (const unsigned exponent :
-         {48u, 44u, 40u, 36u}) {  // beyond the vertices, by so much of the way from the middle
-      std::set<Point> moved;
-      for (const auto& v : polytope.vertices) {
-        moved.insert(nearest_corner(between(v, center, mpq_class(-power_of_half(exponent)))));
-      }
-      std::vector<Point> points(moved.begin(), moved.end());
-      if (hull_holds(points, polytope)) return points;
-    }
-  }
+  const auto beyond = points_beyond(polytope, most_units);
+  std::vector<Point> points(beyond.begin(), beyond.end());
+  if (points.size() <= most_for_hull && hull_holds(points, polytope)) return points;
   std::set<Point> corners;
   for (const auto& v : polytope.vertices) {
     for (const auto& corner : box_around(v)) corners.insert(corner);

@@ -15,7 +15,8 @@ namespace clues::scene {
 // where no such point is found: a sliver thinner than doubles are dense there. O(vertices * faces).
 std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope);
 
-// Distinct points with the polytope in their hull: its vertices where they are doubles.
+// Distinct points with the polytope in their hull: its vertices where they are doubles, else points with those coordinates of
+// the vertex that are. So a side across an axis, whose offset is a double, bounds them too. O(vertices^4) for up to 24 of them.
 std::vector<Point> outer_points(const Polytope& polytope);
 
 // Whether the points are in one plane, exactly.

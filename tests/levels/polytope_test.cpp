@@ -161,6 +161,28 @@ TEST(RoundedCells, LieWithinAndAround) {
   EXPECT_GT(moved, 100) << "thirds are no doubles";
 }
 
+// Walls lie in the sides of a leaf. An outer cell that reaches through one by a rounding sees what is in the wall: a leaf of a level
+// of OpenArena listed 3,059 triangles for 416. Sides across the axes need no rounding, even where another side is slanted.
+TEST(RoundedCells, DoNotReachThroughSidesAcrossTheAxes) {
+  HalfSpace slanted;  // as in a file of floats: nearly half a right angle
+  slanted.normal = {mpq_class(0.70710676908493042), mpq_class(0.70710676908493042), 0};
+  slanted.offset = mpq_class(100.1);
+  const auto box = scene::box_polytope({-128, 0, 8}, {128, 256, 72});
+  const auto leaf = scene::intersection(box, slanted);
+  ASSERT_TRUE(leaf.has_value());
+  const auto outer = scene::outer_points(*leaf);
+  EXPECT_EQ(outer.size(), leaf->vertices.size());
+  int beyond_the_slant = 0;
+  for (const auto& p : outer) {
+    EXPECT_TRUE(box.holds(scene::to_rational(p)));
+    beyond_the_slant += slanted.holds(scene::to_rational(p)) ? 0 : 1;
+  }
+  EXPECT_GT(beyond_the_slant, 0) << "its corners are no doubles";
+  for (const auto& v : leaf->vertices) {
+    EXPECT_TRUE(hull_reaches(outer, slanted.normal, slanted.height(v) + slanted.offset));
+  }
+}
+
 // A cell between two planes with no double between them has no inner cell that is solid, and an outer one.
 TEST(RoundedCells, OfASliverAreEmptyWithin) {
   HalfSpace low, high;
