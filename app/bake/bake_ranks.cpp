@@ -15,6 +15,11 @@
 namespace clues::app {
 namespace {
 
+using fastpath::bakes::BakePiece;
+using fastpath::bakes::BakeProgress;
+using fastpath::bakes::ListerMaker;
+using fastpath::bakes::PieceBaker;
+using fastpath::bakes::pieces_of;
 using scene::PlaceKind;
 using Done = std::vector<scene::BakeStore::Done>;
 

@@ -4,19 +4,20 @@
 
 #include <atomic>
 
-#include "app/bake/baker.h"
 #include "app/cluster/cluster.h"
+#include "app/shard.h"
+#include "fastpath/bakes/baker.h"
 
 namespace clues::app {
 
 // Rank 0. Throws what kernels and the store throw; what was committed stays.
 void bake_by_ranks(Cluster& cluster, int threads, const scene::FlaggedMesh& scene, const scene::BakePlan& plan,
-                   scene::BakeStore& store, const ListerMaker& make_lister, Shard shard, const std::atomic<bool>& stop,
-                   const BakeProgress& progress);
+                   scene::BakeStore& store, const fastpath::bakes::ListerMaker& make_lister, Shard shard, const std::atomic<bool>& stop,
+                   const fastpath::bakes::BakeProgress& progress);
 
 // The others, with the same scene and plan. Throws scene::Error bad_argument where rank 0 has others.
 void serve_bake(Cluster& cluster, int threads, const scene::FlaggedMesh& scene, const scene::BakePlan& plan,
-                const ListerMaker& make_lister, const std::string& question);
+                const fastpath::bakes::ListerMaker& make_lister, const std::string& question);
 
 std::string question_to_ranks(const scene::BakePlan& plan);
 

@@ -14,8 +14,6 @@
 #include "app/bake/bake_cells.h"
 #include "app/bake/bake_export.h"
 #include "app/bake/bake_ranks.h"
-#include "app/bake/baker.h"
-#include "app/bake/cell_groups.h"
 #include "app/cluster/cluster.h"
 #include "app/commands.h"
 #include "app/common.h"
@@ -24,12 +22,15 @@
 #include "app/progress.h"
 #include "app/shard.h"
 #include "exact/threads.h"
+#include "fastpath/bakes/baker.h"
+#include "fastpath/bakes/cell_groups.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/levels/bsp_scene.h"
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
 #include "scene/scenes/scene_io.h"
+#include "validate/see_through/exact_lister.h"
 
 namespace clues::app {
 namespace {
@@ -37,8 +38,6 @@ namespace {
 namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
-
-constexpr std::size_t neighbours = 4;
 
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;
@@ -74,12 +73,7 @@ scene::BakePlan plan_of(const BakeRequest& request, const std::string& sha256, c
   plan.question = question_of(request, cells);
   plan.note = std::move(cells.note);
   plan.cells = std::move(cells.cells);
-  // Without groups that are mapped, neighbours still help each other with guesses.
-  const bool boxes = request.group > 1;
-  auto groups = groups_of(plan.cells, boxes ? request.group : neighbours);
-  for (auto& box : groups.boxes)
-    plan.nodes.push_back({"", 0, boxes ? std::move(box) : std::vector<scene::Point>{}, {}, -1});
-  for (std::size_t i = 0; i < plan.cells.size(); ++i) plan.cells[i].node = groups.group_of[i];
+  fastpath::bakes::add_groups(plan, request.group);
   return plan;
 }
 
@@ -156,7 +150,7 @@ int run_bake(const BakeRequest& request) {
     throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
   const auto plan =
       plan_of(request, sha256, scene, parse_bake_cells(request.cells, request.scene, scene, level, up_of(request)));
-  const auto make_lister = request.kernel == "fast" ? fast_lister() : exact_lister();
+  const auto make_lister = request.kernel == "fast" ? fastpath::bakes::fast_lister() : validate::exact_lister();
   const int threads = cluster.threads(request.threads);
   if (!cluster.leads()) {
     serve_bake(cluster, threads, scene, plan, make_lister, *question);
@@ -174,14 +168,16 @@ int run_bake(const BakeRequest& request) {
       std::uint64_t done = 0;
       {
         ProgressBar bar("clues bake");
-        const BakeProgress progress = [&](std::uint64_t cells) {
+        const fastpath::bakes::BakeProgress progress = [&](std::uint64_t cells) {
           bar.show(cluster.alone() ? "cells" : fmt::format("cells by {} ranks", cluster.size()), done = cells,
                    plan.cells.size());
         };
         if (!cluster.alone()) {
           bake_by_ranks(cluster, threads, scene, plan, store, make_lister, shard, stop, progress);
         } else {
-          exact::by_threads(threads, [&] { bake(scene, plan, store, make_lister, shard, stop, progress); });
+          exact::by_threads(threads, [&] {
+            fastpath::bakes::bake(scene, plan, store, make_lister, shard.index, shard.count, stop, progress);
+          });
         }
       }
       if (stop)

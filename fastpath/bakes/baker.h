@@ -8,11 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "app/shard.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/mesh/flagged_mesh.h"
 
-namespace clues::app {
+namespace clues::fastpath::bakes {
 
 // What one cell sees in a scene: ids of the scene, ascending, of triangles that count and of those that only block.
 struct CellList {
@@ -33,7 +32,6 @@ class CellLister {
 using ListerMaker = std::function<std::unique_ptr<CellLister>(scene::FlaggedMesh scene)>;
 
 ListerMaker fast_lister();
-ListerMaker exact_lister();
 
 // Called after each commit with how many cells are done.
 using BakeProgress = std::function<void(std::uint64_t cells)>;
@@ -46,11 +44,12 @@ struct BakePiece {
 };
 std::vector<BakePiece> pieces_of(const scene::BakePlan& plan);
 
-// `plan` is what the store was made with. Once `stop` is set, what is begun is finished and nothing else is begun. Of the pieces those of `shard` are done,
-// by number. Lists do not depend on the number of threads, nor on what was there already. Throws what kernels and the store throw; what was
+// `plan` is what the store was made with. Once `stop` is set, what is begun is finished and nothing else is begun. Of the pieces those are done whose
+// number leaves `shard` when divided by `shards`. Lists do not depend on the number of threads, nor on what was there already. Throws what kernels and the store throw; what was
 // committed stays.
 void bake(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, scene::BakeStore& store,
-          const ListerMaker& make_lister, Shard shard, const std::atomic<bool>& stop, const BakeProgress& progress);
+          const ListerMaker& make_lister, std::uint32_t shard, std::uint32_t shards, const std::atomic<bool>& stop,
+          const BakeProgress& progress);
 
 // The same, a piece at a time, away from the store.
 class PieceBaker {
@@ -67,4 +66,4 @@ class PieceBaker {
   std::unique_ptr<const Whole> whole_;
 };
 
-}  // namespace clues::app
+}  // namespace clues::fastpath::bakes

@@ -6,7 +6,7 @@
 
 #include "scene/bakes/bake_store.h"
 
-namespace clues::app {
+namespace clues::fastpath::bakes {
 
 struct CellGroups {
   std::vector<std::vector<scene::Point>> boxes;  // of each group, its corners; number 0 is no group
@@ -16,4 +16,7 @@ struct CellGroups {
 // Cells are halved by the middles of their boxes along the longest side, until a group has at most `most`. O(n log^2 n), the same in every run.
 CellGroups groups_of(const std::vector<scene::BakePlace>& cells, std::size_t most);
 
-}  // namespace clues::app
+// Gives a plan that has its cells, and no node but the scene, the nodes of `--group most`. Without groups that are mapped (1), neighbours still help each other with guesses.
+void add_groups(scene::BakePlan& plan, std::size_t most);
+
+}  // namespace clues::fastpath::bakes

@@ -1,4 +1,4 @@
-#include "app/bake/cell_groups.h"
+#include "fastpath/bakes/cell_groups.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,11 @@
 #include <numeric>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "scene/mesh/bounds.h"
 
-namespace clues::app {
+namespace clues::fastpath::bakes {
 namespace {
 
 using scene::Bounds;
@@ -99,4 +100,14 @@ CellGroups groups_of(const std::vector<scene::BakePlace>& cells, std::size_t mos
   return Builder(cells, most).build();
 }
 
-}  // namespace clues::app
+void add_groups(scene::BakePlan& plan, std::size_t most) {
+  constexpr std::size_t neighbours = 4;
+  const bool boxes = most > 1;
+  auto groups = groups_of(plan.cells, boxes ? most : neighbours);
+  plan.nodes.clear();
+  for (auto& box : groups.boxes)
+    plan.nodes.push_back({"", 0, boxes ? std::move(box) : std::vector<scene::Point>{}, {}, -1});
+  for (std::size_t i = 0; i < plan.cells.size(); ++i) plan.cells[i].node = groups.group_of[i];
+}
+
+}  // namespace clues::fastpath::bakes

@@ -1,5 +1,5 @@
 // T6: a node's list is the scene of what is below it; a node without a box only brings neighbours together. Cells of a node are asked one after the other, each with the list of the one before as a guess; nodes side by side.
-#include "app/bake/baker.h"
+#include "fastpath/bakes/baker.h"
 
 #include <tbb/task_group.h>
 
@@ -10,13 +10,10 @@
 #include <optional>
 #include <utility>
 
-#include "exact/cell/convex_cell.h"
 #include "exact/threads.h"
 #include "fastpath/visibility/see_through.h"
-#include "reference/visibility/first_order.h"
-#include "validate/see_through/layers.h"
 
-namespace clues::app {
+namespace clues::fastpath::bakes {
 namespace {
 
 using Ids = std::vector<std::uint32_t>;
@@ -37,31 +34,6 @@ class FastLister : public CellLister {
 
  private:
   fastpath::SeeThroughScene scene_;
-};
-
-// Layer by layer (D22); what only blocks is asked about, too, since others may be mapped in the list.
-class ExactLister : public CellLister {
- public:
-  explicit ExactLister(scene::FlaggedMesh scene) : scene_(std::move(scene)) {
-    for (std::uint32_t t = 0; t < scene_.counts.size(); ++t) scene_.counts[t] |= scene_.blocking(t) ? 1 : 0;
-  }
-  CellList list(const std::vector<scene::Point>& points, std::span<const std::uint32_t>) const override {
-    CellList out;
-    const auto cell = exact::ConvexCell::from_doubles(points);
-    out.visible = validate::visible_in_layers(scene_, [&](const scene::TriangleMesh& mesh) {
-      reference::Options options;
-      options.threads = 1;
-      const auto map = reference::first_order_visibility(mesh, cell, options);
-      out.fallbacks += static_cast<std::int64_t>(map.statistics.conservative_fallbacks);
-      out.mapped += static_cast<std::int64_t>(mesh.triangles.size());
-      ++out.passes;
-      return map.visible;
-    });
-    return out;
-  }
-
- private:
-  scene::FlaggedMesh scene_;
 };
 
 // A scene to map in, with the ids that its triangles have in the whole.
@@ -277,12 +249,9 @@ std::vector<BakePiece> pieces_of(const scene::BakePlan& plan) {
 ListerMaker fast_lister() {
   return [](scene::FlaggedMesh scene) { return std::make_unique<FastLister>(std::move(scene)); };
 }
-ListerMaker exact_lister() {
-  return [](scene::FlaggedMesh scene) { return std::make_unique<ExactLister>(std::move(scene)); };
-}
-
 void bake(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, scene::BakeStore& store,
-          const ListerMaker& make_lister, Shard shard, const std::atomic<bool>& stop, const BakeProgress& progress) {
+          const ListerMaker& make_lister, std::uint32_t shard, std::uint32_t shards, const std::atomic<bool>& stop,
+          const BakeProgress& progress) {
   PlacesOfAStore places(store, plan.cells.size(), progress);
   if (places.done() == plan.cells.size()) return;
   const auto below = below_in(plan);
@@ -290,7 +259,7 @@ void bake(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, scene::B
   const auto whole = std::make_shared<const Part>(Part{make_lister(scene), {}});
   tbb::task_group tasks;
   for (const auto& piece : pieces_of(plan)) {
-    if (piece.index % shard.count != shard.index) continue;
+    if (piece.index % shards != shard) continue;
     tasks.run([&baker, kind = piece.kind, index = piece.index, &whole, &tasks] {
       baker.map_piece(kind, index, whole, tasks);
     });
@@ -298,4 +267,4 @@ void bake(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, scene::B
   tasks.wait();
 }
 
-}  // namespace clues::app
+}  // namespace clues::fastpath::bakes
