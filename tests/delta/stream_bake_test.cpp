@@ -11,6 +11,7 @@
 #include "scene/stream/route.h"
 #include "tests/app/program.h"
 #include "tests/levels/made_level.h"
+#include "tests/levels/real_levels.h"
 #include "validate/stream/judge_stream.h"
 
 namespace clues::test {
@@ -62,14 +63,13 @@ TEST(BakedStreams, ABakeOfAnotherSceneIsRefused) {
   EXPECT_NE(ran.err.find("is of another scene"), std::string::npos) << ran.err;
 }
 
-// A level that nobody here made: Debian's package openarena-081-maps, or what CLUES_LEVELS names; and its bake, or what
-// CLUES_BAKES has of it.
+// A level that nobody here made (real_levels.h), and its bake, or what CLUES_BAKES has of it.
 TEST(BakedStreamsLong, AThousandRoutesThroughALevel) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
-  const char* levels = std::getenv("CLUES_LEVELS");
-  if (levels == nullptr) GTEST_SKIP() << "CLUES_LEVELS names no folder of levels";
-  const std::filesystem::path level = std::filesystem::path(levels) / "fan.bsp";
   const tests::TestFolder folder;
+  const auto [levels, why_not] = tests::real_levels(folder);
+  if (levels.empty()) GTEST_SKIP() << why_not;
+  const std::filesystem::path level = levels / "fan.bsp";
   std::filesystem::path bake = folder.path() / "fan.bake";
   if (const char* bakes = std::getenv("CLUES_BAKES")) {
     bake = std::filesystem::path(bakes) / "fan.bake";

@@ -12,6 +12,7 @@
 #include "tests/app/program.h"
 #include "tests/levels/made_gltf.h"
 #include "tests/levels/made_level.h"
+#include "tests/levels/real_levels.h"
 
 namespace clues::tests {
 namespace {
@@ -121,20 +122,10 @@ TEST(LevelCommand, RefusesWhatIsNoLevelInOneLine) {
   EXPECT_EQ(folder.names(), std::vector<std::string>{"bad.bsp"});
 }
 
-// The levels of OpenArena, which nobody here made: Debian's package openarena-081-maps, or what CLUES_LEVELS names.
 TEST(RealLevelsLong, AreAllRead) {
   const TestFolder folder;
-  const char* given = std::getenv("CLUES_LEVELS");
-  std::filesystem::path levels = given != nullptr ? given : "";
-  if (given == nullptr) {
-    const std::filesystem::path package = "/usr/share/games/openarena/baseoa/pak1-maps.pk3";
-    if (!std::filesystem::exists(package))
-      GTEST_SKIP() << package << " is not there: install openarena-081-maps, or set CLUES_LEVELS";
-    const std::string command =
-        std::string(PYTHON) + " -m zipfile -e " + package.string() + " " + folder.path().string();
-    ASSERT_EQ(std::system(command.c_str()), 0);
-    levels = folder.path() / "maps";
-  }
+  const auto [levels, why_not] = real_levels(folder);
+  if (levels.empty()) GTEST_SKIP() << why_not;
   int read = 0;
   for (const auto& entry : std::filesystem::directory_iterator(levels)) {
     if (entry.path().extension() != ".bsp") continue;
