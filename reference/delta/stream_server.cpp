@@ -85,10 +85,17 @@ std::string DisplayList::bytes() const {
 }
 
 StreamStore::StreamStore(const scene::TriangleMesh& mesh, std::vector<std::vector<std::uint32_t>> lists,
-                         std::vector<std::vector<std::uint32_t>> neighbours, int horizon)
-    : lists_(std::move(lists)), neighbours_(std::move(neighbours)), mesh_(&mesh), horizon_(horizon) {}
+                         std::vector<std::vector<std::uint32_t>> neighbours, int horizon, CellTree tree)
+    : lists_(std::move(lists)),
+      neighbours_(std::move(neighbours)),
+      tree_(std::move(tree)),
+      mesh_(&mesh),
+      horizon_(horizon) {
+  for (std::size_t level = 1; level <= coarsest(); ++level)
+    node_lists_.push_back(lists_of_nodes(tree_.node_of[level], lists_));
+}
 
-std::vector<std::uint32_t> StreamStore::wanted_in(std::uint32_t cell) const {
+std::vector<std::uint32_t> StreamStore::wanted_in(std::uint32_t cell, std::size_t level) const {
   std::set<std::uint32_t> reached{cell};
   std::vector<std::uint32_t> rim{cell};
   for (int step = 0; step < horizon_ && !rim.empty(); ++step) {
@@ -100,8 +107,14 @@ std::vector<std::uint32_t> StreamStore::wanted_in(std::uint32_t cell) const {
     }
     rim = std::move(next);
   }
+  const auto& lists = level == 0 ? lists_ : node_lists_[level - 1];
+  if (level > 0) {
+    std::set<std::uint32_t> nodes;
+    for (const std::uint32_t c : reached) nodes.insert(tree_.node_of[level][c]);
+    reached = std::move(nodes);
+  }
   std::vector<std::uint32_t> wanted;
-  for (const std::uint32_t c : reached) wanted.insert(wanted.end(), lists_[c].begin(), lists_[c].end());
+  for (const std::uint32_t c : reached) wanted.insert(wanted.end(), lists[c].begin(), lists[c].end());
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   return wanted;
@@ -109,37 +122,39 @@ std::vector<std::uint32_t> StreamStore::wanted_in(std::uint32_t cell) const {
 
 std::string StreamStore::digest() const {
   std::string text = "horizon " + std::to_string(horizon_) + "\n";
-  for (const auto& [name, rows] : {std::pair("list", &lists_), std::pair("neighbours", &neighbours_)}) {
-    for (const auto& row : *rows) {
-      text += name;
-      for (const std::uint32_t x : row) text.append(" ").append(std::to_string(x));
-      text += "\n";
-    }
-  }
+  const auto add = [&text](const char* name, const std::vector<std::uint32_t>& row) {
+    text += name;
+    for (const std::uint32_t x : row) text.append(" ").append(std::to_string(x));
+    text += "\n";
+  };
+  for (const auto& row : lists_) add("list", row);
+  for (const auto& row : neighbours_) add("neighbours", row);
+  for (std::size_t level = 1; level <= coarsest(); ++level) add("nodes", tree_.node_of[level]);
   return scene::sha256_of(text);
 }
 
-std::vector<StreamMessage> StreamServer::enter(std::uint32_t cell) {
-  const auto wanted = store_->wanted_in(cell);
+std::vector<StreamMessage> StreamServer::enter(std::uint32_t cell, std::size_t level) {
   const DeltaPackets at_once = packets_of(mirror_.triangles(), store_->seen_from(cell));
   std::vector<StreamMessage> messages;
   if (!at_once.plus.empty()) messages.push_back(mirror_.plus(at_once.plus));
   StreamMessage entered;
   entered.cell = cell;
   messages.push_back(entered);
-  const DeltaPackets later = packets_of(mirror_.triangles(), wanted);
-  if (!later.minus.empty()) messages.push_back(mirror_.minus(later.minus));
-  if (!later.plus.empty()) messages.push_back(mirror_.plus(later.plus));
+  const auto gone = packets_of(mirror_.triangles(), store_->wanted_in(cell, store_->coarsest())).minus;
+  if (!gone.empty()) messages.push_back(mirror_.minus(gone));
+  const auto later = packets_of(mirror_.triangles(), store_->wanted_in(cell, level)).plus;
+  if (!later.empty()) messages.push_back(mirror_.plus(later));
   messages_ += messages.size();
   return messages;
 }
 
-std::vector<StreamMessage> StreamServer::resume(const std::vector<std::uint32_t>& route, std::uint64_t have) {
+std::vector<StreamMessage> StreamServer::resume(const std::vector<std::uint32_t>& route, std::uint64_t have,
+                                                const std::vector<std::size_t>& levels) {
   restart();
   std::vector<StreamMessage> tail;
-  for (const std::uint32_t cell : route) {
+  for (std::size_t i = 0; i < route.size(); ++i) {
     std::uint64_t number = messages_;
-    for (StreamMessage& message : enter(cell)) {
+    for (StreamMessage& message : enter(route[i], levels.empty() ? store_->coarsest() : levels[i])) {
       if (number++ >= have) tail.push_back(std::move(message));
     }
   }

@@ -7,6 +7,11 @@
 // the client has what either sees, and nobody waits for what he does not see yet. Which triangles the client holds in the
 // end is a function of the cell that the viewer is in, whichever way he came: what is sound on every transition is sound
 // on every route.
+//
+// FIGS. 52, 54: with a hierarchy the client gets, behind what he waits for, what is seen from the whole node that the cell
+// is in, and within the node nothing is sent any more. Fewer packets, larger ones. Where the link is too slow for that a
+// smaller node, or the cell alone, will do for the moment: nothing that a larger node has use for is taken away. So after
+// each step the client has what the cell sees, and nothing that the coarsest node does not see.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/delta/cell_tree.h"
 #include "scene/mesh/mesh.h"
 #include "scene/stream/stream_file.h"
 
@@ -36,6 +42,7 @@ class DisplayList {
   explicit DisplayList(const scene::TriangleMesh& mesh) : mesh_(&mesh) {}  // keeps a reference
 
   std::vector<std::uint32_t> triangles() const;  // ids, ascending
+  std::size_t size() const { return triangles_.size(); }
 
   // FIG. 44: of triangles that it does not hold. FIG. 45: of triangles that it holds. O(log n) each.
   scene::StreamMessage plus(const std::vector<std::uint32_t>& triangles);
@@ -60,19 +67,23 @@ class DisplayList {
 class StreamStore {
  public:
   // `lists`: what is visible, for each cell; `neighbours`: where a viewer can go from there. With a horizon of n a client
-  // has what is seen from all cells that can be reached in n steps. Keeps a reference to the mesh.
+  // has what is seen from all cells that can be reached in n steps, and with a tree from their nodes. Keeps a reference to
+  // the mesh.
   StreamStore(const scene::TriangleMesh& mesh, std::vector<std::vector<std::uint32_t>> lists,
-              std::vector<std::vector<std::uint32_t>> neighbours, int horizon);
+              std::vector<std::vector<std::uint32_t>> neighbours, int horizon, CellTree tree = {});
 
   const scene::TriangleMesh& mesh() const { return *mesh_; }
   const std::vector<std::uint32_t>& seen_from(std::uint32_t cell) const { return lists_[cell]; }
-  std::vector<std::uint32_t> wanted_in(std::uint32_t cell) const;  // ascending
-  // SHA-256 of the lists, which follow from mode and --drop, the neighbours and the horizon: from these, and the scene,
-  // all messages follow. O(size of the lists).
+  std::size_t coarsest() const { return tree_.node_of.empty() ? 0 : tree_.node_of.size() - 1; }  // level of the tree
+  std::vector<std::uint32_t> wanted_in(std::uint32_t cell, std::size_t level) const;             // ascending
+  // SHA-256 of the lists, which follow from mode and --drop, the neighbours, the horizon and the tree: from these, and the
+  // scene, all messages follow. O(size of the lists).
   std::string digest() const;
 
  private:
   std::vector<std::vector<std::uint32_t>> lists_, neighbours_;
+  CellTree tree_;
+  std::vector<std::vector<std::vector<std::uint32_t>>> node_lists_;  // of each level but 0, of each node
   const scene::TriangleMesh* mesh_;
   int horizon_;
 };
@@ -83,13 +94,16 @@ class StreamServer {
   explicit StreamServer(const StreamStore& store) : store_(&store), mirror_(store.mesh()) {}  // keeps a reference
 
   // The messages of a step into the cell. Empty packets are left out.
-  std::vector<scene::StreamMessage> enter(std::uint32_t cell);
+  std::vector<scene::StreamMessage> enter(std::uint32_t cell) { return enter(cell, store_->coarsest()); }
+  // The same, with no more in advance than what nodes of this level want.
+  std::vector<scene::StreamMessage> enter(std::uint32_t cell, std::size_t level);
 
   // After a lost connection, also by another server of the same digest and cells: goes the route again from its
   // beginning, and returns all but the first `have` messages, which the client has. The client is then where the
   // connection was lost, and nothing is sent twice. Throws scene::Error bad_argument where the route has not so many
-  // messages.
-  std::vector<scene::StreamMessage> resume(const std::vector<std::uint32_t>& route, std::uint64_t have);
+  // messages. `levels`: of each step, where they were not all the coarsest.
+  std::vector<scene::StreamMessage> resume(const std::vector<std::uint32_t>& route, std::uint64_t have,
+                                           const std::vector<std::size_t>& levels = {});
 
   // The same, message for message, where not all are to be in memory at once: from the beginning, cell by cell.
   void restart();

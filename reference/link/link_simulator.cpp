@@ -3,12 +3,21 @@
 #include <algorithm>
 #include <random>
 
+#include "reference/link/penetration.h"
 #include "scene/stream/packets.h"
 
 namespace clues::reference {
 namespace {
 
 using scene::StreamMessage;
+
+constexpr std::uint64_t second = 1000000;
+
+std::uint64_t bytes_of(const std::vector<StreamMessage>& messages) {
+  std::uint64_t bytes = 0;
+  for (const StreamMessage& message : messages) bytes += scene::to_packet(message).size();
+  return bytes;
+}
 
 class LinkClock {
  public:
@@ -20,13 +29,17 @@ class LinkClock {
     bool lost = false;
   };
   Arrival send(std::uint64_t now_us, std::uint64_t bytes) {
-    constexpr std::uint64_t second = 1000000;
     const std::uint64_t begins = std::max(now_us, free_us_);
     const std::uint64_t takes = (bytes * second + link_.bytes_per_second - 1) / link_.bytes_per_second;
     free_us_ = begins + takes;
     return {free_us_ + link_.latency_us, random_() % second < link_.losses_per_million};
   }
   void reconnect(std::uint64_t now_us) { free_us_ = now_us; }
+  // Bytes that are still to go out at this time, rounded up.
+  std::uint64_t waiting(std::uint64_t now_us) const {
+    const std::uint64_t left = free_us_ - std::min(free_us_, now_us);
+    return (left * link_.bytes_per_second + second - 1) / second;
+  }
 
  private:
   const Link& link_;
@@ -34,21 +47,47 @@ class LinkClock {
   std::uint64_t free_us_ = 0;  // the sender's end
 };
 
+// The coarsest level whose messages go out within this time; 0 where none does.
+std::size_t level_in_time(const StreamServer& server, std::uint32_t cell, std::size_t coarsest, std::uint64_t waiting,
+                          const Link& link, std::uint64_t time_us) {
+  std::vector<std::uint64_t> sizes;
+  for (std::size_t level = coarsest + 1; level-- > 0;) {
+    StreamServer tried = server;
+    sizes.push_back(bytes_of(tried.enter(cell, level)));
+  }
+  bool late = false;
+  const auto microseconds = [](std::uint64_t us) {
+    return exact::FT(static_cast<double>(us)) / exact::FT(static_cast<double>(second));
+  };
+  return coarsest - detail_in_time(sizes, waiting, link.bytes_per_second, exact::FT(0), microseconds(time_us), late);
+}
+
 }  // namespace
 
 LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& steps, const Link& link,
-                     std::uint64_t ahead_us) {
+                     std::uint64_t ahead_us, NodeChoice choice) {
   LinkReport report;
+  report.steps_on_level.resize(store.coarsest() + 1);
   LinkClock clock(link);
   StreamServer server(store);
   std::vector<std::uint32_t> route;
+  std::vector<std::size_t> levels;
   std::uint64_t delay_us = 0, asked_us = 0;
   for (const TimedStep& step : steps) {
     const std::uint64_t face_us = step.reached_us + delay_us;
     asked_us = std::max(asked_us, face_us - std::min(face_us, ahead_us));
     route.push_back(step.cell);
-    std::vector<StreamMessage> due = server.enter(step.cell);
     std::uint64_t at_server_us = asked_us + link.latency_us, entered_us = 0;
+    levels.push_back(store.coarsest());
+    if (choice == NodeChoice::in_time) {
+      // He asks for the next cell when he has been in this one, which is not before the face to it.
+      const std::uint64_t next_us = face_us + step.stays_us + link.latency_us;
+      const std::uint64_t sent_by_us = next_us - std::min(next_us, ahead_us);
+      levels.back() = level_in_time(server, step.cell, store.coarsest(), clock.waiting(at_server_us), link,
+                                    sent_by_us - std::min(sent_by_us, at_server_us));
+    }
+    ++report.steps_on_level[levels.back()];
+    std::vector<StreamMessage> due = server.enter(step.cell, levels.back());
     for (std::size_t i = 0; i < due.size();) {
       const std::uint64_t bytes = scene::to_packet(due[i]).size();
       const auto arrival = clock.send(at_server_us, bytes);
@@ -63,9 +102,11 @@ LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& ste
       at_server_us = arrival.at_us + link.outage_us + link.latency_us;
       clock.reconnect(at_server_us);
       server = StreamServer(store);
-      due = server.resume(route, report.messages.size());
+      due = server.resume(route, report.messages.size(), levels);
       i = 0;
     }
+    report.held += server.mirror().size();
+    report.seen += store.seen_from(step.cell).size();
     const std::uint64_t stall = entered_us - std::min(entered_us, face_us);
     report.stalls += stall > 0;
     report.stalled_us += stall;

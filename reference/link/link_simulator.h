@@ -23,17 +23,27 @@ struct Link {
 struct TimedStep {
   std::uint64_t reached_us = 0;
   std::uint32_t cell = 0;
+  std::uint64_t stays_us = 0;  // in this cell at least, as far as the server can know (penetration.h)
 };
 
 struct LinkReport {
   std::vector<scene::StreamMessage> messages;  // as they arrived
   std::uint64_t stalls = 0, stalled_us = 0, longest_us = 0;
   std::uint64_t packets = 0, bytes = 0, losses = 0;  // sent, lost ones included
+  std::vector<std::uint64_t> steps_on_level;         // of the tree of cells
+  std::uint64_t held = 0, seen = 0;                  // triangles after each step, and of them those that the cell lists
 };
+
+// How much a server with a tree of cells sends in advance.
+enum class NodeChoice : std::uint8_t { coarsest, in_time };
 
 // He asks for a cell `ahead_us` before he gets there. That is sound where the horizon of the store is 1 or more: what he
 // sees from the cell that he is still in stays then. Between two connections the server forgets everything.
+//
+// FIG. 48A and the small packets of the text: with NodeChoice::in_time the server takes of the nodes around a cell, the
+// coarsest first, the first whose data are sent before the viewer can ask for another cell; else the cell alone. What he
+// waits for is so never behind what is only to come.
 LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& steps, const Link& link,
-                     std::uint64_t ahead_us);
+                     std::uint64_t ahead_us, NodeChoice choice = NodeChoice::coarsest);
 
 }  // namespace clues::reference
