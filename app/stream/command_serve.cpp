@@ -24,8 +24,7 @@ struct ServeRequest {
   CellsChoice choice;
   std::string socket;
   bool binary = false;
-  int horizon = 0;
-  std::size_t drop = 0;
+  SendChoice send;
   MethodOptions method;
 };
 
@@ -66,8 +65,7 @@ int run_serve(const ServeRequest& request) {
   const auto options = request.method.to_reference();
   require_writable_parent(request.socket);
   auto served = served_cells(request.choice);
-  const reference::StreamStore store(served.scene.mesh, lists_of(served, options, request.drop, "clues serve"),
-                                     served.neighbours, request.horizon);
+  const auto store = store_of(served, lists_of(served, options, request.send, "clues serve").lists, request.send);
   const auto header = header_of(served, request.method, store);
   if (!request.socket.empty()) {
     serve_at(request.socket, store, header);
@@ -88,11 +86,7 @@ void add_serve_command(CLI::App& program, int& status) {
                      ->type_name("PATH");
   command->add_flag("--binary", request->binary, "On standard input and output: packets in place of lines")
       ->excludes(socket);
-  command
-      ->add_option("--horizon", request->horizon, "Send what is seen from all cells within so many steps (default: 0)")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1000));
-  command->add_option("--drop", request->drop, drop_help)->type_name("N")->check(problem_of_count);
+  request->send.add_to(*command);
   request->method.add_to(*command);
   command->footer(
       std::string(
@@ -108,7 +102,8 @@ void add_serve_command(CLI::App& program, int& status) {
       "\n\nEXAMPLES\n"
       "  clues conform --stream-server 'clues serve town.obj --cells grid:2x2x1:box:0,0,1,4,4,2' --scene town.obj "
       "--cells grid:2x2x1:box:0,0,1,4,4,2\n"
-      "  clues serve level.bsp --bake level.bake --horizon 1 --socket level.sock\n\n"
+      "  clues serve level.bsp --bake level.bake --horizon 1 --socket level.sock\n"
+      "  clues serve level.bsp --bake level.bake --hierarchy 3 --socket level.sock\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input, or what is no request   4 an oracle contradicted itself");
   command->callback([request, &status] { status = run_serve(*request); });

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <thread>
@@ -35,9 +36,8 @@ struct WalkRequest {
   RouteChoice route;
   std::string connect, link, out;
   std::uint64_t routes = 1;
-  bool binary = false;
-  int horizon = 0;
-  std::size_t drop = 0;
+  bool binary = false, in_time = false;
+  SendChoice send;
   double pace = 1, ahead = 0;  // seconds
   MethodOptions method;
 };
@@ -145,9 +145,9 @@ class Walk {
   Walk(const WalkRequest& request, const ServedCells& served)
       : request_(request),
         served_(served),
-        lists_(request.connect.empty() ? lists_of(served, request.method.to_reference(), request.drop, "clues walk")
-                                       : served.lists),
-        store_(served.scene.mesh, lists_, served.neighbours, request.horizon),
+        sent_(request.connect.empty() ? lists_of(served, request.method.to_reference(), request.send, "clues walk")
+                                      : SentLists{served.lists, {}}),
+        store_(store_of(served, sent_.lists, request.send)),
         header_(request.connect.empty() ? header_of(served, request.method, store_) : served.header) {}
 
   void go(const std::vector<std::uint32_t>& route) {
@@ -165,14 +165,17 @@ class Walk {
   // The same over a link, in simulated time.
   reference::LinkReport go_over(const std::vector<std::uint32_t>& route) const {
     constexpr double second = 1e6;
+    const auto stays = static_cast<std::uint64_t>(second * request_.pace);
     std::vector<reference::TimedStep> steps;
     for (const std::uint32_t cell : route)
       steps.push_back(
-          {static_cast<std::uint64_t>(second * request_.pace * static_cast<double>(steps.size() + 1)), cell});
+          {static_cast<std::uint64_t>(second * request_.pace * static_cast<double>(steps.size() + 1)), cell, stays});
     return reference::walk_over(store_, steps, parse_link(request_.link, request_.route.seed),
-                                static_cast<std::uint64_t>(second * request_.ahead));
+                                static_cast<std::uint64_t>(second * request_.ahead),
+                                request_.in_time ? reference::NodeChoice::in_time : reference::NodeChoice::coarsest);
   }
   const WalkFigures& figures() const { return figures_; }
+  const std::string& dropped() const { return sent_.dropped; }
   std::string text() const { return (request_.binary ? to_packet(header_) : to_line(header_)) + text_; }
 
  private:
@@ -189,8 +192,8 @@ class Walk {
       figures_.bytes += bytes.size();
       if (!request_.out.empty()) text_ += bytes;
     }
-    if (lists_.empty()) return;  // the server knows them
-    const auto& list = lists_[cell];
+    if (sent_.lists.empty()) return;  // the server knows them
+    const auto& list = sent_.lists[cell];
     auto [at, is_new] = whole_.try_emplace(cell, 0);
     if (is_new) at->second = written(reference::DisplayList(served_.scene.mesh).plus(list)).size();
     figures_.whole_lists += list.size();
@@ -199,7 +202,7 @@ class Walk {
 
   const WalkRequest& request_;
   const ServedCells& served_;
-  std::vector<std::vector<std::uint32_t>> lists_;
+  SentLists sent_;
   reference::StreamStore store_;
   scene::StreamHeader header_;                    // that of the server, where it is another program
   std::map<std::uint32_t, std::uint64_t> whole_;  // bytes of a cell's list
@@ -212,12 +215,14 @@ int run_walk(const WalkRequest& request) {
     throw Error(ErrorCode::bad_argument, "give one of --route, --camera and --steps (see `clues walk --help`)");
   if (request.routes != 1 && (!request.route.at_random() || !request.out.empty() || !request.connect.empty()))
     throw Error(ErrorCode::bad_argument, "--routes is for --steps, and for figures alone");
-  if (request.ahead > 0 && request.horizon == 0)
+  if (request.ahead > 0 && request.send.horizon == 0)
     throw Error(ErrorCode::bad_argument, "--ahead needs a --horizon of 1 or more: what he still sees would go");
-  if (!request.connect.empty() && (!request.link.empty() || request.horizon > 0 || request.drop > 0))
+  if (request.in_time && request.send.levels == 0)
+    throw Error(ErrorCode::bad_argument, "--in-time needs a --hierarchy of 1 or more: it chooses among its nodes");
+  if (!request.connect.empty() && (!request.link.empty() || !request.send.is_default()))
     throw Error(ErrorCode::bad_argument,
-                "--connect: the link is a real one, and the server decides what it sends; leave out --link, --horizon "
-                "and --drop");
+                "--connect: the link is a real one, and the server decides what it sends; leave out --link, --horizon, "
+                "--hierarchy, --drop and --drop-area");
   if (!request.link.empty()) parse_link(request.link, 1);
   require_writable_parent(request.out);
   require_apart({&request.out}, {&request.choice.scene, &request.route.route, &request.route.camera,
@@ -245,12 +250,19 @@ int run_walk(const WalkRequest& request) {
                   "{:>13}  {:>8}  {:>14}  {:>10}  {:>9}{}\n",
                   lists_known ? "  whole lists: triangles      bytes" : "", f.entered, f.packets, f.sent, f.taken,
                   f.bytes, lists_known ? fmt::format("  {:>22}  {:>9}", f.whole_lists, f.whole_bytes) : ""));
+  if (!walk.dropped().empty()) print(walk.dropped());
   if (!request.link.empty()) {
     const auto over = walk.go_over(choice.take(served));
     constexpr double second = 1e6;
     print(fmt::format("over the link: {} packets, {} bytes, {} losses; {} stalls, {:.3f} s in all, {:.3f} s at most\n",
                       over.packets, over.bytes, over.losses, over.stalls, static_cast<double>(over.stalled_us) / second,
                       static_cast<double>(over.longest_us) / second));
+    const auto steps = std::accumulate(over.steps_on_level.begin(), over.steps_on_level.end(), std::uint64_t{0});
+    print(fmt::format("held after a step: {:.1f} triangles, of which the cell lists {:.1f}\n",
+                      static_cast<double>(over.held) / static_cast<double>(steps),
+                      static_cast<double>(over.seen) / static_cast<double>(steps)));
+    if (request.in_time)
+      print("steps by level of the hierarchy: " + fmt::format("{}\n", fmt::join(over.steps_on_level, " ")));
   }
   if (lost > 0) print(fmt::format("the connection was lost {} times, and taken up again\n", lost));
   return fine;
@@ -268,10 +280,7 @@ void add_walk_command(CLI::App& program, int& status) {
                    "Figures of so many random routes, with seeds from --seed on, from each cell in turn")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
-  command
-      ->add_option("--horizon", request->horizon, "Send what is seen from all cells within so many steps (default: 0)")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1000));
+  request->send.add_to(*command);
   command->add_option("--connect", request->connect, "Go the route as a client of `clues serve --socket PATH`")
       ->type_name("PATH");
   auto* link = command
@@ -287,7 +296,10 @@ void add_walk_command(CLI::App& program, int& status) {
       ->type_name("S")
       ->needs(link)
       ->check(number_between(0, 1e6));
-  command->add_option("--drop", request->drop, drop_help)->type_name("N")->check(problem_of_count);
+  command
+      ->add_flag("--in-time", request->in_time,
+                 "With --hierarchy and --link: of the nodes of a cell the coarsest that is sent in time")
+      ->needs(link);
   command->add_flag("--binary", request->binary, "Packets in place of lines, in the file and in the figures");
   request->method.add_to(*command);
   command->add_option("-o,--out", request->out, "The messages (docs/delta.md)")->type_name("FILE");
@@ -309,6 +321,7 @@ void add_walk_command(CLI::App& program, int& status) {
       "walk.stream\n"
       "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --steps 10 --horizon 1 --link 100000:50:10000:500 "
       "--ahead 0.2\n"
+      "  clues walk town.obj --cells grid:4x4x1:box:0,0,1,4,4,2 --steps 10 --hierarchy 2 --link 20000:50 --in-time\n"
       "  clues conform --stream walk.stream.jsonl --scene town.obj --cells grid:2x2x1:box:0,0,1,4,4,2\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input, or no server   4 an oracle contradicted itself");

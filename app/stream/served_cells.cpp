@@ -1,9 +1,14 @@
 #include "app/stream/served_cells.h"
 
+#include <fmt/format.h>
+
+#include <limits>
 #include <utility>
 
 #include "app/progress.h"
+#include "app/stream/number_between.h"
 #include "exact/cell/touching.h"
+#include "reference/delta/area_worth.h"
 #include "reference/delta/worth.h"
 #include "reference/visibility/first_order.h"
 #include "scene/bakes/bake_store.h"
@@ -34,6 +39,21 @@ void add_cells_of_bake(const CellsChoice& choice, ServedCells& served) {
   served.neighbours = exact::touching_cells(hulls);
 }
 
+std::string words_of(const reference::AreaWorth& worth, const ServedCells& served,
+                     const std::vector<std::vector<std::uint32_t>>& lists, const reference::Dropping& grown) {
+  const auto before = reference::plus_totals(worth, lists, served.neighbours);
+  const auto after = reference::plus_totals(worth, grown.lists, served.neighbours);
+  double area = 0;
+  for (std::size_t c = 0; c < lists.size(); ++c) {
+    const auto more = worth.area_of(reference::packets_of(lists[c], grown.lists[c]).plus);
+    area += more ? CGAL::to_double(*more) : std::numeric_limits<double>::infinity();
+  }
+  return fmt::format(
+      "dropped: over all transitions {} packets + of {} are left, of {} bytes {}; lists have {} triangles more, of an "
+      "area of {:.6g}\n",
+      after.packets, before.packets, before.bytes, after.bytes, grown.given_up, area);
+}
+
 }  // namespace
 
 void CellsChoice::add_to(CLI::App& command) {
@@ -44,6 +64,30 @@ void CellsChoice::add_to(CLI::App& command) {
   command.add_option("--bake", bake, "The cells and lists of `clues bake` of this scene")
       ->type_name("FILE")
       ->excludes(grid);
+}
+
+void SendChoice::add_to(CLI::App& command) {
+  command.add_option("--horizon", horizon, "Send what is seen from all cells within so many steps (default: 0)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000));
+  command
+      .add_option(
+          "--hierarchy", levels,
+          "Send, behind what the viewer waits for, what is seen from the node that the cell is in, of up to 2^N "
+          "cells (default: 0)")
+      ->type_name("N")
+      ->check(CLI::Range(0, 16));
+  command
+      .add_option("--drop", drop,
+                  "Send no `+` of so many triangles or fewer: cells before get them, on all routes (default: 0)")
+      ->type_name("N")
+      ->check(problem_of_count);
+  command
+      .add_option("--drop-area", drop_area,
+                  "Send no `+` that keeps less than this area away from the cell before for each of its bytes; on all "
+                  "routes (default: 0)")
+      ->type_name("AREA")
+      ->check(number_between(0, 1e300));
 }
 
 ServedCells served_cells(const CellsChoice& choice) {
@@ -69,8 +113,8 @@ ServedCells served_cells(const CellsChoice& choice) {
   return served;
 }
 
-std::vector<std::vector<std::uint32_t>> lists_of(const ServedCells& served, const reference::Options& options,
-                                                 std::size_t drop, const char* who) {
+SentLists lists_of(const ServedCells& served, const reference::Options& options, const SendChoice& send,
+                   const char* who) {
   std::vector<std::vector<std::uint32_t>> lists = served.lists;
   if (lists.empty()) {
     ProgressBar bar(who);
@@ -81,10 +125,24 @@ std::vector<std::vector<std::uint32_t>> lists_of(const ServedCells& served, cons
               .visible);
     }
   }
-  if (drop == 0) return lists;
-  return reference::without_poor_packets(std::move(lists), served.neighbours,
-                                         [drop](const auto& plus) { return plus.size() <= drop; })
-      .lists;
+  if (!send.drops()) return {std::move(lists), {}};
+  const reference::AreaWorth worth(served.scene.mesh);
+  const exact::FT area_of_a_byte(send.drop_area);
+  auto grown = reference::without_poor_packets(lists, served.neighbours, [&](const auto& plus) {
+    return plus.size() <= send.drop || (send.drop_area > 0 && worth.is_poor(plus, area_of_a_byte));
+  });
+  return {grown.lists, words_of(worth, served, lists, grown)};
+}
+
+reference::StreamStore store_of(const ServedCells& served, std::vector<std::vector<std::uint32_t>> lists,
+                                const SendChoice& send) {
+  reference::CellTree tree;
+  if (send.levels > 0) {
+    std::vector<std::vector<scene::Point>> corners;
+    for (const auto& cell : served.cells) corners.push_back(cell.points);
+    tree = reference::cell_tree(corners, static_cast<std::size_t>(send.levels));
+  }
+  return {served.scene.mesh, std::move(lists), served.neighbours, send.horizon, std::move(tree)};
 }
 
 scene::StreamHeader header_of(const ServedCells& served, const MethodOptions& method,

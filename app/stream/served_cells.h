@@ -31,16 +31,33 @@ struct ServedCells {
   std::vector<std::vector<std::uint32_t>> lists;  // of a bake
 };
 
-inline constexpr const char* drop_help =
-    "Send no `+` of so many triangles or fewer: cells before get them, on all routes (default: 0)";
+// What is sent of them: for `clues walk` and `clues serve`.
+struct SendChoice {
+  int horizon = 0, levels = 0;
+  std::size_t drop = 0;
+  double drop_area = 0;  // of a byte
+
+  void add_to(CLI::App& command);  // --horizon, --hierarchy, --drop, --drop-area
+  bool drops() const { return drop > 0 || drop_area > 0; }
+  bool is_default() const { return horizon == 0 && levels == 0 && !drops(); }
+};
+
+struct SentLists {
+  std::vector<std::vector<std::uint32_t>> lists;  // of each cell
+  std::string dropped;                            // what was dropped, in a line; empty: nothing was to be
+};
 
 // Throws Error: bad_argument, bad_cell, malformed, and file errors. A scene of --cells is opaque.
 ServedCells served_cells(const CellsChoice& choice);
 
-// The lists of all cells: of the bake, or mapped now; grown until no step sends `drop` triangles or fewer (worth.h).
-// `who`: in front of the progress.
-std::vector<std::vector<std::uint32_t>> lists_of(const ServedCells& served, const reference::Options& options,
-                                                 std::size_t drop, const char* who);
+// The lists of all cells: of the bake, or mapped now; grown until no step sends what is not worth it (worth.h). `who`: in
+// front of the progress.
+SentLists lists_of(const ServedCells& served, const reference::Options& options, const SendChoice& send,
+                   const char* who);
+
+// Of these lists. Keeps a reference to `served`.
+reference::StreamStore store_of(const ServedCells& served, std::vector<std::vector<std::uint32_t>> lists,
+                                const SendChoice& send);
 
 // With what else the messages of this store follow from. The lists of a bake have no mode.
 scene::StreamHeader header_of(const ServedCells& served, const MethodOptions& method,

@@ -27,17 +27,19 @@ Dropping without_poor_packets(std::vector<std::vector<std::uint32_t>> lists,
   for (bool grows = true; grows;) {
     grows = false;
     ++out.rounds;
+    auto next = lists;
     for (std::size_t a = 0; a < lists.size(); ++a) {
       for (const std::uint32_t b : neighbours[a]) {
         const auto plus = packets_of(lists[a], lists[b]).plus;
         if (plus.empty() || !poor(plus)) continue;
         std::vector<std::uint32_t> both;
-        std::merge(lists[a].begin(), lists[a].end(), plus.begin(), plus.end(), std::back_inserter(both));
-        lists[a] = std::move(both);
-        out.given_up += plus.size();
+        std::set_union(next[a].begin(), next[a].end(), plus.begin(), plus.end(), std::back_inserter(both));
+        out.given_up += both.size() - next[a].size();
+        next[a] = std::move(both);
         grows = true;
       }
     }
+    lists = std::move(next);
   }
   out.packets_after = packets_between(lists, neighbours);
   out.lists = std::move(lists);

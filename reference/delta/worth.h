@@ -19,11 +19,11 @@ struct Dropping {
   std::uint64_t rounds = 0;
 };
 
-// Whether to drop the packet that has these triangles; asked again and again. For a fixpoint that does not depend on the
-// order it must say yes to every part of what it says yes to.
+// Whether to drop the packet that has these triangles; asked again and again.
 using NotWorthIt = std::function<bool(const std::vector<std::uint32_t>& plus)>;
 
-// `lists`: of each cell, ascending. O(rounds * transitions * list).
+// `lists`: of each cell, ascending. In a round all packets are asked about the lists as they were before it, so it does
+// not matter how the cells are numbered. O(rounds * transitions * list).
 Dropping without_poor_packets(std::vector<std::vector<std::uint32_t>> lists,
                               const std::vector<std::vector<std::uint32_t>>& neighbours, const NotWorthIt& poor);
 
