@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,8 @@
 #include "app/json_output.h"
 #include "app/progress.h"
 #include "app/stream/command_contours.h"
+#include "app/stream/command_detail.h"
+#include "reference/delta/area_worth.h"
 #include "reference/delta/delta.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
@@ -56,6 +60,27 @@ std::string table_of(const reference::Delta& delta, const scene::TriangleMesh& m
       exposed, occluded, delta.fallbacks);
 }
 
+// EDV and EDO of the two packets (area_worth.h).
+std::string worth_table_of(const reference::Delta& delta, const scene::TriangleMesh& mesh) {
+  const reference::AreaWorth worth(mesh);
+  std::string text = "packet  triangles  bytes  area of triangles     a byte  area of regions     a byte\n";
+  const auto row = [&](char sign, const std::vector<std::uint32_t>& ids, reference::SeenFrom seen,
+                       std::uint64_t bytes) {
+    const auto estimate = [](const std::optional<exact::FT>& area) {
+      return area ? CGAL::to_double(*area) : std::numeric_limits<double>::infinity();
+    };
+    const double whole = estimate(worth.area_of(ids)), parts = estimate(worth.area_of(delta, seen));
+    const auto a_byte = [&](double area) {
+      return ids.empty() ? std::string("-") : fmt::format("{:.6g}", area / static_cast<double>(bytes));
+    };
+    text += fmt::format("{:>6}  {:>9}  {:>5}  {:>17.6g}  {:>9}  {:>15.6g}  {:>9}\n", sign, ids.size(),
+                        ids.empty() ? 0 : bytes, whole, a_byte(whole), parts, a_byte(parts));
+  };
+  row('+', delta.packets.plus, reference::SeenFrom::to, worth.bytes_of_plus(delta.packets.plus));
+  row('-', delta.packets.minus, reference::SeenFrom::from, worth.bytes_of_minus(delta.packets.minus));
+  return text;
+}
+
 int run_delta(const DeltaRequest& request) {
   require_given(request.scene, "SCENE");
   require_given(request.from, "--from");
@@ -86,7 +111,7 @@ int run_delta(const DeltaRequest& request) {
     if (!request.out.empty()) scene::write_file_atomically(request.out, text);
     request.json.write(text);
   }
-  if (!request.json.on_stdout()) print(table_of(delta, mesh));
+  if (!request.json.on_stdout()) print(table_of(delta, mesh) + worth_table_of(delta, mesh));
   return fine;
 }
 
@@ -188,7 +213,9 @@ void add_delta_command(CLI::App& program, int& status) {
           "sees,\n"
           "  the packet - those that only the first sees. A triangle in neither may still show other parts: "
           "the areas,\n"
-          "  and --fragments, are about parts. All of it is exact; docs/delta.md says what holds of it.\n\n") +
+          "  and --fragments, are about parts. All of it is exact; docs/delta.md says what holds of it. The second "
+          "table says\n"
+          "  what the packets are worth: the area that they keep away from a cell for each byte that they take.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues delta town.obj --from box:0,0,1,1,2,2 --to box:1,0,1,2,2,2\n"
@@ -200,6 +227,7 @@ void add_delta_command(CLI::App& program, int& status) {
   });
   add_delta_check(*command, status);
   add_delta_contours(*command, status);
+  add_delta_detail(*command, status);
 }
 
 }  // namespace clues::app

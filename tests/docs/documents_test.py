@@ -130,6 +130,7 @@ class Scratch:
 
     def prepare(self, where):
         for name, text in [("town.obj", TOWN), ("room.obj", ROOM), ("screen.off", SCREEN), ("baked.txt", "0\n1\n2\n3\n"),
+                           ("seen.curve", "# speed error\n0 0.0003\n0.5 0.001\n2 0.01\n"),
                            ("points.txt", "0 0 1.5\n0 0 0.75\n0.5 -0.5 2\n")]:
             self.write(name, text)
         self.sh("clues map town.obj --cell box:0,0,1,2,2,2 -o town.clues.json")
