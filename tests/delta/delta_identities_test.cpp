@@ -86,7 +86,8 @@ struct LevelWithLeaves {
   }
 };
 
-// In the whole level. The fast path's lists are the second way to what the maps list.
+// In the whole level. The fast path's lists are the second way to what the maps list: these may have more, of what is in
+// doubt (D17b), where the fast path met less of the scene.
 TEST(DeltaIdentitiesOfALevelLong, HoldBetweenItsLeaves) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
   const tests::TestFolder folder;
@@ -97,17 +98,24 @@ TEST(DeltaIdentitiesOfALevelLong, HoldBetweenItsLeaves) {
   for (const auto& points : part.cells) hulls.push_back(exact::ConvexCell::from_doubles(points));
   const fastpath::Bvh bvh(part.blocks);
   TransitionSums sums;
+  std::uint64_t listed = 0, more = 0;
   const auto neighbours = exact::touching_cells(hulls);
   for (std::uint32_t a = 0; a < hulls.size(); ++a) {
     for (const std::uint32_t b : neighbours[a]) {
       if (b < a) continue;  // both ways are asked at once
       SCOPED_TRACE("leaves " + std::to_string(part.leaves[a]) + " and " + std::to_string(part.leaves[b]));
       const auto record = expect_identities(part.blocks, hulls[a], hulls[b], {}, sums);
-      for (const auto& [cell, end] : {std::pair(a, &record.from), {b, &record.to}})
-        EXPECT_EQ(end->visible, fastpath::first_order_visibility(bvh, part.cells[cell], {}).visible);
+      for (const auto& [cell, end] : {std::pair(a, &record.from), {b, &record.to}}) {
+        const auto fast = fastpath::first_order_visibility(bvh, part.cells[cell], {}).visible;
+        EXPECT_TRUE(std::includes(end->visible.begin(), end->visible.end(), fast.begin(), fast.end()));
+        more += end->visible.size() - fast.size();
+        listed += fast.size();
+      }
     }
   }
-  std::cout << "a level of " << part.blocks.triangles.size() << " triangles, " << hulls.size() << " leaves of it\n";
+  std::cout << "a level of " << part.blocks.triangles.size() << " triangles, " << hulls.size()
+            << " leaves of it; the fast path's lists have " << listed << " triangles, those of the maps " << more
+            << " more\n";
   expect_seen_something(sums);
   EXPECT_GE(sums.transitions, 4U);
 }
