@@ -92,7 +92,7 @@ TEST(CellTree, ANodeListsNoMoreThanItsBox) {
 
 // After each step the client has what the cell sees, and nothing that the coarsest node does not want; so it is sound
 // whatever it had before, and each step may be on any level.
-TEST(Hierarchy, EveryTransitionIsSoundOnEveryLevel) {
+TEST(StreamHierarchy, EveryTransitionIsSoundOnEveryLevel) {
   for (const int horizon : {0, 1}) {
     const auto store = store_with(3, horizon);
     for (std::uint32_t a = 0; a < town().neighbours().size(); ++a) {
@@ -116,7 +116,7 @@ TEST(Hierarchy, EveryTransitionIsSoundOnEveryLevel) {
   }
 }
 
-TEST(Hierarchy, WithoutNodesItIsTheFlatStream) {
+TEST(StreamHierarchy, WithoutNodesItIsTheFlatStream) {
   const auto route = scene::random_route(town().neighbours(), 20, kSeed);
   for (const int horizon : {0, 1}) {
     const auto store = store_with(0, horizon);
@@ -127,7 +127,7 @@ TEST(Hierarchy, WithoutNodesItIsTheFlatStream) {
   }
 }
 
-TEST(Hierarchy, WithinANodeNothingIsSent) {
+TEST(StreamHierarchy, WithinANodeNothingIsSent) {
   const auto store = store_with(3, 0);
   const auto tree = reference::cell_tree(corners_of(town_grid), 3);
   std::uint64_t within = 0;
@@ -145,7 +145,7 @@ TEST(Hierarchy, WithinANodeNothingIsSent) {
   EXPECT_GT(within, 10U);
 }
 
-TEST(Hierarchy, RandomLevelsOnRandomRoutesAreSoundAndTakenUpAnywhere) {
+TEST(StreamHierarchy, RandomLevelsOnRandomRoutesAreSoundAndTakenUpAnywhere) {
   const auto store = store_with(3, 1);
   std::mt19937_64 random(kSeed);
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -171,7 +171,7 @@ TEST(Hierarchy, RandomLevelsOnRandomRoutesAreSoundAndTakenUpAnywhere) {
   }
 }
 
-TEST(Hierarchy, TheDigestSaysWhichNodes) {
+TEST(StreamHierarchy, TheDigestSaysWhichNodes) {
   EXPECT_EQ(store_with(0, 0).digest(), town().store(0).digest());
   EXPECT_NE(store_with(2, 0).digest(), store_with(3, 0).digest());
 }
