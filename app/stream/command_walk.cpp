@@ -257,6 +257,9 @@ int run_walk(const WalkRequest& request) {
     print(fmt::format("over the link: {} packets, {} bytes, {} losses; {} stalls, {:.3f} s in all, {:.3f} s at most\n",
                       over.packets, over.bytes, over.losses, over.stalls, static_cast<double>(over.stalled_us) / second,
                       static_cast<double>(over.longest_us) / second));
+    if (over.slowest < 1)
+      print(fmt::format("at {:.3f} of his speed from where he asks on he would not stand still behind the first cell\n",
+                        CGAL::to_double(over.slowest)));
     const auto steps = std::accumulate(over.steps_on_level.begin(), over.steps_on_level.end(), std::uint64_t{0});
     print(fmt::format("held after a step: {:.1f} triangles, of which the cell lists {:.1f}\n",
                       static_cast<double>(over.held) / static_cast<double>(steps),

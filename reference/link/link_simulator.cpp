@@ -112,6 +112,11 @@ LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& ste
     report.stalled_us += stall;
     report.longest_us = std::max(report.longest_us, stall);
     delay_us += stall;
+    if (stall > 0 && route.size() > 1) {
+      const exact::FT way(static_cast<double>(face_us - asked_us)),
+          time(static_cast<double>(face_us - asked_us + stall));
+      report.slowest = std::min(report.slowest, speed_in_time(way * way, time, exact::FT(1)));
+    }
   }
   return report;
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "exact/kernel.h"
 #include "reference/delta/stream_server.h"
 
 namespace clues::reference {
@@ -30,8 +31,11 @@ struct LinkReport {
   std::vector<scene::StreamMessage> messages;  // as they arrived
   std::uint64_t stalls = 0, stalled_us = 0, longest_us = 0;
   std::uint64_t packets = 0, bytes = 0, losses = 0;  // sent, lost ones included
-  std::vector<std::uint64_t> steps_on_level;         // of the tree of cells
-  std::uint64_t held = 0, seen = 0;                  // triangles after each step, and of them those that the cell lists
+  // FIG. 48B: had he walked at this part of his speed from where he asked on, he would not have stood still on any face but
+  // the first. In 1024ths, rounded down. 0: he asks on the face, where there is no way left to go slower on.
+  exact::FT slowest{1};
+  std::vector<std::uint64_t> steps_on_level;  // of the tree of cells
+  std::uint64_t held = 0, seen = 0;           // triangles after each step, and of them those that the cell lists
 };
 
 // How much a server with a tree of cells sends in advance.

@@ -206,6 +206,23 @@ TEST(HierarchyOverALink, TheNodeThatComesInTimeIsTaken) {
   }
 }
 
+// FIG. 48B. One step is late: of half a second that he asks ahead he has to make as much as it takes.
+TEST(LinkSimulator, SaysHowSlowHeWouldHaveToGo) {
+  const auto route = scene::random_route(town().neighbours(), 1, kSeed);
+  reference::Link link;
+  link.latency_us = 400000;
+  link.bytes_per_second = 1000000000;
+  const auto report = over_link(town().store(1), route, link, 500000, reference::NodeChoice::coarsest);
+  ASSERT_EQ(report.stalls, 2U);
+  // 0.5 s of way in the 0.8 s of both latencies and what the bytes take, in 1024ths rounded down.
+  EXPECT_LE(report.slowest, exact::FT(640) / 1024);
+  EXPECT_GE(report.slowest, exact::FT(639) / 1024);
+  const auto on_the_face = over_link(town().store(1), route, link, 0, reference::NodeChoice::coarsest);
+  EXPECT_EQ(on_the_face.slowest, exact::FT(0));
+  link.latency_us = 0;
+  EXPECT_EQ(over_link(town().store(1), route, link, 500000, reference::NodeChoice::coarsest).slowest, exact::FT(1));
+}
+
 TEST(HierarchyOverALink, LossesLeaveNoHole) {
   const auto route = scene::random_route(town().neighbours(), 20, kSeed);
   const auto store = store_with(3, 1);
