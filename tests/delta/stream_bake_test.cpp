@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 
 #include "exact/cell/touching.h"
 #include "reference/delta/stream_server.h"
@@ -80,10 +81,12 @@ TEST(BakedStreamsLong, AThousandRoutesThroughALevel) {
   const auto mesh = scene::read_scene(level).mesh;
   const scene::FinishedBake store(bake);
   std::vector<exact::ConvexCell> hulls;
+  std::vector<std::vector<scene::Point>> corners;
   std::vector<std::vector<std::uint32_t>> lists;
   std::vector<validate::Judgement> truth;
   for (std::uint32_t c = 0; c < store.plan().cells.size(); ++c) {
-    hulls.push_back(exact::ConvexCell::from_doubles(store.plan().cells[c].points));
+    corners.push_back(store.plan().cells[c].points);
+    hulls.push_back(exact::ConvexCell::from_doubles(corners.back()));
     lists.push_back(store.cell(c).list);
     truth.emplace_back();
     truth.back().triangles.assign(mesh.triangles.size(), validate::TriangleVerdict::hidden);
@@ -91,15 +94,17 @@ TEST(BakedStreamsLong, AThousandRoutesThroughALevel) {
   }
   const auto neighbours = exact::touching_cells(hulls);
   std::uint64_t entered = 0;
-  for (const int horizon : {0, 1}) {
-    const reference::StreamStore shared(mesh, lists, neighbours, horizon);
+  // The last with a hierarchy, and a level of it at random at each step.
+  for (const auto& [horizon, tree_levels] : {std::pair(0, 0U), {1, 0U}, {0, 3U}}) {
+    const reference::StreamStore shared(mesh, lists, neighbours, horizon, reference::cell_tree(corners, tree_levels));
     for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
       reference::StreamServer server(shared);
       validate::StreamClient client(mesh);
       std::vector<scene::StreamMessage> all;
+      std::mt19937_64 random(seed);
       for (const std::uint32_t cell :
            scene::random_route(neighbours, 20, seed, static_cast<std::uint32_t>(seed % lists.size()))) {
-        for (auto& message : server.enter(cell)) {
+        for (auto& message : server.enter(cell, random() % (tree_levels + 1))) {
           client.apply(message);
           all.push_back(std::move(message));
         }
@@ -112,7 +117,7 @@ TEST(BakedStreamsLong, AThousandRoutesThroughALevel) {
       entered += verdict.cells_entered;
     }
   }
-  EXPECT_EQ(entered, 2U * 1000U * 21U);
+  EXPECT_EQ(entered, 3U * 1000U * 21U);
 }
 
 }  // namespace
