@@ -95,7 +95,7 @@ class StreamServer {
 
   // The messages of a step into the cell. Empty packets are left out.
   std::vector<scene::StreamMessage> enter(std::uint32_t cell) { return enter(cell, store_->coarsest()); }
-  // The same, with no more in advance than what nodes of this level want.
+  // The same, with no more in advance than what nodes of this level want; at most the coarsest.
   std::vector<scene::StreamMessage> enter(std::uint32_t cell, std::size_t level);
 
   // After a lost connection, also by another server of the same digest and cells: goes the route again from its
