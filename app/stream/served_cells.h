@@ -1,5 +1,5 @@
-// What a stream is about, for `clues walk`, `clues serve` and `clues conform --stream`: a scene, cells of a grid or of a
-// bake, which of them a viewer can go to from which, and their lists.
+// What a stream is about, for `clues walk`, `clues serve` and `clues conform --stream`: a scene, cells of a grid or of
+// a bake, which of them a viewer can go to from which, and their lists.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -50,8 +50,8 @@ struct SentLists {
 // Throws Error: bad_argument, bad_cell, malformed, and file errors. A scene of --cells is opaque.
 ServedCells served_cells(const CellsChoice& choice);
 
-// The lists of all cells: of the bake, or mapped now; grown until no step sends what is not worth it (worth.h). `who`: in
-// front of the progress.
+// The lists of all cells: of the bake, or mapped now; grown until no step sends what is not worth it (worth.h). `who`:
+// in front of the progress.
 SentLists lists_of(const ServedCells& served, const reference::Options& options, const SendChoice& send,
                    const char* who);
 

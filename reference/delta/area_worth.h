@@ -1,7 +1,8 @@
-// ESO, EDO and EDV of a transition, as a figure: how much area its packets keep away from a client for each byte that they
-// take. The published measures take the area in an image from some viewpoint, and the triangles that cutting along borders
-// makes; here nothing is cut when whole triangles are sent, and no viewpoint is needed (hazard A-36): what is paid for a
-// packet is its bytes, and what is had for it is the area of what is not drawn from the cell in which it is hidden.
+// ESO, EDO and EDV of a transition, as a figure: how much area its packets keep away from a client for each byte that
+// they take. The published measures take the area in an image from some viewpoint, and the triangles that cutting along
+// borders makes; here nothing is cut when whole triangles are sent, and no viewpoint is needed (hazard A-36): what is
+// paid for a packet is its bytes, and what is had for it is the area of what is not drawn from the cell in which it is
+// hidden.
 //
 //   EDV of DR_E(AB), the newly visible: the area that A need not hold, by the bytes of the packet `+`.
 //   EDO of DR_O(AB), the newly hidden: the area that B need not hold, by the bytes of the packet `-`.
@@ -33,7 +34,8 @@ class AreaWorth {
   // None: no double is as large.
   std::optional<exact::FT> area_of(const std::vector<std::uint32_t>& triangles) const;
   std::optional<exact::FT> area_of(const Delta& delta, SeenFrom seen) const;  // of the regions with this label
-  // Of the packets, as packets.h has them, for a client that has none of the vertices, or none of the triangles' neighbours.
+  // Of the packets, as packets.h has them, for a client that has none of the vertices, or none of the triangles'
+  // neighbours.
   std::uint64_t bytes_of_plus(const std::vector<std::uint32_t>& triangles) const;
   std::uint64_t bytes_of_minus(const std::vector<std::uint32_t>& triangles) const;
 

@@ -3,15 +3,15 @@
 // becomes free. Slots are given out from 1, the lowest free one first; so the mirror follows from the messages alone.
 //
 // Entering a cell takes up to four messages: `+` what is missing there, the cell, `-` what is not wanted any more, `+`
-// what is seen from cells within the horizon, so that it is there before the viewer is. So on the face between two cells
-// the client has what either sees, and nobody waits for what he does not see yet. Which triangles the client holds in the
-// end is a function of the cell that the viewer is in, whichever way he came: what is sound on every transition is sound
-// on every route.
+// what is seen from cells within the horizon, so that it is there before the viewer is. So on the face between two
+// cells the client has what either sees, and nobody waits for what he does not see yet. Which triangles the client
+// holds in the end is a function of the cell that the viewer is in, whichever way he came: what is sound on every
+// transition is sound on every route.
 //
-// FIGS. 52, 54: with a hierarchy the client gets, behind what he waits for, what is seen from the whole node that the cell
-// is in, and within the node nothing is sent any more. Fewer packets, larger ones. Where the link is too slow for that a
-// smaller node, or the cell alone, will do for the moment: nothing that a larger node has use for is taken away. So after
-// each step the client has what the cell sees, and nothing that the coarsest node does not see.
+// FIGS. 52, 54: with a hierarchy the client gets, behind what he waits for, what is seen from the whole node that the
+// cell is in, and within the node nothing is sent any more. Fewer packets, larger ones. Where the link is too slow for
+// that a smaller node, or the cell alone, will do for the moment: nothing that a larger node has use for is taken away.
+// So after each step the client has what the cell sees, and nothing that the coarsest node does not see.
 #pragma once
 
 #include <cstdint>
@@ -66,9 +66,9 @@ class DisplayList {
 // What all clients of a server share.
 class StreamStore {
  public:
-  // `lists`: what is visible, for each cell; `neighbours`: where a viewer can go from there. With a horizon of n a client
-  // has what is seen from all cells that can be reached in n steps, and with a tree from their nodes. Keeps a reference to
-  // the mesh.
+  // `lists`: what is visible, for each cell; `neighbours`: where a viewer can go from there. With a horizon of n a
+  // client has what is seen from all cells that can be reached in n steps, and with a tree from their nodes. Keeps a
+  // reference to the mesh.
   StreamStore(const scene::TriangleMesh& mesh, std::vector<std::vector<std::uint32_t>> lists,
               std::vector<std::vector<std::uint32_t>> neighbours, int horizon, CellTree tree = {});
 
@@ -76,8 +76,8 @@ class StreamStore {
   const std::vector<std::uint32_t>& seen_from(std::uint32_t cell) const { return lists_[cell]; }
   std::size_t coarsest() const { return tree_.node_of.empty() ? 0 : tree_.node_of.size() - 1; }  // level of the tree
   std::vector<std::uint32_t> wanted_in(std::uint32_t cell, std::size_t level) const;             // ascending
-  // SHA-256 of the lists, which follow from mode and --drop, the neighbours, the horizon and the tree: from these, and the
-  // scene, all messages follow. O(size of the lists).
+  // SHA-256 of the lists, which follow from mode and --drop, the neighbours, the horizon and the tree: from these, and
+  // the scene, all messages follow. O(size of the lists).
   std::string digest() const;
 
  private:

@@ -1,7 +1,7 @@
-// FIG. 50B and the faults of D25: a stream over a link with a bandwidth, a latency and connections that are lost, as it is
-// seen by a viewer who walks: when does what he needs arrive, and how long does he stand on the face to the next cell? He
-// never goes on without it, so there are stalls and no holes. Server and client are the real ones; only the clock is not.
-// All in whole microseconds, and the same for the same seed.
+// FIG. 50B and the faults of D25: a stream over a link with a bandwidth, a latency and connections that are lost, as it
+// is seen by a viewer who walks: when does what he needs arrive, and how long does he stand on the face to the next
+// cell? He never goes on without it, so there are stalls and no holes. Server and client are the real ones; only the
+// clock is not. All in whole microseconds, and the same for the same seed.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ struct LinkReport {
   std::vector<scene::StreamMessage> messages;  // as they arrived
   std::uint64_t stalls = 0, stalled_us = 0, longest_us = 0;
   std::uint64_t packets = 0, bytes = 0, losses = 0;  // sent, lost ones included
-  // FIG. 48B: had he walked at this part of his speed from where he asked on, he would not have stood still on any face but
-  // the first. In 1024ths, rounded down. 0: he asks on the face, where there is no way left to go slower on.
+  // FIG. 48B: had he walked at this part of his speed from where he asked on, he would not have stood still on any face
+  // but the first. In 1024ths, rounded down. 0: he asks on the face, where there is no way left to go slower on.
   exact::FT slowest{1};
   std::vector<std::uint64_t> steps_on_level;  // of the tree of cells
   std::uint64_t held = 0, seen = 0;           // triangles after each step, and of them those that the cell lists
@@ -41,12 +41,12 @@ struct LinkReport {
 // How much a server with a tree of cells sends in advance.
 enum class NodeChoice : std::uint8_t { coarsest, in_time };
 
-// He asks for a cell `ahead_us` before he gets there. That is sound where the horizon of the store is 1 or more: what he
-// sees from the cell that he is still in stays then. Between two connections the server forgets everything.
+// He asks for a cell `ahead_us` before he gets there. That is sound where the horizon of the store is 1 or more: what
+// he sees from the cell that he is still in stays then. Between two connections the server forgets everything.
 //
 // FIG. 48A and the small packets of the text: with NodeChoice::in_time the server takes of the nodes around a cell, the
-// coarsest first, the first whose data are sent before the viewer can ask for another cell; else the cell alone. What he
-// waits for is so never behind what is only to come.
+// coarsest first, the first whose data are sent before the viewer can ask for another cell; else the cell alone. What
+// he waits for is so never behind what is only to come.
 LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& steps, const Link& link,
                      std::uint64_t ahead_us, NodeChoice choice = NodeChoice::coarsest);
 

@@ -1,6 +1,7 @@
-// FIGS. 49, 50A, 51: how much of an error goes unseen at which speed of the image. The published text prints no curve, so
-// it is a file: in each line a speed and an error, both in radians (a second), '#' comments. Speeds rise from line to line,
-// errors do not fall. Between two lines the first of them holds, below the first line none: no error goes unseen there.
+// FIGS. 49, 50A, 51: how much of an error goes unseen at which speed of the image. The published text prints no curve,
+// so it is a file: in each line a speed and an error, both in radians (a second), '#' comments. Speeds rise from line
+// to line, errors do not fall. Between two lines the first of them holds, below the first line none: no error goes
+// unseen there.
 #pragma once
 
 #include <filesystem>

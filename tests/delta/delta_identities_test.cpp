@@ -68,7 +68,8 @@ TEST(DeltaIdentitiesOfTheSuiteLong, HoldOnAllOfIt) {
   expect_on_the_suite(0, 1);
 }
 
-// What blocks in a level, as the scene; as cells those of its leaves whose shipped lists are short, so that maps are quick.
+// What blocks in a level, as the scene; as cells those of its leaves whose shipped lists are short, so that maps are
+// quick.
 struct LevelWithLeaves {
   scene::TriangleMesh blocks;
   std::vector<std::vector<scene::Point>> cells;
@@ -86,8 +87,8 @@ struct LevelWithLeaves {
   }
 };
 
-// In the whole level. The fast path's lists are the second way to what the maps list: these may have more, of what is in
-// doubt (D17b), where the fast path met less of the scene.
+// In the whole level. The fast path's lists are the second way to what the maps list: these may have more, of what is
+// in doubt (D17b), where the fast path met less of the scene.
 TEST(DeltaIdentitiesOfALevelLong, HoldBetweenItsLeaves) {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
   const tests::TestFolder folder;

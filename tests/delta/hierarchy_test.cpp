@@ -1,5 +1,5 @@
-// FIGS. 42, 52, 54: streams with nodes above the cells. Sound at every step, whatever level was sent; never more than the
-// coarsest node adds; wrong ones are caught.
+// FIGS. 42, 52, 54: streams with nodes above the cells. Sound at every step, whatever level was sent; never more than
+// the coarsest node adds; wrong ones are caught.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// FIG. 50A: speeds over the retina are bounded from below, and details go unseen only where that is proved. Against points
-// taken at random, and with a bound that is too large.
+// FIG. 50A: speeds over the retina are bounded from below, and details go unseen only where that is proved. Against
+// points taken at random, and with a bound that is too large.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,8 +83,8 @@ TEST(RetinalSpeed, OfAPointIsItsSpeedAndWhatIsAheadStandsStill) {
   EXPECT_EQ(reference::squared_speed_bound(eye, one_triangle({{{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}}}), 0), FT(0));
 }
 
-// The speed of the slowest corner, which is what comes to mind first: between corners that pass on either side of what is
-// ahead the image stands still.
+// The speed of the slowest corner, which is what comes to mind first: between corners that pass on either side of what
+// is ahead the image stands still.
 TEST(PlantedRetinalSpeed, TheSlowestCornerIsNoBound) {
   std::mt19937_64 random(kSeed);
   std::uint64_t caught = 0;

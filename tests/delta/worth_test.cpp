@@ -1,4 +1,5 @@
-// ESO, EDO, EDV as area for each byte (area_worth.h), and packets that are dropped by it: a fixpoint, sound on every route.
+// ESO, EDO, EDV as area for each byte (area_worth.h), and packets that are dropped by it: a fixpoint, sound on every
+// route.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -119,8 +120,8 @@ TEST(AreaWorth, HowCellsAreNumberedDoesNotMatter) {
   EXPECT_EQ(one.rounds, other.rounds);
 }
 
-// A server that drops what is poor, and gives it to the cell before on one way only: to who begins there. Who comes from
-// elsewhere has the list as it was.
+// A server that drops what is poor, and gives it to the cell before on one way only: to who begins there. Who comes
+// from elsewhere has the list as it was.
 std::vector<scene::StreamMessage> dropped_for_one_way(std::uint32_t c, std::uint32_t a, std::uint32_t b,
                                                       const AreaWorth& worth, double area) {
   const auto& lists = town().lists();
