@@ -1,10 +1,13 @@
-// clues delta contours: the maps of cells, found again from that of a cell that holds them (D26), and what that takes in bytes.
+// clues delta contours: the maps of cells, each coded within that of a cell that holds it (D26), and what that takes in bytes.
 #include "app/stream/command_contours.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,87 +17,109 @@
 #include "app/progress.h"
 #include "app/stream/number_between.h"
 #include "app/stream/served_cells.h"
-#include "reference/contours/contour_code.h"
+#include "reference/contours/contour_maker.h"
 #include "reference/contours/list_contour.h"
 #include "reference/delta/delta.h"
 #include "scene/bakes/packed_list.h"
 #include "scene/cell_spec.h"
+#include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
+#include "scene/result.h"
 #include "scene/scenes/scene_io.h"
+#include "scene/stream/contour_file.h"
 
 namespace clues::app {
 namespace {
 
-using reference::FlatSet;
 using scene::Error;
 using scene::ErrorCode;
 
 struct ContoursRequest {
-  std::string scene, parent, cells, bake;
+  std::string scene, parent, cells, bake, out;
   double reach = 0;
+  int levels = 0;
   MethodOptions method;
 };
 
-struct SizesOfCell {
-  std::string name;
-  std::size_t seeds = 0, segments = 0;
-  std::size_t list = 0, delta = 0, contours = 0, packed = 0;  // bytes
-  std::uint64_t in_full = 0;
-  const char* decoded = "";
+// A cell of the file to be, and the one around it.
+struct PlacedCell {
+  scene::CellSpec spec;
+  std::uint32_t within = 0;  // as scene::ContourCell
+  bool is_around = false;
 };
 
-bool holds(const std::vector<FlatSet>& a, const std::vector<FlatSet>& b) {
-  for (std::size_t s = 0; s < a.size(); ++s) {
-    if (!subtract(b[s], a[s]).empty()) return false;
-  }
-  return true;
+// Of the cells of a grid, those that a coarser one joins are named as it; "i,j,k" in the grid that is half as fine.
+std::string name_in_half(const std::string& name) {
+  std::array<std::uint64_t, 3> at{};
+  if (std::sscanf(name.c_str(), "%lu,%lu,%lu", &at[0], &at[1], &at[2]) != 3) return "";
+  return fmt::format("{},{},{}", at[0] / 2, at[1] / 2, at[2] / 2);
 }
 
-// Maps, codes, decodes and compares.
-class Contours {
- public:
-  Contours(const scene::TriangleMesh& mesh, const exact::ConvexCell& parent, const reference::Options& options,
-           double reach)
-      : mesh_(mesh),
-        options_(options),
-        reach_(reach),
-        sides_(reference::input_sides(mesh, options.mode)),
-        parent_(reference::first_order_visibility(mesh, parent, options)),
-        known_(reference::visible_on(sides_, mesh, parent_)) {}
-
-  SizesOfCell of(const scene::CellSpec& spec) const {
-    const auto cell = exact::ConvexCell::from_doubles(spec.points);
-    const auto map = reference::first_order_visibility(mesh_, cell, options_);
-    const auto seen = reference::visible_on(sides_, mesh_, map);
-    const auto wanted =
-        reach_ > 0 ? reference::with_far_sides_of(sides_, mesh_, known_, seen, cell, exact::FT(reach_)) : seen;
-    const auto label = reference::contour_label(sides_, mesh_, known_, wanted);
-    reference::PlaneTable planes(mesh_, cell);
-    planes.add_wedges(map);
-    const auto code = reference::encoded_contours(sides_, mesh_, known_, label, planes);
-    const auto back =
-        reference::flooded(sides_, mesh_, known_, reference::decoded_contours(sides_, mesh_, known_, cell, code.bytes));
-    if (!holds(back, seen)) throw Error(ErrorCode::internal, "cell " + spec.name + ": decoding lost what is visible");
-    const auto triangles = static_cast<std::uint32_t>(mesh_.triangles.size());
-    const auto packets = reference::packets_of(parent_.visible, map.visible);
-    SizesOfCell sizes{spec.name, label.seeds.size(), label.segments.size()};
-    sizes.list = scene::packed_list(map.visible, triangles).size();
-    sizes.delta = scene::packed_list(packets.minus, triangles).size();
-    sizes.contours = code.bytes.size();
-    sizes.packed = scene::packed_bytes(code.bytes).size();
-    sizes.in_full = code.ends_in_full;
-    sizes.decoded = holds(seen, back) ? "exact" : "conservative";
-    return sizes;
+// The parent, then the levels below it, then the cells: parents first.
+std::vector<PlacedCell> placed_cells(const ContoursRequest& request) {
+  std::vector<std::vector<scene::CellSpec>> levels{scene::parse_cells(request.cells)};
+  std::vector<std::vector<std::size_t>> above;  // of each cell of a level, its place in the next
+  for (int i = 0; i < request.levels; ++i) {
+    std::vector<scene::CellSpec> joined;
+    std::map<std::string, std::size_t> places;
+    above.emplace_back();
+    for (const auto& cell : levels.back()) {
+      const std::string name = name_in_half(cell.name);
+      if (name.empty()) throw Error(ErrorCode::bad_argument, "--levels: --cells has to be a grid of several cells");
+      const auto [at, is_new] = places.try_emplace(name, joined.size());
+      if (is_new) joined.push_back({name, {}});
+      auto& points = joined[at->second].points;
+      points.insert(points.end(), cell.points.begin(), cell.points.end());
+      above.back().push_back(at->second);
+    }
+    levels.push_back(std::move(joined));
   }
+  std::vector<PlacedCell> out{{scene::parse_cell(request.parent), 0, true}};
+  out[0].spec.name = "parent";
+  std::size_t first_above = 0;
+  for (std::size_t level = levels.size(); level-- > 0;) {
+    const std::size_t first = out.size();
+    for (std::size_t c = 0; c < levels[level].size(); ++c) {
+      const std::size_t place = level + 1 == levels.size() ? 0 : first_above + above[level][c];
+      if (level > 0) levels[level][c].name = fmt::format("{} (level {})", levels[level][c].name, level);
+      out.push_back({levels[level][c], static_cast<std::uint32_t>(1 + place), level > 0});
+    }
+    first_above = first;
+  }
+  return out;
+}
 
- private:
-  const scene::TriangleMesh& mesh_;
-  reference::Options options_;
-  double reach_;
-  std::vector<reference::InputSide> sides_;
-  reference::VisibilityMap parent_;
-  std::vector<FlatSet> known_;
-};
+void require_within(const PlacedCell& cell, const std::vector<PlacedCell>& cells) {
+  const auto& around = cells[cell.within - 1];
+  const auto hull = exact::ConvexCell::from_doubles(around.spec.points);
+  const char* const named = cell.within == 1 ? "--parent" : "the cell around it";
+  for (const auto& p : cell.spec.points) {
+    if (!hull.contains(exact::to_exact(p)))
+      throw Error(ErrorCode::bad_cell, fmt::format("cell {}: is not inside of {}", cell.spec.name, named));
+  }
+  // T6 asks for int C in int P. C lies in P, so one point of int C in int P is enough.
+  if (!hull.interior_contains(exact::ConvexCell::from_doubles(cell.spec.points).center()))
+    throw Error(ErrorCode::bad_cell,
+                fmt::format("cell {}: lies in the border of {}; give a larger --parent", cell.spec.name, named));
+}
+
+// One line of the table. `lists`: of the maps of cells before.
+std::string line_of(const scene::ContourFile& file, const reference::MadeContours& made,
+                    const std::vector<std::vector<std::uint32_t>>& lists) {
+  const auto number = static_cast<std::uint32_t>(file.cells.size() - 1);
+  const scene::ContourCell& cell = file.cells[number];
+  const auto triangles = static_cast<std::uint32_t>(file.scene_triangles);
+  const std::string bytes = scene::contour_bytes(file.cells, number);
+  const std::string delta =
+      cell.within == 0
+          ? "-"
+          : fmt::format("{}",
+                        scene::packed_list(reference::packets_of(lists[cell.within - 1], made.visible).minus, triangles)
+                            .size());
+  return fmt::format("{:<16} {:>6} {:>9} {:>8}  {:>8} {:>8} {:>9} {:>8}  {}\n", cell.name, made.seeds, made.segments,
+                     made.counts.in_full, scene::packed_list(made.visible, triangles).size(), delta, bytes.size(),
+                     scene::packed_bytes(bytes).size(), cell.exact ? "exact" : "conservative");
+}
 
 // Of a bake there are lists only. From each cell to each neighbour: what comes, and what goes, as a list of it or as the
 // contour of what stays.
@@ -139,38 +164,42 @@ int run_list_contours(const ContoursRequest& request) {
 }
 
 int run_contours(const ContoursRequest& request) {
-  if (!request.bake.empty()) return run_list_contours(request);
+  if (!request.bake.empty()) {
+    if (!request.out.empty() || request.levels > 0)
+      throw Error(ErrorCode::unsupported, "-o and --levels: of --cells only; lists of a bake have no regions");
+    return run_list_contours(request);
+  }
   if (request.parent.empty() || request.cells.empty())
     throw Error(ErrorCode::bad_argument, "give --parent and --cells, or --bake");
   const auto options = request.method.to_reference();
+  require_writable_parent(request.out);
+  require_apart({&request.out}, {&request.scene, &request.parent, &request.cells});
   const auto mesh = scene::read_plain_scene(request.scene);
-  const auto parent = exact::ConvexCell::from_doubles(scene::parse_cell(request.parent).points);
-  const auto cells = scene::parse_cells(request.cells);
+  const auto cells = placed_cells(request);
   for (const auto& cell : cells) {
-    for (const auto& p : cell.points) {
-      if (!parent.contains(exact::to_exact(p)))
-        throw Error(ErrorCode::bad_cell, "cell " + cell.name + ": is not inside of --parent");
-    }
-    // T6 asks for int C in int P. C lies in P, so one point of int C in int P is enough.
-    if (!parent.interior_contains(exact::ConvexCell::from_doubles(cell.points).center()))
-      throw Error(ErrorCode::bad_cell,
-                  "cell " + cell.name + ": lies in the border of --parent; give a larger --parent");
+    if (cell.within != 0) require_within(cell, cells);
   }
-  std::vector<SizesOfCell> rows;
+  reference::ContourMaker maker(mesh, options, request.reach);
+  std::vector<std::vector<std::uint32_t>> lists;
+  std::string text = fmt::format("{:<16} {:>6} {:>9} {:>8}  {:>8} {:>8} {:>9} {:>8}  {}\n", "cell", "seeds", "segments",
+                                 "in full", "list", "delta", "contours", "packed", "decoded");
   {
     ProgressBar bar("clues delta contours");
-    bar.show("cells", 0, cells.size() + 1);
-    const Contours contours(mesh, parent, options, request.reach);
     for (const auto& cell : cells) {
-      bar.show("cells", rows.size() + 1, cells.size() + 1);
-      rows.push_back(contours.of(cell));
+      bar.show("cells", lists.size(), cells.size());
+      const auto& made =
+          maker.add(cell.spec.name, exact::ConvexCell::from_doubles(cell.spec.points), cell.within, cell.is_around);
+      text += line_of(maker.file(), made, lists);
+      lists.push_back(made.visible);
     }
   }
-  std::string text = fmt::format("{:<10} {:>6} {:>9} {:>8}  {:>8} {:>8} {:>9} {:>8}  {}\n", "cell", "seeds", "segments",
-                                 "in full", "list", "delta", "contours", "packed", "decoded");
-  for (const auto& r : rows)
-    text += fmt::format("{:<10} {:>6} {:>9} {:>8}  {:>8} {:>8} {:>9} {:>8}  {}\n", r.name, r.seeds, r.segments,
-                        r.in_full, r.list, r.delta, r.contours, r.packed, r.decoded);
+  if (!request.out.empty()) {
+    auto file = maker.file();
+    file.scene_sha256 = scene::sha256_of_file(request.scene);
+    const std::string bytes = scene::to_bytes(file);
+    scene::write_file_atomically(request.out, bytes);
+    text += fmt::format("{}: {} cells in {} bytes\n", request.out, file.cells.size(), bytes.size());
+  }
   print(text);
   return fine;
 }
@@ -193,20 +222,31 @@ void add_delta_contours(CLI::App& delta, int& status) {
           "Take what is farther than so many diameters of the cell as the parent sees it; 0: nothing (default)")
       ->type_name("X")
       ->check(number_between(0, 1e6));
+  command
+      ->add_option("--levels", request->levels,
+                   "So many levels of cells between the parent and those of the grid, each joining two along each axis "
+                   "(default: 0)")
+      ->type_name("N")
+      ->check(number_between(0, 20));
+  command->add_option("-o,--out", request->out, "The contours, for `clues delta decode` (docs/delta.md)")
+      ->type_name("FILE");
   request->method.add_to(*command);
   command->footer(
       std::string(
           "DESCRIPTION\n"
-          "  Maps the parent and each cell, codes where the cell's map ends within the parent's as labels of "
-          "edges and\n"
-          "  vertices, decodes that again, floods the parent's map from the seeds, and compares (docs/delta.md). "
-          "Bytes:\n"
-          "  the list of what is visible and the list of what is not any more, both packed by zstd; the "
-          "contours, plain\n"
+          "  Maps the parent and each cell, codes where a cell's map ends within that of the cell around it as labels "
+          "of\n"
+          "  edges and vertices, decodes that again, floods from the seeds, and compares (docs/delta.md). The parent "
+          "is\n"
+          "  coded within whole triangles, so with -o the file and the scene are all that decoding needs. Bytes:\n"
+          "  the list of what is visible, and the list of what is not any more, both packed by zstd; the contours, "
+          "plain\n"
           "  and packed.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues delta contours town.obj --parent box:0,0,1,4,4,2 --cells grid:2x2x1:box:0,0,1,4,4,2\n"
+      "  clues delta contours town.obj --parent box:0,0,1,4,4,2 --cells grid:4x4x1:box:0,0,1,4,4,2 --levels 1 -o "
+      "town.contours\n"
       "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 -o town.bake && clues delta contours town.obj --bake "
       "town.bake\n\n"
       "EXIT CODES\n"

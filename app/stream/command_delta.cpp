@@ -16,6 +16,7 @@
 #include "app/stream/command_contours.h"
 #include "app/stream/command_detail.h"
 #include "reference/delta/area_worth.h"
+#include "app/stream/command_decode.h"
 #include "reference/delta/delta.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
@@ -228,6 +229,7 @@ void add_delta_command(CLI::App& program, int& status) {
   add_delta_check(*command, status);
   add_delta_contours(*command, status);
   add_delta_detail(*command, status);
+  add_delta_decode(*command, status);
 }
 
 }  // namespace clues::app

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Makes the seed corpus of the coverage-guided targets: small valid files of every kind, a few broken ones, small scenes of vectors/, and what
-campaigns found. Deterministic. (Those of bsp/ and gltf/ are what tests/levels/made_level.cpp and made_gltf.cpp write.) Files that a fuzzer found are added by hand, under names of their own, and stay."""
+campaigns found. Deterministic. (Those of bsp/ and gltf/ are what tests/levels/made_level.cpp and made_gltf.cpp write; town* in contours/ is what `clues delta contours` wrote, without the hash in its end.) Files that a fuzzer found are added by hand, under names of their own, and stay."""
 import json
 import pathlib
 import sqlite3
@@ -250,6 +250,28 @@ def report():
     put("report", "of_another_version", '{"format": "clues-judgement/9"}')
 
 
+def contours():
+    def head(version=1, cells=1):
+        return b"CLUESCON" + struct.pack("<I", version) + bytes(32) + bytes([13, 5, 0]) + struct.pack("<d", 0) + bytes([cells])
+
+    def cell(within=0, body=bytes([0, 0, 1, 0, 0, 2, 1, 1]), corner=(0, 0, 1)):
+        return b"\1c" + bytes([within, 1, 0, 1]) + struct.pack("<3d", *corner) + b"\0" + body
+
+    put("contours", "whole_triangle", head() + cell())
+    put("contours", "a_cell_within_another", head(cells=2) + cell() + cell(within=1, body=bytes([0, 0, 0])))
+    put("contours", "no_cells", head(cells=0))
+    put("contours", "another_version", head(version=2) + cell())
+    put("contours", "within_itself", head() + cell(within=1))
+    put("contours", "seed_beside_its_triangle", head() + cell(body=bytes([0, 0, 1, 0, 0, 2, 2, 2])))
+    put("contours", "two_forms", head() + cell(body=bytes([0, 0, 1, 0x80, 0, 0, 2, 1, 1])))
+    put("contours", "corner_at_infinity", head() + cell(corner=(0, 0, float("inf"))))
+    # Two lines across each other, and a bridge that is none.
+    full = b"".join(b"\4\0" + b"".join(bytes([len(x)]) + x for x in at)
+                    for at in ((b"0", b"0", b"4"), (b"2", b"2", b"4"), (b"2", b"0", b"4"), (b"0", b"2", b"4")))
+    put("contours", "crossed_segments",
+        head() + cell(body=bytes([0, 1, 4, 4]) + full + bytes([2, 1, 0, 1, 0, 0, 1, 1, 2, 1, 4, 3, 2, 1, 1])))
+
+
 def stream():
     def packet(kind, form, *numbers, tail=b""):
         body = struct.pack("<B" + form, kind, *numbers) + tail
@@ -321,5 +343,5 @@ def maps():
     put("maps", "plain_map_of_one_coordinate", "0 1 0\n3 0.25\n4 -1 2\n")
 
 
-for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, motion, maps, stream, report, scene_to_verdict):
+for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, motion, maps, contours, stream, report, scene_to_verdict):
     make()

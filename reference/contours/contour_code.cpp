@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 
-#include "reference/contours/varints.h"
+#include "scene/messages/error.h"
 
 namespace clues::reference {
 namespace {
@@ -17,163 +16,46 @@ using exact::FT;
 using exact::Plane3;
 using exact::Point2;
 using exact::Point3;
+using scene::ContourCell;
+using scene::ContourPoint;
+using scene::ContourSeed;
+using scene::ContourSide;
 
-// What a line or an end is named by: an edge of the triangle, a corner, in full, a border of what is known, or a label.
-enum : std::uint64_t { first_edge = 0, first_corner = 3, in_full = 6, on_known = 7, first_label = 8 };
-enum class SeedForm : std::uint8_t { floats, doubles, in_full };
-
-void write_point(const Point2& p, VarintWriter& out) {
-  out.text(exact::to_string_exact(p.x()));
-  out.text(exact::to_string_exact(p.y()));
-}
-
-FT read_fraction(VarintReader& in) {
-  const std::string text = in.text();
-  mpq_class value;
-  if (text.empty() || value.set_str(text, 10) != 0 || sgn(value.get_den()) == 0) VarintReader::fail();
-  value.canonicalize();
-  return FT(FT::Exact_type(value.get_mpq_t()));
-}
-
-Point2 read_point(VarintReader& in) {
-  const FT x = read_fraction(in);
-  return {x, read_fraction(in)};
-}
-
-// A side of a triangle, with what is known of it and the planes that may cut it.
-class CutTriangle {
- public:
-  CutTriangle(const scene::TriangleMesh& mesh, std::uint32_t triangle, const FlatSet& known)
-      : frame_(frame_of(mesh, triangle)),
-        plane_(frame_.corners()[0], frame_.corners()[1], frame_.corners()[2]),
-        known_(known.faces()) {}
-
-  Point2 flat(const Point3& p) const { return frame_.frame()(p); }
-  Point3 lift(const Point2& q) const { return frame_.lift(q); }
-  Point2 corner(std::size_t k) const { return flat(frame_.corners()[k % 3]); }
-  bool on_edge(std::size_t k, const Point2& p) const { return CGAL::collinear(corner(k), corner(k + 1), p); }
-
-  // Where the line of `line` on the triangle meets that of `end`; none where they do not cross in a point.
-  std::optional<Point2> crossing(std::uint64_t line, std::uint64_t end, const std::vector<Plane3>& planes) const {
-    if (end >= first_corner && end < in_full) return corner(end - first_corner);
-    if (line >= first_label && end >= first_label) {
-      const auto met = CGAL::intersection(plane_, planes[line - first_label], planes[end - first_label]);
-      const auto* p = met ? boost::get<Point3>(&*met) : nullptr;
-      return p == nullptr ? std::nullopt : std::optional(flat(*p));
-    }
-    if (line < first_label && end < first_label) return std::nullopt;  // corners are named as such
-    const std::size_t k = std::min(line, end);
-    const Plane3& plane = planes[std::max(line, end) - first_label];
-    const Point3 &a = frame_.corners()[k], &b = frame_.corners()[(k + 1) % 3];
-    const FT at_a = exact::value_at(plane, a), at_b = exact::value_at(plane, b);
-    if (at_a == at_b) return std::nullopt;
-    return flat(a + (b - a) * (at_a / (at_a - at_b)));
-  }
-
-  // Where the line meets borders of what is known, in lexicographic order.
-  std::vector<Point2> known_on(std::uint64_t line, const std::vector<Plane3>& planes) const {
-    std::vector<Point2> out;
-    for (const Face2& face : known_) {
-      for (const Ring2& ring : face) {
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-          const Point2 &p = ring[i], &q = ring[(i + 1) % ring.size()];
-          const FT at_p = height(line, p, planes), at_q = height(line, q, planes);
-          if (CGAL::is_zero(at_p)) out.push_back(p);
-          if (CGAL::sign(at_p) * CGAL::sign(at_q) < 0) out.push_back(p + (q - p) * (at_p / (at_p - at_q)));
-        }
-      }
-    }
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    return out;
-  }
-
- private:
-  // Zero on the line, and linear.
-  FT height(std::uint64_t line, const Point2& p, const std::vector<Plane3>& planes) const {
-    if (line >= first_label) return exact::value_at(planes[line - first_label], lift(p));
-    return CGAL::determinant(corner(line + 1) - corner(line), p - corner(line));
-  }
-
-  TriangleFrame frame_;
-  Plane3 plane_;
-  std::vector<Face2> known_;
-};
+std::uint32_t number_of(const InputSide& side) { return 2 * side.triangle + (side.front ? 0U : 1U); }
 
 // The labels that are used, as they get their numbers in the code.
 class UsedLabels {
  public:
   explicit UsedLabels(const PlaneTable& all) : all_(all) {}
 
-  std::uint64_t number(std::size_t label) {
+  std::uint32_t number(std::size_t label) {
     if (const auto at = numbers_.find(label); at != numbers_.end()) return at->second;
     PlaneLabel copy = all_.labels()[label];
     if (copy.kind == PlaneLabel::Kind::crossing) copy.crossed = number(copy.crossed);
     used_.push_back(copy);
-    planes_.push_back(all_.plane(label));
-    return numbers_[label] = used_.size() - 1;
+    order_.push_back(label);
+    return numbers_[label] = static_cast<std::uint32_t>(used_.size() - 1);
   }
-  const std::vector<PlaneLabel>& labels() const { return used_; }
-  const std::vector<Plane3>& planes() const { return planes_; }
-  // A plane in use that crosses the line there.
-  std::optional<std::uint64_t> in_use_through(const CutTriangle& on, std::uint64_t line, const Point2& at) const {
-    const Point3 p = on.lift(at);
-    for (std::uint64_t i = 0; i < used_.size(); ++i) {
-      if (planes_[i].has_on(p) && on.crossing(line, first_label + i, planes_) == at) return i;
+  // All planes through the point, those in use first.
+  std::vector<std::size_t> through(const Point3& p) const {
+    std::vector<std::size_t> out;
+    for (const std::size_t label : order_) {
+      if (all_.plane(label).has_on(p)) out.push_back(label);
     }
-    return std::nullopt;
-  }
-  // Any, which is in use then.
-  std::optional<std::uint64_t> through(const CutTriangle& on, std::uint64_t line, const Point2& at) {
-    const Point3 p = on.lift(at);
-    for (std::size_t i = 0; i < all_.labels().size(); ++i) {
-      if (numbers_.contains(i) || !all_.plane(i).has_on(p)) continue;
-      std::vector<Plane3> planes = planes_;
-      planes.push_back(all_.plane(i));
-      if (on.crossing(line, first_label + planes.size() - 1, planes) == at) return number(i);
+    for (std::size_t label = 0; label < all_.labels().size(); ++label) {
+      if (!numbers_.contains(label) && all_.plane(label).has_on(p)) out.push_back(label);
     }
-    return std::nullopt;
+    return out;
   }
+  const Plane3& plane(std::size_t label) const { return all_.plane(label); }
+  std::vector<PlaneLabel> labels() && { return std::move(used_); }
 
  private:
   const PlaneTable& all_;
-  std::map<std::size_t, std::uint64_t> numbers_;
+  std::map<std::size_t, std::uint32_t> numbers_;
+  std::vector<std::size_t> order_;
   std::vector<PlaneLabel> used_;
-  std::vector<Plane3> planes_;
 };
-
-std::uint64_t line_of(const CutTriangle& on, const FlatSegment& s, const PlaneTable& planes, UsedLabels& used) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (on.on_edge(k, s.a) && on.on_edge(k, s.b)) return first_edge + k;
-  }
-  const std::size_t label = planes.holding(on.lift(s.a), on.lift(s.b));
-  return label == PlaneTable::npos ? in_full : first_label + used.number(label);
-}
-
-// Writes how the end of a segment on the line is named, and says whether in full.
-bool write_end(const CutTriangle& on, std::uint64_t line, const Point2& at, UsedLabels& used, VarintWriter& out) {
-  const auto named = [&out](std::uint64_t name) {
-    out.number(name);
-    return false;
-  };
-  for (std::size_t k = 0; k < 3 && line != in_full; ++k) {
-    if (at == on.corner(k)) return named(first_corner + k);
-    if (line >= first_label && on.crossing(line, first_edge + k, used.planes()) == at) return named(first_edge + k);
-  }
-  if (line != in_full) {
-    if (const auto label = used.in_use_through(on, line, at)) return named(first_label + *label);
-    const auto known = on.known_on(line, used.planes());
-    if (const auto place = std::find(known.begin(), known.end(), at); place != known.end()) {
-      out.number(on_known);
-      out.number(static_cast<std::uint64_t>(place - known.begin()));
-      return false;
-    }
-    if (const auto label = used.through(on, line, at)) return named(first_label + *label);
-    out.number(in_full);
-  }
-  write_point(at, out);
-  return true;
-}
 
 // Along contours: a segment behind one that ends where it begins.
 std::vector<FlatSegment> chained(std::vector<FlatSegment> segments) {
@@ -188,140 +70,250 @@ std::vector<FlatSegment> chained(std::vector<FlatSegment> segments) {
   return segments;
 }
 
-void write_seed(const Seed& seed, VarintWriter& out) {
-  const double x = CGAL::to_double(seed.at.x()), y = CGAL::to_double(seed.at.y());
-  constexpr double most = std::numeric_limits<float>::max();
-  const bool fits = std::abs(x) <= most && std::abs(y) <= most;  // what is infinite does not, and is no coordinate
-  if (fits && Point2(static_cast<float>(x), static_cast<float>(y)) == seed.at) {
-    out.number(static_cast<std::uint64_t>(SeedForm::floats));
-    for (const double d : {x, y}) out.raw(std::bit_cast<std::uint32_t>(static_cast<float>(d)), 4);
-  } else if (std::isfinite(x) && std::isfinite(y) && Point2(x, y) == seed.at) {
-    out.number(static_cast<std::uint64_t>(SeedForm::doubles));
-    for (const double d : {x, y}) out.raw(std::bit_cast<std::uint64_t>(d), 8);
-  } else {
-    out.number(static_cast<std::uint64_t>(SeedForm::in_full));
-    write_point(seed.at, out);
+// What a cell draws on one side.
+class SideCoder {
+ public:
+  SideCoder(std::uint32_t side, Drawings& drawings, UsedLabels& used, ContourCounts& counts)
+      : drawings_(drawings),
+        drawn_(drawings.on(side)),
+        known_segments_(drawn_.segments().size()),
+        used_(used),
+        counts_(counts) {
+    out_.side = side;
   }
-}
 
-Point2 read_seed(VarintReader& in) {
-  const auto form = static_cast<SeedForm>(in.number(3));
-  if (form == SeedForm::in_full) return read_point(in);
-  std::array<double, 2> at{};
-  for (double& x : at) {
-    x = form == SeedForm::floats ? std::bit_cast<float>(static_cast<std::uint32_t>(in.raw(4)))
-                                 : std::bit_cast<double>(in.raw(8));
-    if (!std::isfinite(x)) VarintReader::fail();
+  void add_segments(const std::vector<FlatSegment>& segments) {
+    for (const FlatSegment& s : chained(segments)) {
+      const std::uint32_t a = point(s.a), b = point(s.b);
+      out_.segments.push_back({a, b});
+    }
   }
-  return {at[0], at[1]};
+  void add_block(std::size_t edge, const FlatSegment& s) {
+    const std::uint32_t a = point(s.a), b = point(s.b);
+    out_.blocks.push_back({static_cast<std::uint32_t>(edge), {a, b}});
+  }
+  ContourSide done() {
+    for (const scene::PointPair& segment : out_.segments) drawn_.add_segment(segment);
+    out_.bridges = drawn_.bridges();
+    counts_.bridges += out_.bridges.size();
+    return std::move(out_);
+  }
+
+ private:
+  std::uint32_t point(const Point2& flat) {
+    const auto& points = drawn_.points();
+    const auto known = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.flat == flat; });
+    if (known != points.end()) return static_cast<std::uint32_t>(known - points.begin());
+    const Point3 at = exact::collapsed(drawn_.frame().lift(flat));
+    ContourPoint named = name_of(at, flat);
+    ++(named.kind == ContourPoint::Kind::in_full ? counts_.in_full : counts_.by_labels);
+    if (const auto edge = scene::edge_that_gets(named)) drawings_.on_scene_edge(out_.side / 2, *edge).push_back(at);
+    out_.points.push_back(named);
+    return drawn_.add_point(at, scene::lies_on(named));
+  }
+
+  ContourPoint name_of(const Point3& at, const Point2& flat) {
+    ContourPoint name;
+    std::uint32_t on = 0;
+    for (std::uint32_t k = 0; k < 3 && on == 0; ++k) {
+      if (!drawn_.on_edge(k, flat)) continue;
+      on = 1 + k;
+      const auto& there = drawings_.on_scene_edge(out_.side / 2, k);
+      if (const auto same = std::find(there.begin(), there.end(), at); same != there.end()) {
+        name.kind = ContourPoint::Kind::again;
+        name.first = k;
+        name.second = static_cast<std::uint32_t>(same - there.begin());
+        return name;
+      }
+      if (const auto plane = across(at, drawn_.points()[k].at)) {
+        name.kind = ContourPoint::Kind::on_edge;
+        name.first = k;
+        name.second = *plane;
+        return name;
+      }
+    }
+    for (std::uint32_t s = 0; s < known_segments_ && on == 0; ++s) {
+      const auto& [a, b] = drawn_.segments()[s];
+      if (!exact::Kernel::Segment_2(drawn_.points()[a].flat, drawn_.points()[b].flat).has_on(flat)) continue;
+      on = 4 + s;
+      if (const auto plane = across(at, drawn_.points()[a].at)) {
+        name.kind = ContourPoint::Kind::on_segment;
+        name.first = s;
+        name.second = *plane;
+        return name;
+      }
+    }
+    if (on == 0) {
+      if (const auto planes = crossing_at(at)) {
+        name.kind = ContourPoint::Kind::crossing;
+        name.first = (*planes)[0];
+        name.second = (*planes)[1];
+        return name;
+      }
+    }
+    name.kind = ContourPoint::Kind::in_full;
+    name.first = on;
+    for (int i = 0; i < 3; ++i) name.at[static_cast<std::size_t>(i)] = exact::to_string_exact(at[i]);
+    return name;
+  }
+  // A plane through the point and not through another one of its line.
+  std::optional<std::uint32_t> across(const Point3& at, const Point3& other) {
+    for (const std::size_t label : used_.through(at)) {
+      if (!used_.plane(label).has_on(other)) return used_.number(label);
+    }
+    return std::nullopt;
+  }
+  // Two that cross the triangle there and nowhere else.
+  std::optional<std::array<std::uint32_t, 2>> crossing_at(const Point3& at) {
+    const auto labels = used_.through(at);
+    for (std::size_t j = 1; j < labels.size(); ++j) {
+      for (std::size_t i = 0; i < j; ++i) {
+        const auto normal = [&](std::size_t label) { return used_.plane(label).orthogonal_vector(); };
+        if (CGAL::is_zero(CGAL::determinant(drawn_.plane().orthogonal_vector(), normal(labels[i]), normal(labels[j]))))
+          continue;
+        const std::uint32_t one = used_.number(labels[i]);
+        return std::array{one, used_.number(labels[j])};
+      }
+    }
+    return std::nullopt;
+  }
+
+  Drawings& drawings_;
+  DrawnSide& drawn_;
+  std::size_t known_segments_;
+  UsedLabels& used_;
+  ContourCounts& counts_;
+  ContourSide out_;
+};
+
+// The same component, with few bits where they do.
+ContourSeed coded_seed(std::uint32_t side, const Point2& at, const DrawnSide& drawn) {
+  ContourSeed seed;
+  seed.side = side;
+  const auto& flat = drawn.frame().flat();
+  const auto u = flat[1] - flat[0], v = flat[2] - flat[0], w = at - flat[0];
+  const FT twice = CGAL::determinant(u, v);
+  const std::array<FT, 2> weights{CGAL::determinant(w, v) / twice, CGAL::determinant(u, w) / twice};
+  Point2 place = at;
+  for (std::uint32_t bits = 2; bits <= 52 && seed.bits == 0; ++bits) {
+    const double scale = std::ldexp(1.0, static_cast<int>(bits));
+    ContourSeed tried = seed;
+    tried.bits = bits;
+    for (std::size_t i = 0; i < 2; ++i)
+      tried.at[i] = static_cast<std::uint64_t>(std::max(1.0, std::nearbyint(CGAL::to_double(weights[i]) * scale)));
+    if (tried.at[0] + tried.at[1] >= static_cast<std::uint64_t>(scale)) continue;
+    const Point2 there = place_of(tried, drawn.frame());
+    if (there != at && !drawn.is_clear(at, there)) continue;
+    seed = tried;
+    place = there;
+  }
+  if (seed.bits == 0) {
+    for (std::size_t i = 0; i < 2; ++i) seed.fractions[i] = exact::to_string_exact(weights[i]);
+  }
+  std::vector<std::pair<double, std::uint32_t>> near;
+  for (std::uint32_t p = 0; p < drawn.points().size(); ++p) {
+    const auto d = drawn.points()[p].flat - place;
+    near.emplace_back(std::hypot(CGAL::to_double(d.x()), CGAL::to_double(d.y())), p);
+  }
+  std::sort(near.begin(), near.end());
+  const auto from = std::find_if(near.begin(), near.end(),
+                                 [&](const auto& n) { return drawn.is_free(drawn.points()[n.second].flat, place); });
+  if (from == near.end()) throw scene::Error(scene::ErrorCode::internal, "contours: a seed that sees no corner");
+  seed.from = from->second;
+  return seed;
 }
 
 }  // namespace
 
-ContourCode encoded_contours(const std::vector<InputSide>& sides, const scene::TriangleMesh& mesh,
-                             const std::vector<FlatSet>& known, const ContourLabel& label, const PlaneTable& planes) {
-  ContourCode code;
+ContourCell encoded_contours(const std::vector<InputSide>& sides, const ContourLabel& label, Drawings drawings,
+                             const PlaneTable& planes, ContourCounts& counts) {
+  ContourCell cell;
   UsedLabels used(planes);
   std::map<std::size_t, std::vector<FlatSegment>> by_side;
   for (const SideSegment& s : label.segments) by_side[s.side].push_back(s.at);
-  VarintWriter body;
-  body.number(label.seeds.size());
-  std::size_t before = 0;
-  for (const Seed& seed : label.seeds) {  // by side
-    body.number(seed.side - before);
-    before = seed.side;
-    write_seed(seed, body);
-  }
-  body.number(by_side.size());
-  before = 0;
-  for (auto& [side, segments] : by_side) {
-    const CutTriangle on(mesh, sides[side].triangle, known[side]);
-    body.number(side - before);
-    before = side;
-    body.number(segments.size());
-    std::optional<Point2> last;
-    for (const FlatSegment& s : chained(segments)) {
-      const bool continues = last && *last == s.a;
-      const std::uint64_t line = line_of(on, s, planes, used);
-      body.number(2 * line + (continues ? 1 : 0));
-      for (const Point2* end : {&s.a, &s.b}) {
-        if (end == &s.a && continues) continue;
-        ++(write_end(on, line, *end, used, body) ? code.ends_in_full : code.ends_by_labels);
+  for (const auto& [s, segments] : by_side) {
+    const std::uint32_t side = number_of(sides[s]);
+    const DrawnSide& drawn = drawings.on(side);
+    std::vector<FlatSegment> inside;
+    std::vector<std::pair<std::size_t, FlatSegment>> blocks;
+    for (const FlatSegment& at : segments) {
+      std::size_t k = 0;
+      while (k < 3 && !(drawn.on_edge(k, at.a) && drawn.on_edge(k, at.b))) ++k;
+      if (k < 3) {
+        blocks.emplace_back(k, at);
+      } else {
+        inside.push_back(at);
       }
-      code.segments_in_full += line == in_full;
-      last = s.b;
     }
+    SideCoder coder(side, drawings, used, counts);
+    coder.add_segments(inside);
+    for (const auto& [k, at] : blocks) coder.add_block(k, at);
+    cell.sides.push_back(coder.done());
   }
-  VarintWriter out;
-  out.number(used.labels().size());
-  for (const PlaneLabel& l : used.labels()) {
-    out.number(static_cast<std::uint64_t>(l.kind));
-    const bool vertex = l.kind == PlaneLabel::Kind::vertex, triangle = l.kind == PlaneLabel::Kind::triangle;
-    for (std::size_t i = 0; i < (vertex ? 1U : triangle ? 3U : 2U); ++i) out.number(l.points[i]);
-    for (std::size_t i = 0; i < (triangle ? 0U : l.kind == PlaneLabel::Kind::edge ? 1U : 2U); ++i)
-      out.number(l.cell[i]);
-    if (l.kind == PlaneLabel::Kind::crossing) out.number(l.crossed);
+  for (const Seed& seed : label.seeds) {
+    const std::uint32_t side = number_of(sides[seed.side]);
+    cell.seeds.push_back(coded_seed(side, seed.at, drawings.on(side)));
   }
-  code.bytes = out.bytes + body.bytes;
-  return code;
+  cell.planes = std::move(used).labels();
+  return cell;
 }
 
-ContourLabel decoded_contours(const std::vector<InputSide>& sides, const scene::TriangleMesh& mesh,
-                              const std::vector<FlatSet>& known, const exact::ConvexCell& cell,
-                              std::string_view bytes) {
-  VarintReader in(bytes);
-  PlaneTable table(mesh, cell);
-  std::vector<Plane3> planes;
-  constexpr std::uint64_t most = std::uint64_t{1} << 32;
-  for (std::uint64_t n = in.number(most); n > 0; --n) {
-    PlaneLabel l;
-    l.kind = static_cast<PlaneLabel::Kind>(in.number(4));
-    const bool vertex = l.kind == PlaneLabel::Kind::vertex, triangle = l.kind == PlaneLabel::Kind::triangle;
-    for (std::size_t i = 0; i < (vertex ? 1U : triangle ? 3U : 2U); ++i)
-      l.points[i] = static_cast<std::uint32_t>(in.number(mesh.points.size()));
-    for (std::size_t i = 0; i < (triangle ? 0U : l.kind == PlaneLabel::Kind::edge ? 1U : 2U); ++i)
-      l.cell[i] = static_cast<std::uint32_t>(in.number(cell.vertices().size()));
-    if (l.kind == PlaneLabel::Kind::crossing) l.crossed = in.number(planes.size());
-    planes.push_back(table.plane(table.add(l)));
-  }
+ContourLabel decoded_contours(const std::vector<InputSide>& sides, const ContourCell& cell, Drawings& drawings) {
+  std::map<std::uint32_t, std::size_t> places;
+  for (std::size_t s = 0; s < sides.size(); ++s) places[number_of(sides[s])] = s;
+  drawings.add(cell);
   ContourLabel label;
-  std::size_t side = 0;
-  const auto next_side = [&] {
-    side += in.number(most);
-    if (side >= sides.size()) VarintReader::fail();
-    return side;
-  };
-  for (std::uint64_t n = in.number(most); n > 0; --n) {
-    const std::size_t on = next_side();
-    label.seeds.push_back({on, read_seed(in)});
+  for (const ContourSide& side : cell.sides) {
+    const auto& points = drawings.on(side.side).points();
+    const auto add = [&](const scene::PointPair& ends) {
+      if (points[ends[0]].flat == points[ends[1]].flat)
+        throw scene::Error(scene::ErrorCode::malformed, "contours: a segment whose ends are one point");
+      label.segments.push_back({places.at(side.side), {points[ends[0]].flat, points[ends[1]].flat}});
+    };
+    for (const scene::PointPair& segment : side.segments) add(segment);
+    for (const auto& block : side.blocks) add(block.ends);
   }
-  side = 0;
-  for (std::uint64_t n = in.number(most); n > 0; --n) {
-    next_side();
-    const CutTriangle on(mesh, sides[side].triangle, known[side]);
-    std::optional<Point2> last;
-    for (std::uint64_t k = in.number(most); k > 0; --k) {
-      const std::uint64_t named = in.number(2 * (first_label + planes.size())), line = named / 2;
-      if (line >= first_corner && line < first_label && line != in_full) VarintReader::fail();
-      const auto end = [&]() -> Point2 {
-        const std::uint64_t name = line == in_full ? std::uint64_t{in_full} : in.number(first_label + planes.size());
-        if (name == in_full) return read_point(in);
-        if (name == on_known) {
-          const auto points = on.known_on(line, planes);
-          return points[in.number(points.size())];
-        }
-        const auto at = on.crossing(line, name, planes);
-        if (!at) VarintReader::fail();
-        return *at;
-      };
-      if (named % 2 == 1 && !last) VarintReader::fail();
-      const Point2 a = named % 2 == 1 ? *last : end();
-      last = end();
-      label.segments.push_back({side, {a, *last}});
-    }
-  }
-  if (!in.done()) VarintReader::fail();
+  for (const ContourSeed& seed : cell.seeds)
+    label.seeds.push_back({places.at(seed.side), place_of(seed, drawings.on(seed.side).frame())});
   return label;
+}
+
+std::vector<FlatSet> decoded_map(const std::vector<InputSide>& sides, const scene::TriangleMesh& mesh,
+                                 const scene::ContourFile& file, std::uint32_t cell, ContourMaps* keep) {
+  Drawings drawings(mesh);
+  std::vector<FlatSet> known = whole_sides(sides, mesh);
+  for (const std::uint32_t c : scene::chain_of(file.cells, cell)) {
+    const ContourLabel label = decoded_contours(sides, file.cells[c], drawings);
+    if (keep != nullptr) {
+      if (const auto at = keep->find(c); at != keep->end()) {
+        known = at->second;
+        continue;
+      }
+    }
+    known = flooded(sides, mesh, known, label);
+    if (keep != nullptr) (*keep)[c] = known;
+  }
+  return known;
+}
+
+std::vector<FlatSet> whole_sides(const std::vector<InputSide>& sides, const scene::TriangleMesh& mesh) {
+  std::vector<FlatSet> sets;
+  for (const InputSide& side : sides) {
+    const TriangleFrame frame = frame_of(mesh, side.triangle);
+    sets.emplace_back(frame.twice_area(), std::vector<Face2>{{frame.outline()}});
+  }
+  return sets;
+}
+
+std::vector<std::uint32_t> list_of(const std::vector<InputSide>& sides, const std::vector<FlatSet>& sets,
+                                   const std::vector<std::uint32_t>& besides) {
+  std::vector<std::uint32_t> list = besides;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    if (!sets[s].empty()) list.push_back(sides[s].triangle);
+  }
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+  return list;
 }
 
 }  // namespace clues::reference

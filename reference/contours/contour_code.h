@@ -1,34 +1,43 @@
 // FIGS. 34, 35: the boundary of a visible set as the labels of the planes that made it, and the segments made again from
-// them. A segment lies on its triangle along the plane of one label, or along an edge of the triangle, and ends where a
-// second one crosses it, or at a border of what is known: not one coordinate is stored. What no label explains is stored
-// in full, and counted.
-//
-// The bytes: varints (seven bits a byte, the lowest first). The labels that are used; the seeds, each with its side and a
-// point in floats or doubles; then, side by side, the segments. A segment that begins where the one before has ended, as
-// along a contour, has one end only.
+// them. An end of a segment is where two such planes cross on its triangle, or one of them an edge or what is drawn
+// there already: not one coordinate is stored. What no label explains is stored in full, and counted.
 #pragma once
 
 #include <cstdint>
-#include <string>
-#include <string_view>
+#include <vector>
 
+#include "reference/contours/drawing.h"
 #include "reference/contours/flood.h"
 #include "reference/contours/plane_labels.h"
+#include "scene/stream/contour_file.h"
 
 namespace clues::reference {
 
-struct ContourCode {
-  std::string bytes;
-  std::uint64_t ends_by_labels = 0, ends_in_full = 0;
-  std::uint64_t segments_in_full = 0;
+struct ContourCounts {
+  std::uint64_t by_labels = 0, in_full = 0;  // points
+  std::uint64_t bridges = 0;
 };
 
-// `label` as of contour_label() for these sides and known sets; `planes`: of the cell whose map the wanted sets are.
-ContourCode encoded_contours(const std::vector<InputSide>& sides, const scene::TriangleMesh& mesh,
-                             const std::vector<FlatSet>& known, const ContourLabel& label, const PlaneTable& planes);
+// Planes, sides and seeds of a cell. `label` as of contour_label() for these sides, within what the cell around it sees;
+// `drawings`: of the cells around it; `planes`: of the cell whose map the wanted sets are.
+scene::ContourCell encoded_contours(const std::vector<InputSide>& sides, const ContourLabel& label, Drawings drawings,
+                                    const PlaneTable& planes, ContourCounts& counts);
 
-// The same label again, exactly, but for the places of seeds within their components. Throws scene::Error malformed.
-ContourLabel decoded_contours(const std::vector<InputSide>& sides, const scene::TriangleMesh& mesh,
-                              const std::vector<FlatSet>& known, const exact::ConvexCell& cell, std::string_view bytes);
+// The same label again, exactly, but for the places of seeds within their components; what the cell draws is added to
+// `drawings`. Throws scene::Error malformed.
+ContourLabel decoded_contours(const std::vector<InputSide>& sides, const scene::ContourCell& cell, Drawings& drawings);
+
+// The map of a cell of the file: what it sees of each side, by floods from the outermost cell inwards. With `keep` what
+// each cell on the way sees is kept there, and is not found twice. Throws scene::Error malformed.
+using ContourMaps = std::map<std::uint32_t, std::vector<FlatSet>>;
+std::vector<FlatSet> decoded_map(const std::vector<InputSide>& sides, const scene::TriangleMesh& mesh,
+                                 const scene::ContourFile& file, std::uint32_t cell, ContourMaps* keep = nullptr);
+
+// Whole triangles.
+std::vector<FlatSet> whole_sides(const std::vector<InputSide>& sides, const scene::TriangleMesh& mesh);
+
+// The triangles of the sides that have something, and those besides; ascending.
+std::vector<std::uint32_t> list_of(const std::vector<InputSide>& sides, const std::vector<FlatSet>& sets,
+                                   const std::vector<std::uint32_t>& besides);
 
 }  // namespace clues::reference

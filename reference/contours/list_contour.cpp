@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "reference/contours/varints.h"
+#include "scene/stream/varints.h"
 
 namespace clues::reference {
 namespace {
@@ -97,7 +97,7 @@ std::vector<std::uint32_t> flooded_list(const EdgeUsers& edges, const std::vecto
 }
 
 std::string to_bytes(const ListContour& contour) {
-  VarintWriter out;
+  scene::VarintWriter out;
   for (const auto* list : {&contour.seeds, &contour.boundary}) {
     out.number(list->size());
     std::uint32_t before = 0;
@@ -110,7 +110,7 @@ std::string to_bytes(const ListContour& contour) {
 }
 
 ListContour parse_list_contour(std::string_view bytes, const EdgeUsers& edges) {
-  VarintReader in(bytes);
+  scene::VarintReader in(bytes);
   ListContour contour;
   const auto read = [&in](std::vector<std::uint32_t>& list, std::uint64_t below) {
     std::uint64_t at = 0;
@@ -121,7 +121,7 @@ ListContour parse_list_contour(std::string_view bytes, const EdgeUsers& edges) {
   };
   read(contour.seeds, edges.triangle_count());
   read(contour.boundary, edges.edge_count());
-  if (!in.done()) VarintReader::fail();
+  if (!in.done()) in.fail();
   return contour;
 }
 

@@ -37,7 +37,7 @@ struct SceneLines {
 
 Plane3 PlaneTable::plane_of(const PlaneLabel& label) const {
   const auto point = [this](std::uint32_t i) { return exact::to_exact(mesh_->points[i]); };
-  const auto corner = [this](std::uint32_t i) { return cell_->vertices()[i]; };
+  const auto corner = [this](std::uint32_t i) { return corners_[i]; };
   switch (label.kind) {
     case PlaneLabel::Kind::edge:
       return {point(label.points[0]), point(label.points[1]), corner(label.cell[0])};
@@ -77,8 +77,8 @@ std::optional<PlaneLabel> PlaneTable::label_of(const Wedge& wedge) const {
     const Point3 p = exact::to_exact(mesh_->points[a]), q = exact::to_exact(mesh_->points[b]);
     if (!wedge.plane.has_on(p) || !wedge.plane.has_on(q)) continue;
     if (!CGAL::collinear(p, q, wedge.near0) || !CGAL::collinear(p, q, wedge.near1)) continue;
-    for (std::uint32_t c = 0; c < cell_->vertices().size(); ++c) {
-      const Point3& corner = cell_->vertices()[c];
+    for (std::uint32_t c = 0; c < corners_.size(); ++c) {
+      const Point3& corner = corners_[c];
       if (wedge.plane.has_on(corner) && !CGAL::collinear(p, q, corner))
         return PlaneLabel{PlaneLabel::Kind::edge, {a, b, 0}, {c, 0}, 0};
     }
@@ -89,11 +89,10 @@ std::optional<PlaneLabel> PlaneTable::label_of(const Wedge& wedge) const {
 std::optional<PlaneLabel> PlaneTable::label_at_apex(const Wedge& wedge) const {
   const Point3& x = wedge.center;
   std::optional<std::array<std::uint32_t, 2>> corners;
-  for (std::uint32_t c = 0; c < cell_->vertices().size() && !corners; ++c) {
-    if (!wedge.plane.has_on(cell_->vertices()[c])) continue;
-    for (std::uint32_t d = c + 1; d < cell_->vertices().size() && !corners; ++d) {
-      if (wedge.plane.has_on(cell_->vertices()[d]) && !CGAL::collinear(x, cell_->vertices()[c], cell_->vertices()[d]))
-        corners = {c, d};
+  for (std::uint32_t c = 0; c < corners_.size() && !corners; ++c) {
+    if (!wedge.plane.has_on(corners_[c])) continue;
+    for (std::uint32_t d = c + 1; d < corners_.size() && !corners; ++d) {
+      if (wedge.plane.has_on(corners_[d]) && !CGAL::collinear(x, corners_[c], corners_[d])) corners = {c, d};
     }
   }
   if (!corners) return std::nullopt;
@@ -108,7 +107,7 @@ std::optional<PlaneLabel> PlaneTable::label_at_apex(const Wedge& wedge) const {
     if (!CGAL::collinear(p, q, x)) continue;
     for (std::size_t i = 0; i < planes_.size(); ++i) {
       if (planes_[i].has_on(x) && !planes_[i].has_on(p))
-        return PlaneLabel{PlaneLabel::Kind::crossing, {a, b, 0}, *corners, i};
+        return PlaneLabel{PlaneLabel::Kind::crossing, {a, b, 0}, *corners, static_cast<std::uint32_t>(i)};
     }
   }
   return std::nullopt;

@@ -7,39 +7,32 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "exact/cell/convex_cell.h"
 #include "reference/visibility/map/visibility_map.h"
 #include "scene/mesh/mesh.h"
+#include "scene/stream/contour_file.h"
 
 namespace clues::reference {
 
-struct PlaneLabel {
-  enum class Kind : std::uint8_t {
-    edge,      // of the scene, from points[0] to points[1], and cell[0]
-    vertex,    // points[0], and cell[0], cell[1]
-    crossing,  // of that edge with the plane of label `crossed`, and cell[0], cell[1]
-    triangle,  // the plane of a triangle that pierces the surface (D16): points
-  };
-  Kind kind = Kind::edge;
-  std::array<std::uint32_t, 3> points{};  // of the scene's file; of points with the same coordinates the first
-  std::array<std::uint32_t, 2> cell{};    // places in ConvexCell::vertices()
-  std::size_t crossed = 0;                // an earlier label
-
-  friend bool operator==(const PlaneLabel&, const PlaneLabel&) = default;
-};
+// Its points are of the scene's file, of points with the same coordinates the first.
+using PlaneLabel = scene::ContourPlane;
 
 class PlaneTable {
  public:
-  PlaneTable(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell) : mesh_(&mesh), cell_(&cell) {}
+  // `corners`: of the cell, as labels name them.
+  PlaneTable(const scene::TriangleMesh& mesh, std::vector<exact::Point3> corners)
+      : mesh_(&mesh), corners_(std::move(corners)) {}
+  PlaneTable(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell) : PlaneTable(mesh, cell.vertices()) {}
 
   // The planes of the wedges of the map, of this scene and cell, each once; and of triangles that were cut (D16).
   // Wedges whose planes do not follow from such numbers (where an edge's line meets the cell) are counted and left out.
   // O(planes * edges of the scene).
   void add_wedges(const VisibilityMap& map);
 
-  // From the numbers alone. Its labels before `label.crossed` must be there.
+  // From the numbers alone. Its label `label.crossed` must be there. Throws scene::Error malformed.
   exact::Plane3 plane_of(const PlaneLabel& label) const;
   std::size_t add(const PlaneLabel& label);
 
@@ -55,7 +48,7 @@ class PlaneTable {
   std::optional<PlaneLabel> label_at_apex(const Wedge& wedge) const;
 
   const scene::TriangleMesh* mesh_;
-  const exact::ConvexCell* cell_;
+  std::vector<exact::Point3> corners_;
   std::vector<std::array<std::uint32_t, 2>> edges_;  // of the scene, by points as in PlaneLabel
   std::vector<PlaneLabel> labels_;
   std::vector<exact::Plane3> planes_;

@@ -47,6 +47,36 @@ FragmentsRecord fragments_of(const reference::VisibilityMap& map) {
   return out;
 }
 
+FragmentsRecord fragments_of(const scene::TriangleMesh& mesh, const std::vector<reference::InputSide>& sides,
+                             const std::vector<reference::FlatSet>& sets) {
+  std::vector<reference::Rings3> regions;
+  std::vector<std::size_t> side_of;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const reference::TriangleFrame frame = reference::frame_of(mesh, sides[s].triangle);
+    for (const reference::Face2& face : sets[s].faces()) {
+      reference::Rings3& rings = regions.emplace_back();
+      for (const reference::Ring2& ring : face) {
+        rings.emplace_back();
+        for (const exact::Point2& q : ring) rings.back().push_back(exact::collapsed(frame.lift(q)));
+        if (!sides[s].front) std::reverse(rings.back().begin(), rings.back().end());
+      }
+      side_of.push_back(s);
+    }
+  }
+  const reference::SewnMesh sewn = reference::sew(regions);
+  FragmentsRecord out;
+  out.scene_triangles = mesh.triangles.size();
+  for (const exact::Point3& p : sewn.points) {
+    out.exact.push_back(p);
+    out.rounded.push_back(exact::to_double_estimate(p));
+  }
+  for (const auto& t : sewn.triangles) {
+    const reference::InputSide& side = sides[side_of[t.region]];
+    out.fragments.push_back({t.corners, side.triangle, side.front});
+  }
+  return out;
+}
+
 std::string to_obj_text(const FragmentsRecord& mesh) {
   std::string text = "# visible fragments; coordinates are rounded to doubles\n";
   for (const scene::Point& p : mesh.rounded) text += fmt::format("v {} {} {}\n", p[0], p[1], p[2]);

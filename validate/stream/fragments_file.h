@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/delta/input_sides.h"
 #include "reference/visibility/map/visibility_map.h"
 
 namespace clues::validate {
@@ -28,6 +29,10 @@ struct FragmentsRecord {
 
 // The map may be in its own range. File and hash are left to the caller. O(n log n).
 FragmentsRecord fragments_of(const reference::VisibilityMap& map);
+
+// Of sets on the sides of triangles, in the coordinates of the scene.
+FragmentsRecord fragments_of(const scene::TriangleMesh& mesh, const std::vector<reference::InputSide>& sides,
+                             const std::vector<reference::FlatSet>& sets);
 
 std::string to_obj_text(const FragmentsRecord& record);  // a group for each side of each triangle
 std::string to_ply_text(const FragmentsRecord& record);  // faces have "triangle", and "back": 0 or 1

@@ -1,13 +1,15 @@
 // Numbers of seven bits a byte, the lowest first, and others of a fixed size, for contours.
 #pragma once
 
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 #include "scene/messages/error.h"
 
-namespace clues::reference {
+namespace clues::scene {
 
 class VarintWriter {
  public:
@@ -18,6 +20,7 @@ class VarintWriter {
   void raw(std::uint64_t x, int size) {
     for (int i = 0; i < size; ++i) bytes.push_back(static_cast<char>(x >> (8 * i) & 0xff));
   }
+  void real(double x) { raw(std::bit_cast<std::uint64_t>(x), 8); }
   void text(const std::string& text) {
     number(text.size());
     bytes += text;
@@ -25,13 +28,14 @@ class VarintWriter {
   std::string bytes;
 };
 
-// Throws scene::Error malformed where there is not enough, or a number is not below what it must be.
+// Throws Error malformed where there is not enough, or a number is not below what it must be; non_finite.
 class VarintReader {
  public:
-  explicit VarintReader(std::string_view bytes) : rest_(bytes) {}
+  explicit VarintReader(std::string_view bytes, std::string where = "contours")
+      : rest_(bytes), where_(std::move(where)) {}
 
-  [[noreturn]] static void fail() {
-    throw scene::Error(scene::ErrorCode::malformed, "contours: cut short, or a number that there is none");
+  [[noreturn]] void fail(const std::string& what = "cut short, or a number that there is none") const {
+    throw Error(ErrorCode::malformed, where_ + ": " + what);
   }
   std::uint64_t number(std::uint64_t below) {
     std::uint64_t x = 0;
@@ -44,6 +48,8 @@ class VarintReader {
     if (x >= below) fail();
     return x;
   }
+  // How many items of at least one byte each follow.
+  std::uint64_t count() { return number(rest_.size() + 1); }
   std::uint64_t raw(std::size_t size) {
     if (rest_.size() < size) fail();
     std::uint64_t x = 0;
@@ -51,17 +57,23 @@ class VarintReader {
     rest_.remove_prefix(size);
     return x;
   }
-  std::string text() {
-    const std::uint64_t size = number(rest_.size() + 1);
-    if (size > rest_.size()) fail();
-    std::string text(rest_.substr(0, size));
-    rest_.remove_prefix(size);
-    return text;
+  double real() {
+    const double x = std::bit_cast<double>(raw(8));
+    if (!std::isfinite(x)) throw Error(ErrorCode::non_finite, where_ + ": a coordinate is no finite number");
+    return x;
   }
+  std::string bytes(std::size_t size) {
+    if (size > rest_.size()) fail();
+    std::string bytes(rest_.substr(0, size));
+    rest_.remove_prefix(size);
+    return bytes;
+  }
+  std::string text() { return bytes(count()); }
   bool done() const { return rest_.empty(); }
 
  private:
   std::string_view rest_;
+  std::string where_;
 };
 
-}  // namespace clues::reference
+}  // namespace clues::scene

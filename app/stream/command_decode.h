@@ -1,0 +1,10 @@
+// clues delta decode: added to `clues delta`.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace clues::app {
+
+void add_delta_decode(CLI::App& delta, int& status);
+
+}  // namespace clues::app
