@@ -117,6 +117,25 @@ COPIES = {
         ("return det.speed == 0 ? kInfinity : det.low / det.speed * kDown;",
          "return det.speed == 0 ? kInfinity : det.low / det.speed * kUp;")]),
 
+    # ---- contours in doubles
+
+    # A point is where doubles put it, and nothing is known to be off.
+    "contour_boxes_without_width": ("fastpath/interval_drawing.cpp", [
+        ("  return {common(place.x, around.x), common(place.y, around.y), common(place.z, around.z)};\n",
+         "  const auto middle = [](const Interval& x) { return Interval(x.inf() / 2 + x.sup() / 2); };\n"
+         "  return {middle(common(place.x, around.x)), middle(common(place.y, around.y)),\n"
+         "          middle(common(place.z, around.z))};\n")]),
+    # The last segment of each side is forgotten: the flood runs out there.
+    "contour_segment_dropped": ("fastpath/side_graph.cpp", [
+        ("s < drawn.segments.size(); ++s)", "s + 1 < drawn.segments.size(); ++s)")]),
+    # No flood passes the last stretch of an edge of the scene with points on it.
+    "contour_stretch_lost": ("fastpath/contour_decoder.cpp", [
+        ("for (std::size_t g = 0; g + 1 < groups; ++g) {", "for (std::size_t g = 0; g + 2 < groups; ++g) {")]),
+    # A face is not followed around the first corner of a point.
+    "contour_corner_lost": ("fastpath/side_graph.cpp", [
+        ("    for (std::size_t i = 0; i < outs.size(); ++i) join(",
+         "    for (std::size_t i = outs.size() > 2 ? 1 : 0; i < outs.size(); ++i) join(")]),
+
     # ---- maps of surfaces
 
     # Neighbours are removed in one level.
