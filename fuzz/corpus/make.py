@@ -254,7 +254,7 @@ def contours():
     def head(version=1, cells=1):
         return b"CLUESCON" + struct.pack("<I", version) + bytes(32) + bytes([13, 5, 0]) + struct.pack("<d", 0) + bytes([cells])
 
-    def cell(within=0, body=bytes([0, 0, 1, 0, 0, 2, 1, 1]), corner=(0, 0, 1)):
+    def cell(within=0, body=bytes([0, 0, 1, 0, 2, 1, 1]), corner=(0, 0, 1)):
         return b"\1c" + bytes([within, 1, 0, 1]) + struct.pack("<3d", *corner) + b"\0" + body
 
     put("contours", "whole_triangle", head() + cell())
@@ -262,14 +262,14 @@ def contours():
     put("contours", "no_cells", head(cells=0))
     put("contours", "another_version", head(version=2) + cell())
     put("contours", "within_itself", head() + cell(within=1))
-    put("contours", "seed_beside_its_triangle", head() + cell(body=bytes([0, 0, 1, 0, 0, 2, 2, 2])))
-    put("contours", "two_forms", head() + cell(body=bytes([0, 0, 1, 0x80, 0, 0, 2, 1, 1])))
+    put("contours", "seed_beside_its_triangle", head() + cell(body=bytes([0, 0, 1, 0, 2, 2, 2])))
+    put("contours", "two_forms", head() + cell(body=bytes([0, 0, 1, 0x80, 0, 2, 1, 1])))
     put("contours", "corner_at_infinity", head() + cell(corner=(0, 0, float("inf"))))
     # Two lines across each other, and a bridge that is none.
-    full = b"".join(b"\4\0" + b"".join(bytes([len(x)]) + x for x in at)
+    full = b"".join(b"\4" + b"".join(bytes([len(x)]) + x for x in at)
                     for at in ((b"0", b"0", b"4"), (b"2", b"2", b"4"), (b"2", b"0", b"4"), (b"0", b"2", b"4")))
     put("contours", "crossed_segments",
-        head() + cell(body=bytes([0, 1, 4, 4]) + full + bytes([2, 1, 0, 1, 0, 0, 1, 1, 2, 1, 4, 3, 2, 1, 1])))
+        head() + cell(body=bytes([0, 1, 4, 8 * 4 + 1 + 4]) + full + bytes([1, 1, 0, 1, 0, 0, 1, 4, 1, 3, 2, 1, 1])))
 
 
 def stream():

@@ -89,8 +89,11 @@ class SideCoder {
     }
   }
   void add_block(std::size_t edge, const FlatSegment& s) {
+    const auto k = static_cast<std::uint32_t>(edge);
     const std::uint32_t a = point(s.a), b = point(s.b);
-    out_.blocks.push_back({static_cast<std::uint32_t>(edge), {a, b}});
+    // All of an edge is named as it runs.
+    const bool is_turned = drawn_.is_corner(a) && drawn_.is_corner(b) && a != k;
+    out_.blocks.push_back({k, is_turned ? scene::PointPair{b, a} : scene::PointPair{a, b}});
   }
   ContourSide done() {
     for (const scene::PointPair& segment : out_.segments) drawn_.add_segment(segment);

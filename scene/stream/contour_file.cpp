@@ -14,6 +14,7 @@ namespace clues::scene {
 namespace {
 
 constexpr std::uint64_t all_numbers = std::uint64_t{1} << 32;
+constexpr std::uint64_t plane_kinds = 4, point_kinds = 5;
 constexpr std::uint32_t most_bits = 52;
 constexpr std::size_t hash_bytes = 32;
 
@@ -40,18 +41,22 @@ class PointsOfSide {
 void write_planes(const ContourCell& cell, VarintWriter& out) {
   out.number(cell.planes.size());
   for (const ContourPlane& plane : cell.planes) {
-    out.number(static_cast<std::uint64_t>(plane.kind));
-    for (std::size_t i = 0; i < points_of(plane.kind); ++i) out.number(plane.points[i]);
+    out.number(static_cast<std::uint64_t>(plane.kind) + plane_kinds * plane.points[0]);
+    for (std::size_t i = 1; i < points_of(plane.kind); ++i) out.number(plane.points[i]);
     for (std::size_t i = 0; i < corners_of(plane.kind); ++i) out.number(plane.cell[i]);
     if (plane.kind == ContourPlane::Kind::crossing) out.number(plane.crossed);
   }
 }
 
+bool is_whole_edge(const ContourSide::Block& block) {
+  return block.ends == PointPair{block.edge, (block.edge + 1) % 3};
+}
+
 void write_side(const ContourSide& side, std::uint64_t known, VarintWriter& out) {
-  out.number(side.points.size());
+  const auto has = [](const auto& list, unsigned bit) { return list.empty() ? 0U : bit; };
+  out.number(8 * side.points.size() + has(side.segments, 1) + has(side.blocks, 2) + has(side.bridges, 4));
   for (const ContourPoint& point : side.points) {
-    out.number(static_cast<std::uint64_t>(point.kind));
-    out.number(point.first);
+    out.number(static_cast<std::uint64_t>(point.kind) + point_kinds * point.first);
     if (point.kind == ContourPoint::Kind::in_full) {
       for (const std::string& x : point.at) out.text(x);
     } else {
@@ -59,10 +64,7 @@ void write_side(const ContourSide& side, std::uint64_t known, VarintWriter& out)
     }
   }
   PointsOfSide points(known);
-  const auto write_pair = [&](const PointPair& pair) {
-    for (const std::uint32_t p : pair) out.number(points.code(p));
-  };
-  out.number(side.segments.size());
+  if (!side.segments.empty()) out.number(side.segments.size() - 1);
   const PointPair* last = nullptr;
   for (const PointPair& segment : side.segments) {  // 0: from where the last one has ended
     const bool goes_on = last != nullptr && (*last)[1] == segment[0];
@@ -70,18 +72,23 @@ void write_side(const ContourSide& side, std::uint64_t known, VarintWriter& out)
     out.number(points.code(segment[1]));
     last = &segment;
   }
-  out.number(side.blocks.size());
-  for (const auto& block : side.blocks) {
-    out.number(block.edge);
-    write_pair(block.ends);
+  if (!side.blocks.empty()) out.number(side.blocks.size() - 1);
+  for (const auto& block : side.blocks) {  // 0, 1, 2: all of an edge
+    if (is_whole_edge(block)) {
+      out.number(block.edge);
+      continue;
+    }
+    out.number(3 + block.edge + 3 * points.code(block.ends[0]));
+    out.number(points.code(block.ends[1]));
   }
-  out.number(side.bridges.size());
-  for (const PointPair& bridge : side.bridges) write_pair(bridge);
+  if (!side.bridges.empty()) out.number(side.bridges.size() - 1);
+  for (const PointPair& bridge : side.bridges) {
+    for (const std::uint32_t p : bridge) out.number(points.code(p));
+  }
 }
 
 void write_seed(const ContourSeed& seed, VarintWriter& out) {
-  out.number(seed.from);
-  out.number(seed.bits);
+  out.number(seed.bits + (most_bits + 1) * std::uint64_t{seed.from});
   if (seed.bits == 0) {
     for (const std::string& x : seed.fractions) out.text(x);
   } else {
@@ -117,8 +124,10 @@ std::vector<ContourPlane> read_planes(VarintReader& in, std::uint64_t scene_poin
   std::vector<ContourPlane> planes;
   for (std::uint64_t n = in.count(); n > 0; --n) {
     ContourPlane plane;
-    plane.kind = static_cast<ContourPlane::Kind>(in.number(4));
-    for (std::size_t i = 0; i < points_of(plane.kind); ++i) plane.points[i] = read_number(in, scene_points);
+    const std::uint64_t begin = in.number(plane_kinds * scene_points);
+    plane.kind = static_cast<ContourPlane::Kind>(begin % plane_kinds);
+    plane.points[0] = static_cast<std::uint32_t>(begin / plane_kinds);
+    for (std::size_t i = 1; i < points_of(plane.kind); ++i) plane.points[i] = read_number(in, scene_points);
     for (std::size_t i = 0; i < corners_of(plane.kind); ++i) plane.cell[i] = read_number(in, corners);
     if (plane.kind == ContourPlane::Kind::crossing) plane.crossed = read_number(in, planes.size());
     planes.push_back(plane);
@@ -128,27 +137,32 @@ std::vector<ContourPlane> read_planes(VarintReader& in, std::uint64_t scene_poin
 
 ContourPoint read_point(VarintReader& in, const DrawingSize& known, std::uint64_t planes) {
   ContourPoint point;
-  point.kind = static_cast<ContourPoint::Kind>(in.number(5));
+  const std::uint64_t begin = in.number(point_kinds * all_numbers);
+  point.kind = static_cast<ContourPoint::Kind>(begin % point_kinds);
+  point.first = static_cast<std::uint32_t>(begin / point_kinds);
+  const auto require_first = [&](std::uint64_t below) {
+    if (point.first >= below) in.fail();
+  };
   switch (point.kind) {
     case ContourPoint::Kind::on_edge:
-      point.first = read_number(in, 3);
+      require_first(3);
       point.second = read_number(in, planes);
       break;
     case ContourPoint::Kind::crossing:
-      point.first = read_number(in, planes);
+      require_first(planes);
       point.second = read_number(in, planes);
       if (point.first == point.second) in.fail("a point where a plane crosses itself");
       break;
     case ContourPoint::Kind::on_segment:
-      point.first = read_number(in, known.segments);
+      require_first(known.segments);
       point.second = read_number(in, planes);
       break;
     case ContourPoint::Kind::again:
-      point.first = read_number(in, 3);
+      require_first(3);
       point.second = read_number(in, all_numbers);
       break;
     case ContourPoint::Kind::in_full:
-      point.first = read_number(in, 4 + known.segments);
+      require_first(4 + known.segments);
       for (std::string& x : point.at) x = read_fraction(in);
       break;
   }
@@ -156,7 +170,10 @@ ContourPoint read_point(VarintReader& in, const DrawingSize& known, std::uint64_
 }
 
 void read_side(VarintReader& in, const DrawingSize& known, std::uint64_t planes, ContourSide& side) {
-  for (std::uint64_t n = in.count(); n > 0; --n) side.points.push_back(read_point(in, known, planes));
+  const std::uint64_t begin = in.number(8 * all_numbers);
+  for (std::uint64_t n = begin / 8; n > 0; --n) side.points.push_back(read_point(in, known, planes));
+  // How many of a list there are, where there is one.
+  const auto count = [&](unsigned bit) { return (begin & bit) == 0 ? 0 : 1 + in.count(); };
   PointsOfSide points(known.points);
   const std::uint64_t all = known.points + side.points.size();
   const auto point_of = [&](std::uint64_t code) {
@@ -164,26 +181,36 @@ void read_side(VarintReader& in, const DrawingSize& known, std::uint64_t planes,
     if (p >= points.next() || points.next() > all) in.fail("a point that its side does not have");
     return p;
   };
-  const auto read_pair = [&](PointPair& pair) {
-    for (std::uint32_t& p : pair) p = point_of(in.number(all + 1));
-    if (pair[0] == pair[1]) in.fail("a stretch from a point to itself");
+  const auto require_apart = [&](const PointPair& ends) {
+    if (ends[0] == ends[1]) in.fail("a stretch from a point to itself");
   };
-  for (std::uint64_t n = in.count(); n > 0; --n) {
+  for (std::uint64_t n = count(1); n > 0; --n) {
     PointPair segment{};
-    const std::uint64_t begin = in.number(all + 2);
-    if (begin == 0 && side.segments.empty()) in.fail("a segment that goes on from none");
-    segment[0] = begin == 0 ? side.segments.back()[1] : point_of(begin - 1);
+    const std::uint64_t from = in.number(all + 2);
+    if (from == 0 && side.segments.empty()) in.fail("a segment that goes on from none");
+    segment[0] = from == 0 ? side.segments.back()[1] : point_of(from - 1);
     segment[1] = point_of(in.number(all + 1));
-    if (segment[0] == segment[1]) in.fail("a segment from a point to itself");
+    require_apart(segment);
     side.segments.push_back(segment);
   }
-  for (std::uint64_t n = in.count(); n > 0; --n) {
+  for (std::uint64_t n = count(2); n > 0; --n) {
     ContourSide::Block block;
-    block.edge = read_number(in, 3);
-    read_pair(block.ends);
+    const std::uint64_t from = in.number(3 * (all + 2));
+    block.edge = static_cast<std::uint32_t>(from % 3);
+    block.ends = {block.edge, (block.edge + 1) % 3};
+    if (from >= 3) {
+      block.ends[0] = point_of(from / 3 - 1);
+      block.ends[1] = point_of(in.number(all + 1));
+    }
+    require_apart(block.ends);
     side.blocks.push_back(block);
   }
-  for (std::uint64_t n = in.count(); n > 0; --n) read_pair(side.bridges.emplace_back());
+  for (std::uint64_t n = count(4); n > 0; --n) {
+    PointPair bridge{};
+    for (std::uint32_t& p : bridge) p = point_of(in.number(all + 1));
+    require_apart(bridge);
+    side.bridges.push_back(bridge);
+  }
   if (points.next() != all) in.fail("a point that nothing uses");
   if (side.segments.empty() && side.blocks.empty()) in.fail("a side without a segment");
 }
@@ -191,8 +218,9 @@ void read_side(VarintReader& in, const DrawingSize& known, std::uint64_t planes,
 ContourSeed read_seed(VarintReader& in, std::uint32_t side, std::uint64_t points) {
   ContourSeed seed;
   seed.side = side;
-  seed.from = read_number(in, points);
-  seed.bits = read_number(in, most_bits + 1);
+  const std::uint64_t begin = in.number((most_bits + 1) * points);
+  seed.from = static_cast<std::uint32_t>(begin / (most_bits + 1));
+  seed.bits = static_cast<std::uint32_t>(begin % (most_bits + 1));
   if (seed.bits == 0) {
     for (std::string& x : seed.fractions) x = read_fraction(in);
     return seed;

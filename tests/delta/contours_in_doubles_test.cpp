@@ -23,13 +23,20 @@ struct DoublesSums {
   double exact_area = 0, area = 0, radius = 0;
 };
 
-void expect_doubles_hold(const scene::TriangleMesh& mesh, const scene::ContourFile& file, DoublesSums& sums) {
+struct CodedCells {
+  scene::ContourFile file;
+  std::vector<std::vector<std::uint32_t>> lists;  // of the maps
+};
+
+void expect_doubles_hold(const scene::TriangleMesh& mesh, const CodedCells& coded, DoublesSums& sums) {
+  const scene::ContourFile& file = coded.file;
   const auto sides =
       reference::input_sides(mesh, file.mode == "solid" ? reference::Mode::solid : reference::Mode::sheet);
   const fastpath::ContourDecoder decoder(mesh);
   reference::ContourMaps kept;
   for (std::uint32_t c = 0; c < file.cells.size(); ++c) {
     const auto exact = reference::decoded_map(sides, mesh, file, c, &kept);
+    EXPECT_EQ(reference::list_of(sides, exact, file.cells[c].besides), coded.lists[c]);
     const auto decoding = decoder.decode(file, c);
     const auto compared = validate::compare_contours(mesh, file, c, sides, exact, decoding);
     for (const auto& finding : compared.findings) ADD_FAILURE() << "cell " << c << ": " << finding;
@@ -48,18 +55,23 @@ void expect_doubles_hold(const scene::TriangleMesh& mesh, const scene::ContourFi
 }
 
 // The cell, its halves, and halves of these: three levels.
-scene::ContourFile file_of(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, reference::Mode mode) {
+CodedCells file_of(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell, reference::Mode mode) {
   reference::Options options;
   options.mode = mode;
   reference::ContourMaker maker(mesh, options, 0);
-  maker.add("cell", cell, 0, true);
+  CodedCells out;
+  const auto add = [&](const char* name, const exact::ConvexCell& one, std::uint32_t within, bool is_around) {
+    out.lists.push_back(maker.add(name, one, within, is_around).visible);
+  };
+  add("cell", cell, 0, true);
   for (const auto& half : inner_cells_of(cell)) {
-    maker.add("half", half, 1, true);
+    add("half", half, 1, true);
     const auto within = static_cast<std::uint32_t>(maker.file().cells.size());
     const auto quarters = inner_cells_of(half);
-    if (!quarters.empty()) maker.add("quarter", quarters[0], within, false);
+    if (!quarters.empty()) add("quarter", quarters[0], within, false);
   }
-  return maker.file();
+  out.file = maker.file();
+  return out;
 }
 
 void print(const char* what, const DoublesSums& s) {
