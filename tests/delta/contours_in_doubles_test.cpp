@@ -1,6 +1,7 @@
 // D26 in doubles: what the run-time decoder calls visible holds what the exact one finds, on every side.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 
@@ -20,8 +21,33 @@ namespace {
 
 struct DoublesSums {
   std::uint64_t cells = 0, sides = 0, ends = 0, points = 0, unbounded = 0, wild = 0, exact_list = 0, list = 0;
+  std::uint64_t seen_points = 0, hidden_points = 0, held_though_hidden = 0;
   double exact_area = 0, area = 0, radius = 0;
 };
+
+// A point in each part that is seen is held; of those in parts that are not, hardly any.
+void ask_for_points(const scene::TriangleMesh& mesh, const std::vector<reference::InputSide>& sides,
+                    const std::vector<reference::FlatSet>& exact, const fastpath::ContourDecoding& decoding,
+                    DoublesSums& sums) {
+  const auto whole = reference::whole_sides(sides, mesh);
+  for (const auto& region : decoding.regions) {
+    const auto side = std::find_if(sides.begin(), sides.end(),
+                                   [&](const auto& s) { return 2 * s.triangle + (s.front ? 0U : 1U) == region.side; });
+    const auto s = static_cast<std::size_t>(side - sides.begin());
+    const auto frame = reference::frame_of(mesh, side->triangle);
+    const auto place_in = [&](const reference::Face2& face) {
+      return exact::to_double_estimate(frame.lift(reference::inner_point(face, 0)));
+    };
+    for (const auto& face : exact[s].faces()) {
+      ++sums.seen_points;
+      EXPECT_TRUE(region.may_hold(place_in(face))) << region.side;
+    }
+    for (const auto& face : subtract(whole[s], exact[s]).faces()) {
+      ++sums.hidden_points;
+      sums.held_though_hidden += region.may_hold(place_in(face));
+    }
+  }
+}
 
 struct CodedCells {
   scene::ContourFile file;
@@ -40,6 +66,7 @@ void expect_doubles_hold(const scene::TriangleMesh& mesh, const CodedCells& code
     const auto decoding = decoder.decode(file, c);
     const auto compared = validate::compare_contours(mesh, file, c, sides, exact, decoding);
     for (const auto& finding : compared.findings) ADD_FAILURE() << "cell " << c << ": " << finding;
+    ask_for_points(mesh, sides, exact, decoding, sums);
     ++sums.cells;
     sums.sides += compared.sides;
     sums.ends += compared.ends_checked;
@@ -77,7 +104,8 @@ CodedCells file_of(const scene::TriangleMesh& mesh, const exact::ConvexCell& cel
 void print(const char* what, const DoublesSums& s) {
   std::cout << what << ": " << s.cells << " cells, " << s.sides << " sides, " << s.ends << " ends; lists "
             << s.exact_list << " and " << s.list << ", area " << s.exact_area << " and " << s.area << ", radius "
-            << s.radius << "; " << s.points << " points, " << s.unbounded << " unbounded, " << s.wild << " wild\n";
+            << s.radius << "; " << s.points << " points, " << s.unbounded << " unbounded, " << s.wild << " wild; of "
+            << s.hidden_points << " hidden points " << s.held_though_hidden << " held\n";
 }
 
 TEST(ContoursInDoubles, HoldSceneP) {
@@ -107,6 +135,9 @@ void expect_doubles_hold_random_scenes(std::uint64_t first, std::uint64_t end) {
   print("random scenes", sums);
   EXPECT_GT(sums.ends, 100U);
   EXPECT_LE(sums.area, 1.01 * sums.exact_area);
+  EXPECT_GT(sums.seen_points, 100U);
+  EXPECT_GT(sums.hidden_points, 40U);
+  EXPECT_LT(sums.held_though_hidden, sums.hidden_points / 10);
 }
 
 TEST(ContoursInDoubles, HoldRandomScenes) { expect_doubles_hold_random_scenes(0, 1); }
