@@ -12,8 +12,8 @@ namespace clues::app {
 
 // Rank 0. Throws what kernels and the store throw; what was committed stays.
 void bake_by_ranks(Cluster& cluster, int threads, const scene::FlaggedMesh& scene, const scene::BakePlan& plan,
-                   scene::BakeStore& store, const fastpath::bakes::ListerMaker& make_lister, Shard shard, const std::atomic<bool>& stop,
-                   const fastpath::bakes::BakeProgress& progress);
+                   scene::BakeStore& store, const fastpath::bakes::ListerMaker& make_lister, Shard shard,
+                   const std::atomic<bool>& stop, const fastpath::bakes::BakeProgress& progress);
 
 // The others, with the same scene and plan. Throws scene::Error bad_argument where rank 0 has others.
 void serve_bake(Cluster& cluster, int threads, const scene::FlaggedMesh& scene, const scene::BakePlan& plan,
