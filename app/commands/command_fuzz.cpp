@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 #include <signal.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -41,6 +43,8 @@ struct FuzzRequest {
 };
 
 constexpr const char* usual_time = "60";
+// Of --subject all: one of each kind. "fast" is compared with the reference.
+constexpr std::array all_subjects{"reference", "fast", "maps", "motion", "deltas", "bakes", "streams", "levels"};
 
 // "fast" and "1/16": "fast/16".
 std::string compared(const std::string& subject, const std::string& share) {
@@ -49,6 +53,60 @@ std::string compared(const std::string& subject, const std::string& share) {
   if (subject != "fast" || name == "fast" || !fuzz::cases_for_a_comparison(name))
     throw Error(ErrorCode::bad_argument, "--agreement " + share + ": give 1/N, N up to 1000000, with --subject fast");
   return name;
+}
+
+// What the campaign of one subject is put to.
+fuzz::GivenScenes scenes_for(const fuzz::Subject& subject, const std::vector<std::string>& paths) {
+  const bool takes_levels = subject.trial() && subject.trial()->takes_levels();
+  return takes_levels ? fuzz::read_given_levels(paths) : fuzz::read_given_scenes(paths);
+}
+
+// Of rank 0, or of the only one. `options` are of this subject.
+int run_campaign_of(const fuzz::Subject& subject, fuzz::CampaignOptions& options) {
+  ProgressBar bar("clues fuzz");
+  const auto begin = std::chrono::steady_clock::now();
+  std::uint64_t first = UINT64_MAX;
+  options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
+    first = std::min(first, done);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    bar.show(fmt::format("{} ({:.1f}/s)", stage, static_cast<double>(done - first) / std::max(seconds, 0.001)), done,
+             total);
+  };
+  options.stop = &catch_interrupts();
+  const auto summary = fuzz::run_campaign(options, subject);
+  bar.clear();
+  print(to_text(summary, options.out));
+  std::fprintf(stderr, "clues fuzz: %.1f s, %.1f cases a second\n", summary.seconds_now,
+               static_cast<double>(summary.cases_now) / std::max(summary.seconds_now, 0.001));
+  return summary.exit_code();
+}
+
+// One campaign after the other, each in a folder of its own and with an equal part of the time, so that each store is that of one subject: its plan, its counters, its findings.
+int run_all(const FuzzRequest& request) {
+  if (!request.options.generators.empty() || !request.options.oracles.empty() || !request.scenes.empty())
+    throw Error(
+        ErrorCode::bad_argument,
+        "--subject all: --generator, --oracle and --scenes are of one subject; give them in a campaign of that one");
+  std::error_code error;
+  std::filesystem::create_directories(request.options.out, error);
+  if (error)
+    throw Error(ErrorCode::file_unwritable,
+                request.options.out.string() + ": cannot make this folder: " + error.message());
+  int worst = fine;
+  for (const char* name : all_subjects) {
+    fuzz::CampaignOptions options = request.options;
+    options.out /= name;
+    for (auto& folder : options.merged) folder /= name;
+    if (options.time) *options.time /= static_cast<std::int64_t>(all_subjects.size());
+    print(fmt::format("SUBJECT {}: {}\n", name, scene::printable(options.out.string())));
+    const auto subject = fuzz::make_subject(std::string(name) == "fast" ? compared(name, request.agreement) : name);
+    const int code = run_campaign_of(*subject, options);
+    // Contradictions are worse than findings, and these than a campaign that is vacuous or was interrupted.
+    const auto rank = [](int c) { return c == oracle_contradiction ? 3 : c == findings ? 2 : c == fine ? 0 : 1; };
+    if (rank(code) > rank(worst)) worst = code;
+    if (options.stop->load()) return rank(worst) > 1 ? worst : not_everything_ran;
+  }
+  return worst;
 }
 
 int run_fuzz(FuzzRequest& request) {
@@ -67,8 +125,13 @@ int run_fuzz(FuzzRequest& request) {
     throw Error(ErrorCode::bad_argument, "--shard: say with --cases where all shards end");
   if (shard.count > 1 && options.errors > 0)
     throw Error(ErrorCode::bad_argument, "--shard: a shard cannot know when all have --errors; leave that out");
+  if (request.subject == "all") {
+    if (!cluster.alone())
+      throw Error(ErrorCode::bad_argument, "--subject all: under mpirun give each subject a command of its own");
+    return run_all(request);
+  }
   const auto subject = fuzz::make_subject(compared(request.subject, request.agreement));
-  options.given = fuzz::read_given_scenes(request.scenes);
+  options.given = scenes_for(*subject, request.scenes);
   const auto processes = [&](const validate::Work& work) {
     return std::make_unique<validate::Workers>(options.jobs, work, options.time_for_one);
   };
@@ -79,22 +142,7 @@ int run_fuzz(FuzzRequest& request) {
     return fine;
   }
   options.pool = cluster.pools(processes, options.jobs);
-  ProgressBar bar("clues fuzz");
-  const auto begin = std::chrono::steady_clock::now();
-  std::uint64_t first = UINT64_MAX;
-  options.progress = [&](const std::string& stage, std::uint64_t done, std::uint64_t total) {
-    first = std::min(first, done);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    bar.show(fmt::format("{} ({:.1f}/s)", stage, static_cast<double>(done - first) / std::max(seconds, 0.001)), done,
-             total);
-  };
-  options.stop = &catch_interrupts();
-  const auto summary = fuzz::run_campaign(options, *subject);
-  bar.clear();
-  print(to_text(summary, options.out));
-  std::fprintf(stderr, "clues fuzz: %.1f s, %.1f cases a second\n", summary.seconds_now,
-               static_cast<double>(summary.cases_now) / std::max(summary.seconds_now, 0.001));
-  return summary.exit_code();
+  return run_campaign_of(*subject, options);
 }
 
 struct FolderRequest {
@@ -181,8 +229,11 @@ std::string fuzz_footer() {
       "                 the reference refined to depth 2, its hidden regions included\n"
       "  fast:subdivided, fast:backprojected\n"
       "                 the fast path refined to depth 3\n"
-      "  maps, motion, deltas\n"
-      "                 what answers no cell, see below\n"
+      "  maps, motion, deltas, bakes, streams, levels\n"
+      "                 what answers no cell, or many, or one of a whole level, see below\n"
+      "  all            a campaign of each kind, one after the other: reference, fast and the six above, in folders "
+      "of\n"
+      "                 their names in DIR; --cases and --errors are of each, --time is shared out\n"
       "  COMMAND LINE   a program, run once for each scene; {scene}, {cell} and {pvs} stand for an OFF file, an OBJ "
       "file of\n"
       "                 the cell's points, and the list of visible triangle ids that it has to write, one a line;\n"
@@ -196,10 +247,10 @@ std::string fuzz_footer() {
   for (const auto& o : fuzz::all_oracles()) text += fmt::format("  {:<22} {}\n", o->name(), o->what());
   for (const char* name : fuzz::trial_names) {
     const auto subject = fuzz::make_subject(name);
-    text +=
-        fmt::format("\nSUBJECT {}: {}\n  Its generators and oracles; it takes no --scenes, and no dials are turned\n",
-                    name, subject->trial()->what());
-    for (const auto& g : subject->trial()->generators()) text += fmt::format("  {:<22} {}\n", g.name, g.degeneracy);
+    text += fmt::format(
+        "\nSUBJECT {}: {}\n  Its generators and oracles; {}, and no dials are turned\n", name, subject->trial()->what(),
+        subject->trial()->takes_levels() ? "--scenes are levels (bsp), glTF scenes or meshes" : "it takes no --scenes");
+    for (const auto& g : subject->trial()->generators({})) text += fmt::format("  {:<22} {}\n", g.name, g.degeneracy);
     for (const auto& c : subject->trial()->checks()) text += fmt::format("  {:<22} {}\n", c.name, c.what);
   }
   return text +
@@ -210,6 +261,10 @@ std::string fuzz_footer() {
          "  clues fuzz --subject maps --cases 40 --out fuzz-maps\n"
          "  clues fuzz --subject motion --cases 110 --out fuzz-motion\n"
          "  clues fuzz --subject deltas --cases 6 --out fuzz-deltas\n"
+         "  clues fuzz --subject bakes --cases 16 --out fuzz-bakes\n"
+         "  clues fuzz --subject streams --cases 6 --out fuzz-streams\n"
+         "  clues fuzz --subject levels --scenes level.bsp --cases 8 --out fuzz-levels\n"
+         "  clues fuzz --subject all --time 1h --jobs 2 --out fuzz-all\n"
          "  clues fuzz --generator axis_boxes --oracle sight-lines --cases 50 --out fuzz-boxes\n"
          "  clues fuzz --generator umbrellas:1 --cases 50 --out fuzz-gaps            # gaps of one ulp only\n"
          "  clues fuzz --scenes vectors --scenes meshes --time 10m --out fuzz-scenes\n"
@@ -258,8 +313,10 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   fuzz->add_option("--generator", options.generators,
                    "Only this generator; may be repeated. NAME:D: with its dial at D, 0 to 7")
       ->type_name("NAME");
-  fuzz->add_option("--scenes", request->scenes,
-                   "A mesh, a vector file or a folder of them, to be cut up or mutated; may be repeated")
+  fuzz->add_option(
+          "--scenes", request->scenes,
+          "A mesh, a vector file or a folder of them, to be cut up or mutated; for --subject levels a level; may be "
+          "repeated")
       ->type_name("PATH");
   fuzz->add_flag("--no-dials", request->no_dials,
                  "All settings of the engines as usual, all scenes where they are made");

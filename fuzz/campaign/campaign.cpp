@@ -54,10 +54,10 @@ class Cases {
       oracles_ = oracles_named(options.oracles);
       return;
     }
-    if (!options.given.paths.empty())
+    if (!options.given.paths.empty() && !trial_->takes_levels())
       throw Error(ErrorCode::bad_argument, "--scenes: the subject " + subject.name() + " takes none");
     checks_ = checks_named(*trial_, options.oracles);
-    generators_ = generators_named(*trial_, options.generators, checks_);
+    generators_ = generators_named(*trial_, options.generators, checks_, options.given);
   }
 
   std::string plan(std::uint64_t shard, std::uint64_t shards) const {

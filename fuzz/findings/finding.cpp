@@ -33,6 +33,7 @@ json to_json(const Finding& f) {
            {"explanation", f.explanation}};
   if (f.where.solid) out["solid"] = true;
   if (!f.where.dials.empty()) out["dials"] = f.where.dials;
+  if (const json flags = flags_json(f.where); !flags.empty()) out["flags"] = flags;
   if (f.triangle) out["triangle"] = *f.triangle;
   if (f.witness) {
     out["witness"] = {
@@ -58,6 +59,7 @@ Finding to_finding(const json& in) {
   f.where.solid = in.value("solid", false);
   f.where.dials = numbers_by_name(in, "dials");
   for (std::uint32_t t = 0; t < f.where.mesh.triangles.size(); ++t) f.where.mesh.face_of.push_back(t);
+  if (in.contains("flags")) take_flags(in.at("flags"), f.where);
   if (in.contains("triangle")) f.triangle = whole_number<std::uint32_t>(in, "triangle");
   if (in.contains("witness")) {
     const json& w = in.at("witness");
@@ -92,6 +94,8 @@ bool is_about_the_answer(const std::string& verdict) {
 
 }  // namespace
 
+scene::FlaggedMesh flagged(const Case& scene) { return {scene.mesh, scene.blocks, scene.counts, {}}; }
+
 Finding without_answer(const Case& scene, const std::string& why) {
   Finding f;
   f.oracle = "subject";
@@ -123,6 +127,8 @@ void require_whole(const Finding& f, const std::string& place) {
   for (const auto& t : mesh.triangles)
     require(std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) { return corner < mesh.points.size(); }),
             "a triangle has a corner that is no point");
+  for (const auto* flags : {&f.where.blocks, &f.where.counts})
+    require(flags->empty() || flags->size() == mesh.triangles.size(), "there are not as many flags as triangles");
   require(!f.triangle || *f.triangle < mesh.triangles.size(), "it names a triangle that the scene does not have");
   require(f.triangle || !is_about_a_triangle(f.verdict), "the verdict is about a triangle, and none is named");
   require(f.witness || !rests_on_a_sight_line(f.verdict), "the verdict rests on a sight line, and there is none");

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/mesh/flagged_mesh.h"
 #include "scene/mesh/mesh.h"
 
 namespace clues::fuzz {
@@ -21,9 +22,12 @@ struct Case {
   std::uint64_t seed = 0, index = 0;
   scene::TriangleMesh mesh;
   std::vector<scene::Point> cell;
-  bool solid = false;  // asked in solid mode (D4): only fronts count
-  CaseDials dials{};   // what the scene's have done is done
+  bool solid = false;                            // asked in solid mode (D4): only fronts count
+  CaseDials dials{};                             // what the scene's have done is done
+  std::vector<std::uint8_t> blocks{}, counts{};  // D22, per triangle; empty: all do
 };
+
+scene::FlaggedMesh flagged(const Case& scene);
 
 // A sight line that proves triangle `triangle` visible on its front or back side: v in int V, p on the triangle (D5, D6).
 struct WitnessText {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "fuzz/findings/finding.h"
 #include "scene/json_reader.h"
 
 namespace clues::fuzz {
@@ -62,6 +63,32 @@ inline std::map<std::string, std::int64_t> numbers_by_name(const nlohmann::json&
     out[name] = value.get<std::int64_t>();
   }
   return out;
+}
+
+// The flags of a scene (D22), a digit a triangle; an object without fields where all triangles block and count.
+inline nlohmann::json flags_json(const Case& scene) {
+  nlohmann::json out = nlohmann::json::object();
+  const auto put = [&](const char* name, const std::vector<std::uint8_t>& flags) {
+    if (flags.empty()) return;
+    std::string digits;
+    for (const auto flag : flags) digits += flag != 0 ? '1' : '0';
+    out[name] = digits;
+  };
+  put("blocks", scene.blocks);
+  put("counts", scene.counts);
+  return out;
+}
+
+inline void take_flags(const nlohmann::json& flags, Case& scene) {
+  if (!flags.is_object()) throw scene::JsonError(0, "\"flags\" is no object");
+  for (const auto& [name, value] : flags.items()) {
+    if (name != "blocks" && name != "counts") throw scene::JsonError(0, "\"flags\" has a field that it cannot have");
+    auto& out = name == "blocks" ? scene.blocks : scene.counts;
+    for (const char digit : value.get<std::string>()) {
+      if (digit != '0' && digit != '1') throw scene::JsonError(0, "a flag is neither 0 nor 1");
+      out.push_back(digit == '1' ? 1 : 0);
+    }
+  }
 }
 
 }  // namespace clues::fuzz

@@ -13,6 +13,7 @@ struct NamedGenerator {
   std::string name;
   std::string degeneracy;  // what it is made to hit, for --help
   std::function<Case(std::uint64_t seed, std::uint64_t index)> make;
+  std::string missing{};  // what has to be given before it can make anything; empty: nothing
 };
 
 }  // namespace clues::fuzz

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fuzz/generators/random_scenes.h"
+#include "scene/mesh/flagged_mesh.h"
 
 namespace clues::fuzz {
 
@@ -13,6 +14,21 @@ struct GivenScene {
   std::string name;
   scene::TriangleMesh mesh;
   std::vector<scene::Point> cell;  // empty: none was given
+};
+
+// A scene with flags (D22) to be seen from cells of its own; without any, from boxes.
+struct GivenLevel {
+  std::string name;
+  scene::FlaggedMesh scene;
+  std::vector<std::vector<scene::Point>> cells;
+};
+
+struct GivenScenes {
+  std::vector<GivenScene> meshes;  // of more than 40 triangles
+  std::vector<GivenScene> small;
+  std::vector<GivenLevel> levels;
+  std::vector<std::string> paths;  // as they were given
+  std::string hashes;              // SHA-256 of each file, in the order of reading
 };
 
 // Two or three patches of neighbouring triangles, cut from the meshes, thinned out (the dial: 0 none, 7 half of them), and scattered: at most 40

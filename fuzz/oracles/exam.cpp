@@ -181,26 +181,4 @@ void Exam::contradiction(const std::string& oracle, const std::string& what) {
       fmt::format("{} on {} {} of seed {}: {}", oracle, scene_.generator, scene_.index, scene_.seed, what));
 }
 
-WitnessText to_text(const Witness& w) {
-  const auto text = [](const Point3& p) {
-    return std::array<std::string, 3>{exact::to_string_exact(p.x()), exact::to_string_exact(p.y()),
-                                      exact::to_string_exact(p.z())};
-  };
-  return {w.triangle, w.front, text(w.v), text(w.p)};
-}
-
-Witness to_witness(const WitnessText& w) {
-  const auto point = [](const std::array<std::string, 3>& text) {
-    validate::RVector q;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!validate::is_rational(text[i]))
-        throw scene::Error(scene::ErrorCode::malformed, "a witness has a coordinate that is no fraction: " + text[i]);
-      q[i] = validate::Rational(text[i]);
-      q[i].canonicalize();
-    }
-    return validate::to_point(q);
-  };
-  return {w.triangle, w.front, point(w.v), point(w.p)};
-}
-
 }  // namespace clues::fuzz

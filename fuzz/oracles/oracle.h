@@ -9,6 +9,7 @@
 #include "exact/cell/convex_cell.h"
 #include "exact/sight/point_occlusion.h"
 #include "fuzz/findings/finding.h"
+#include "fuzz/findings/witness_text.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/subjects/subject.h"
 #include "reference/visibility/first_order.h"
@@ -83,10 +84,6 @@ std::vector<const Oracle*> oracles_named(const std::vector<std::string>& names);
 
 // One case from beginning to end. What an oracle throws is a contradiction.
 Outcome judge_case(const Case& scene, const Subject& subject, const std::vector<const Oracle*>& oracles);
-
-// Between text and exact numbers. to_witness throws scene::Error malformed.
-WitnessText to_text(const validate::Witness& witness);
-validate::Witness to_witness(const WitnessText& text);
 
 std::unique_ptr<Oracle> make_sight_lines();      // sight_lines.cpp
 std::unique_ptr<Oracle> make_point_occlusion();  // oracles.cpp

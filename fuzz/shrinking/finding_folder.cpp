@@ -131,6 +131,8 @@ SavedFinding finding_of(const json& about, const CaseTexts& now, const CaseTexts
   }
   saved.finding.where.dials = numbers_by_name(about, "dials");
   saved.original.where.dials = numbers_by_name(about, "dials_original");
+  if (about.contains("flags")) take_flags(about.at("flags"), saved.finding.where);
+  if (about.contains("flags_original")) take_flags(about.at("flags_original"), saved.original.where);
   about.at("subject").get_to(saved.subject);
   about.at("scenes").get_to(saved.scenes);
   saved.steps = whole_number<std::uint64_t>(about, "shrink_steps");
@@ -214,6 +216,8 @@ void save_finding(const SavedFinding& saved, const fs::path& folder) {
   const CaseDials& of_original = saved.original.where.dials;  // shrinking turns some of them back
   if (!f.where.dials.empty()) about["dials"] = f.where.dials;
   if (!of_original.empty()) about["dials_original"] = of_original;
+  if (const json flags = flags_json(f.where); !flags.empty()) about["flags"] = flags;
+  if (const json flags = flags_json(saved.original.where); !flags.empty()) about["flags_original"] = flags;
   try {
     scene::FolderUpdate update(place, all_files);
     put_case(update, f, "", about["sha256"]);

@@ -66,7 +66,7 @@ std::optional<Finding> by_witness(const Finding& f, const Case& candidate, const
 // `f` as it would be in `candidate`: its triangle is number `triangle` there.
 // Throws NoAnswer.
 std::optional<Finding> found_by_oracles(const Finding& f, const Case& candidate, const Subject& subject) {
-  if (const Trial* trial = subject.trial()) return found_again(f, candidate, *trial);
+  if (const Trial* trial = subject.trial()) return trial->found_again(f, candidate);
   if (f.oracle == "subject") {  // it gave no answer
     for (Finding& g : judge_case(candidate, subject, {}).findings) {
       if (g.verdict == f.verdict) return std::move(g);
@@ -162,6 +162,8 @@ class Shrinker {
     const Case& old = best_.where;
     Case candidate = old;
     candidate.mesh = {};
+    candidate.blocks.clear();
+    candidate.counts.clear();
     std::optional<std::uint32_t> triangle;
     std::vector<std::uint32_t> number(old.mesh.points.size(), 0xffffffffU);
     for (std::size_t t = 0; t < old.mesh.triangles.size(); ++t) {
@@ -178,6 +180,8 @@ class Shrinker {
       }
       candidate.mesh.face_of.push_back(static_cast<std::uint32_t>(candidate.mesh.triangles.size()));
       candidate.mesh.triangles.push_back(corners);
+      if (!old.blocks.empty()) candidate.blocks.push_back(old.blocks[t]);
+      if (!old.counts.empty()) candidate.counts.push_back(old.counts[t]);
     }
     const std::size_t left = candidate.mesh.triangles.size();
     if (left == 0 || left == old.mesh.triangles.size()) return false;
@@ -267,13 +271,15 @@ Shrunk shrink(const Finding& finding, const Subject& subject, const ShrinkLimits
 }
 
 std::string flaw_of(const Finding& f, const Subject& subject) {
-  if (!f.witness)
+  if (f.witness) {
+    const Witness w = to_witness(*f.witness);
+    if (w.triangle >= f.where.mesh.triangles.size()) return "the witness names a triangle that the scene does not have";
+    const auto checked = check_flagged_witness(flagged(f.where), exact::ConvexCell::from_doubles(f.where.cell), w);
+    if (!checked.valid) return "the witness is no proof: " + checked.reason;
+  }
+  if (!f.witness || subject.trial())
     return found_by_oracles(f, f.where, subject) ? "" : "the oracle " + f.oracle + " does not find it again";
   const Witness w = to_witness(*f.witness);
-  if (w.triangle >= f.where.mesh.triangles.size()) return "the witness names a triangle that the scene does not have";
-  const auto cell = exact::ConvexCell::from_doubles(f.where.cell);
-  const auto checked = exact::check_witness(f.where.mesh, cell, w.triangle, w.front, w.v, w.p);
-  if (!checked.valid) return "the witness is no proof: " + checked.reason;
   const Answer answer = subject.answer(f.where);
   const std::string verdict = verdict_of(f.where, answer, w);
   if (verdict != f.verdict) return "the subject does not deny what the witness proves";

@@ -11,9 +11,12 @@
 #include "fuzz/findings/case_random.h"
 #include "fuzz/findings/dials.h"
 #include "fuzz/findings/files.h"
+#include "fuzz/trials/bakes_trial.h"
 #include "fuzz/trials/deltas_trial.h"
+#include "fuzz/trials/levels_trial.h"
 #include "fuzz/trials/maps_trial.h"
 #include "fuzz/trials/motion_trial.h"
+#include "fuzz/trials/streams_trial.h"
 #include "reference/visibility/refinement/bounds.h"
 #include "scene/files/atomic_file.h"
 #include "scene/files/temporary_folder.h"
@@ -218,6 +221,9 @@ std::unique_ptr<Subject> make_subject(const std::string& text) {
   if (text == "maps") return subject_of(text, make_maps_trial());
   if (text == "motion") return subject_of(text, make_motion_trial());
   if (text == "deltas") return subject_of(text, make_deltas_trial());
+  if (text == "bakes") return subject_of(text, make_bakes_trial());
+  if (text == "streams") return subject_of(text, make_streams_trial());
+  if (text == "levels") return subject_of(text, make_levels_trial());
   assert(text == "fast:backprojected");
   return refined_fast_subject(text, fastpath::RefineBy::backprojection);
 }

@@ -31,7 +31,7 @@ class DeltasTrial : public Trial {
   }
 
   const char* what() const override { return "transitions of clues delta from cell to cell (D24)"; }
-  const std::vector<NamedGenerator>& generators() const override { return generators_; }
+  std::vector<NamedGenerator> generators(const GivenScenes&) const override { return generators_; }
   const std::vector<Check>& checks() const override {
     static const std::vector<Check> all{
         {transition_judged,

@@ -41,7 +41,7 @@ class MapsTrial : public Trial {
   }
 
   const char* what() const override { return "hierarchies and remeshes of clues maps, both kernels (D31-D34)"; }
-  const std::vector<NamedGenerator>& generators() const override { return generators_; }
+  std::vector<NamedGenerator> generators(const GivenScenes&) const override { return generators_; }
   const std::vector<Check>& checks() const override {
     static const std::vector<Check> all{
         {hierarchy_judged,

@@ -128,7 +128,7 @@ class MotionTrial : public Trial {
   }
 
   const char* what() const override { return "motion bounds of both kernels, and walks of clues motion (D28-D30)"; }
-  const std::vector<NamedGenerator>& generators() const override { return generators_; }
+  std::vector<NamedGenerator> generators(const GivenScenes&) const override { return generators_; }
   const std::vector<Check>& checks() const override {
     static const std::vector<Check> all{
         {bounds_hold, "no viewpoint nearer than a bound violates what it is for", {"bounds proved"}},

@@ -32,8 +32,8 @@ std::vector<Trial::Check> checks_named(const Trial& trial, const std::vector<std
 }
 
 std::vector<NamedGenerator> generators_named(const Trial& trial, const std::vector<std::string>& names,
-                                             const std::vector<Trial::Check>& checks) {
-  auto chosen = those_named(trial.generators(), names, "--generator");
+                                             const std::vector<Trial::Check>& checks, const GivenScenes& given) {
+  auto chosen = those_named(trial.generators(given), names, "--generator");
   const auto is_idle = [&](const NamedGenerator& g) {
     return std::none_of(checks.begin(), checks.end(),
                         [&](const Trial::Check& check) { return trial.looks_at(check.name, g.name); });
@@ -42,7 +42,11 @@ std::vector<NamedGenerator> generators_named(const Trial& trial, const std::vect
   if (!names.empty() && idle != chosen.end())
     throw scene::Error(scene::ErrorCode::bad_argument,
                        fmt::format("--generator {}: none of the oracles that are asked for looks at it", idle->name));
-  std::erase_if(chosen, is_idle);
+  const auto missing = std::find_if(chosen.begin(), chosen.end(), [](const auto& g) { return !g.missing.empty(); });
+  if (!names.empty() && missing != chosen.end())
+    throw scene::Error(scene::ErrorCode::bad_argument,
+                       fmt::format("--generator {}: give {} with --scenes", missing->name, missing->missing));
+  std::erase_if(chosen, [&](const NamedGenerator& g) { return is_idle(g) || !g.missing.empty(); });
   return chosen;
 }
 
@@ -59,12 +63,12 @@ Outcome judge_case(const Case& scene, const Trial& trial, const std::vector<Tria
   return outcome;
 }
 
-std::optional<Finding> found_again(const Finding& finding, const Case& scene, const Trial& trial) {
+std::optional<Finding> Trial::found_again(const Finding& finding, const Case& scene) const {
   Outcome outcome;
   if (finding.oracle == "subject") {  // it gave no answer
-    outcome = judge_case(scene, trial, trial.checks());
+    outcome = judge_case(scene, *this, checks());
   } else {
-    trial.judge(scene, {finding.oracle}, outcome);
+    judge(scene, {finding.oracle}, outcome);
   }
   for (Finding& f : outcome.findings) {
     if (f.oracle == finding.oracle && f.verdict == finding.verdict) return std::move(f);
