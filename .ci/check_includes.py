@@ -31,7 +31,7 @@ CHAPTERS = {
                  "visibility/refinement", "contours", "motion", "multires", "bakes"],
     "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "cells", "vectors", "conform",
                  "motion", "multires", "stream"],
-    "fuzz": ["generators", "motion", "multires", "findings", "trials", "subjects", "oracles", "shrinking", "campaign", "report",
+    "fuzz": ["generators", "levels", "motion", "multires", "findings", "trials", "subjects", "oracles", "shrinking", "campaign", "report",
              "targets"],
     "app": [".", "cluster", "cluster/mpi", "map", "view", "engine", "bake", "demo", "maps", "motion", "stream", "commands"],
 }

@@ -139,6 +139,8 @@ class Campaign {
     summary.counters = store_.counters();
     summary.findings = store_.findings();
     summary.contradictions = store_.contradictions();
+    for (const auto& pair : rules_met(summary.counters).wrongly_impossible)
+      summary.contradictions.push_back("rules that exclude each other were met in one map: " + pair);
     summary.never_occurred = never_occurred(summary.counters);
     summary.generators = cases_.generators().size();
     summary.enough = std::max(rounds_to_judge * cases_.generators().size(), least_to_judge);
@@ -352,7 +354,8 @@ namespace {
 
 std::string rules_text(const Counters& counters) {
   const RulesMet met = rules_met(counters);
-  std::string text = fmt::format("{:>14}  of {} pairs of rules met in one case\n", met.pairs, met.all_pairs);
+  std::string text = fmt::format("{:>14}  of {} pairs of rules met in one case; {} more exclude each other\n",
+                                 met.pairs, met.all_pairs, met.impossible);
   for (const auto& rule : met.never) text += fmt::format("{:>14}  met: rule {}\n", "never", rule);
   for (const auto& pair : met.apart) text += fmt::format("{:>14}  met together: {}\n", "never", pair);
   return text;

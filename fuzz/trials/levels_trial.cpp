@@ -11,7 +11,7 @@
 #include "exact/threads.h"
 #include "fuzz/findings/case_random.h"
 #include "fuzz/findings/witness_text.h"
-#include "fuzz/generators/levels.h"
+#include "fuzz/levels/made_levels.h"
 #include "fuzz/trials/denied_sight.h"
 
 namespace clues::fuzz {

@@ -12,6 +12,8 @@
 namespace clues::fuzz {
 namespace {
 
+using Ids = std::vector<std::uint32_t>;
+
 scene::TriangleMesh mesh_of(std::vector<scene::Point> points, std::vector<scene::Triangle> triangles) {
   scene::TriangleMesh mesh;
   mesh.points = std::move(points);
@@ -119,6 +121,91 @@ TEST(Found, ASliverOneSmallestDoubleHigh) {
                0,
                mesh_of({{0, 0, 1.5e-323}, {1, -1, 0}, {0, 30, -1}, {0, 0, 0}}, {{0, 3, 1}, {2, 0, 1}}),
                {{4, 2, 0}, {-4, -2, 0}, {0, 0, 1}, {-4, 0, 0}}});
+}
+
+std::vector<scene::Point> box_cell(const scene::Point& lo, const scene::Point& hi) {
+  std::vector<scene::Point> cell;
+  for (unsigned i = 0; i < 8; ++i)
+    cell.push_back({(i & 1U) != 0 ? hi[0] : lo[0], (i & 2U) != 0 ? hi[1] : lo[1], (i & 4U) != 0 ? hi[2] : lo[2]});
+  return cell;
+}
+
+Ids seen_exactly(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) {
+  reference::Options options;
+  options.threads = 1;
+  return reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(cell), options).visible;
+}
+
+// nonconvex_solids 0 of seed 20261124, subject bakes, 54 triangles before. Of triangle 8 the box sees a border and no more, so that it is not listed; without it the flat cell in the box sees triangle 4, which is
+// hidden from it in the scene. T6 has triangle 8; `clues bake --group` has not, and lists triangle 4.
+TEST(Found, ABoxOfAGroupListsNothingOfWhichItSeesABorder) {
+  const auto mesh = mesh_of({{6, 0, 3},
+                             {7, 0, 1},
+                             {9, 0, 2},
+                             {6, 1, 0},
+                             {6, 1, 3},
+                             {7, 1, 1},
+                             {6, 0, 0},
+                             {9, 0, 0},
+                             {9, 1, 0},
+                             {9, 1, 1},
+                             {9, 0, 1}},
+                            {{0, 1, 2},
+                             {3, 4, 5},
+                             {6, 1, 0},
+                             {7, 1, 6},
+                             {8, 5, 9},
+                             {7, 10, 1},
+                             {6, 0, 4},
+                             {6, 4, 3},
+                             {2, 1, 5},
+                             {1, 10, 9},
+                             {1, 9, 5}});
+  auto without = mesh;
+  without.triangles.erase(without.triangles.begin() + 8);
+  without.face_of.pop_back();
+  const std::vector<scene::Point> cell{
+      {1.0625, -2, 2.375}, {3.8125, -2, 2.375}, {1.0625, 0, 2.375}, {3.8125, 0, 2.375}};
+  EXPECT_EQ(seen_exactly(mesh, box_cell({1.0625, -2, 2}, {3.8125, 1.75, 2.421875})),
+            (Ids{0, 1, 2, 3, 4, 5, 6, 7, 9, 10}));
+  EXPECT_EQ(seen_exactly(mesh, cell), (Ids{0, 2, 3, 5, 6, 7, 9}));
+  EXPECT_EQ(seen_exactly(without, cell), (Ids{0, 2, 3, 4, 5, 6, 7, 8})) << "triangle 9 is number 8 there";
+  for (const auto& c : {cell, box_cell({1.0625, -2, 2}, {3.8125, 1.75, 2.421875})}) {
+    is_answered({"found", 0, 0, mesh, c});
+    is_answered({"found", 0, 0, without, c});
+  }
+}
+
+// interpenetrating 5 of seed 1, subject bakes, 15 triangles before.
+scene::TriangleMesh eight_triangles_at_a_cell() {
+  return mesh_of(
+      {{3.6875, 5.3125, 5.1875}, {3.5, 3.75, 4.1875},
+       {2.4375, 3.75, 3.875},    {3.75, 5.0625, 3.1875},
+       {3, 4.6875, 3.0625},      {3.75, 2.0625, 1.625},
+       {3.25, 4.875, 3.6875},    {1.9375, 4.25, 1.0625},
+       {4, 1.5625, 2.3125},      {4, 5.125, 2},
+       {3.875, 4, 2.8125},       {3.0625, 7.9375, 3.8125},
+       {3.1875, 5.0625, 4.5},    {2.0625, 2.4375, 2.6875},
+       {4.25, 8.1875, 8.3125},   {3.4375, 3.4375, 3.375},
+       {2.25, 5.625, 1.0625},    {4.6875, 7.4375, 3.9375},
+       {3.3125, 2.4375, 4.8125}, {5.3125, -0.25, 1.75},
+       {3.25, 3.0625, 8.4375},   {2.875, 2.6875, 4.875},
+       {1.125, 4.125, 5.5},      {1.0625, 4.875, 3.0625}},
+      {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}, {12, 13, 14}, {15, 16, 17}, {18, 19, 20}, {21, 22, 23}});
+}
+
+// Open: 212 in a new process, and 208 to 214 in one that has mapped before, so that the bytes of `clues bake --kernel exact` depend on --threads.
+TEST(Found, DISABLED_TheExactKernelCountsTheSameFallbacksTwice) {
+  const auto fallbacks = [] {
+    reference::Options options;
+    options.threads = 1;
+    return reference::first_order_visibility(
+               eight_triangles_at_a_cell(),
+               exact::ConvexCell::from_doubles(box_cell({-0.3125, -2, 1.0625}, {2.5, 3.09375, 8.4375})), options)
+        .statistics.conservative_fallbacks;
+  };
+  const auto first = fallbacks();
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(fallbacks(), first);
 }
 
 void campaign_finds_nothing(const char* name, std::uint64_t cases = 320, const std::string& left_out = "") {

@@ -8,7 +8,7 @@
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/generators/city.h"
-#include "fuzz/generators/levels.h"
+#include "fuzz/levels/made_levels.h"
 #include "fuzz/shrinking/finding_folder.h"
 #include "fuzz/trials/bakes_trial.h"
 #include "fuzz/trials/levels_trial.h"

@@ -43,7 +43,8 @@ TEST(Rules, WhatNeverMetIsNamed) {
   EXPECT_EQ(nothing.pairs, 0U);
   EXPECT_TRUE(nothing.apart.empty());
   const auto all = nothing.never.size();
-  EXPECT_EQ(nothing.all_pairs, all * (all - 1) / 2 - 6) << "of four kinds of cells no two meet";
+  EXPECT_EQ(nothing.impossible, 6U + 3U + 7U) << "kinds of cells; what is in the cell; edges of a point";
+  EXPECT_EQ(nothing.all_pairs, all * (all - 1) / 2 - nothing.impossible);
   const auto some = rules_met({{"rule D2 point", 3},
                                {"rule D2 segment", 2},
                                {"rule D10 SV-ME", 4},
@@ -54,6 +55,14 @@ TEST(Rules, WhatNeverMetIsNamed) {
   EXPECT_EQ(some.never.size(), all - 4);
   EXPECT_THAT(some.apart,
               testing::ElementsAre("D2 point + D14 walk", "D2 segment + D10 SV-ME", "D2 segment + D14 walk"));
+}
+
+// What is said to be impossible is looked for all the same.
+TEST(Rules, ImpossiblePairsThatMeetAreNamed) {
+  const auto met = rules_met({{"rule D2 point", 1}, {"rule D11 SE-ME", 1}, {"pair D2 point + D11 SE-ME", 1}});
+  EXPECT_THAT(met.wrongly_impossible, testing::ElementsAre("D2 point + D11 SE-ME"));
+  EXPECT_TRUE(met.apart.empty());
+  EXPECT_EQ(met.pairs, 0U);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "fuzz/generators/levels.h"
+#include "fuzz/levels/made_levels.h"
 
 #include <algorithm>
 #include <array>
