@@ -54,6 +54,29 @@ TEST(LightSearch, WorksInEveryUnit) {
   }
 }
 
+// A blocker with a corner in the triangle's plane has a shadow with a side of no length. On both sides of that lay all that was left, twice as much with each such side: `clues check`
+// of these four triangles ran out of 24 GiB. (Found by a campaign: ulp_perturbed, seed 20261125, scene 196.)
+TEST(LightSearch, EndsWhereAShadowHasASideWithoutLength) {
+  scene::TriangleMesh mesh;
+  mesh.points = {{2.8125, 1.1875, 4}, {0, 1.1875, 4}, {0, 1.1875, 6.8125},
+                 {2.8125, 0, 4},      {0, 0, 6.8125}, {0, 0, 3.9999999999999996}};
+  mesh.triangles = {{3, 4, 5}, {5, 4, 2}, {5, 2, 1}, {3, 1, 0}};
+  mesh.face_of = {0, 1, 2, 3};
+  const auto cell = exact::ConvexCell::from_doubles({{-3.5625, -3, 4.249999999999999},
+                                                     {-1.25, -3, 4.25},
+                                                     {-3.5625, 1.1875, 4.25},
+                                                     {-1.25, 1.1875, 4.25},
+                                                     {-3.5625, -3, 5.5},
+                                                     {-1.25, -3, 5.5},
+                                                     {-3.5625, 1.1875, 5.5},
+                                                     {-1.25, 1.1875, 5.5}});
+  const LightSearch search(mesh, cell, true);
+  for (std::uint32_t t = 0; t < 4; ++t) {
+    const auto found = search.find(t);
+    EXPECT_TRUE(!found || exact::check_witness(mesh, cell, t, found->front, found->v, found->p).valid);
+  }
+}
+
 // Vertices that no triangle has are no part of the scene.
 TEST(LightSearch, DoesNotMindVerticesWithoutATriangle) {
   auto mesh = iris();

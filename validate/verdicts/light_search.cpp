@@ -21,6 +21,7 @@ constexpr int kLinesEach = 32;            // sight lines from a viewpoint
 constexpr int kTrials = 8;                // of all to a triangle that seem free, such as are put to the witness checker
 constexpr double kBeforePlane = 0x1p-40;  // of the way: so far in front of the triangle's plane lines end
 constexpr double kTooSmall = 0x1p-44;     // of the triangle's area
+constexpr std::size_t kMostParts = 4096;  // that are left; more mean that doubles do not suffice here
 
 // In coordinates of the triangle: (1, 0) is its second corner, (0, 1) the third one.
 using Place = std::array<double, 2>;
@@ -62,13 +63,16 @@ std::vector<Corner> part_where(const std::vector<Corner>& polygon, const Value& 
   return part;
 }
 
-// What a convex shadow, counter-clockwise, leaves of a convex polygon; nothing: it does not reach it.
+// What a convex shadow, counter-clockwise, leaves of a convex polygon; nothing: it does not reach it. Parts share borders alone: what has no corner beyond a line of the shadow, as of a
+// side without length, leaves nothing there.
 std::optional<std::vector<Polygon2>> without(const Polygon2& polygon, const Polygon2& shadow) {
   std::vector<Polygon2> left;
   Polygon2 rest = polygon;
   for (std::size_t i = 0; i < shadow.size() && rest.size() >= 3; ++i) {
     const Place &a = shadow[i], &b = shadow[(i + 1) % shadow.size()];
-    Polygon2 outside = part_where(rest, [&](const Place& p) { return -cross(a, b, p); });
+    const auto beyond = [&](const Place& p) { return -cross(a, b, p); };
+    if (std::none_of(rest.begin(), rest.end(), [&](const Place& p) { return beyond(p) > 0; })) continue;
+    Polygon2 outside = part_where(rest, beyond);
     if (outside.size() >= 3 && area(outside) > kTooSmall) left.push_back(std::move(outside));
     rest = part_where(rest, [&](const Place& p) { return cross(a, b, p); });
   }
@@ -179,7 +183,7 @@ std::optional<Witness> LightSearch::find_from(const Viewpoint& from, std::uint32
   fastpath::SegmentQueries queries(bvh_);
   const std::array<std::uint32_t, 1> itself{triangle};
   std::vector<Polygon2> left{{{0, 0}, {1, 0}, {0, 1}}}, next;
-  for (int lines = 0; lines < kLinesEach && trials < kTrials && !left.empty(); ++lines) {
+  for (int lines = 0; lines < kLinesEach && trials < kTrials && !left.empty() && left.size() <= kMostParts; ++lines) {
     const auto largest = std::max_element(left.begin(), left.end(),
                                           [](const Polygon2& x, const Polygon2& y) { return area(x) < area(y); });
     const Place at = middle(*largest);
