@@ -262,13 +262,8 @@ class Search {
         touched_.insert(apex);
       }
     }
-    std::vector<Apex*> order(touched_.begin(), touched_.end());
+    const std::vector<Apex*> order(touched_.begin(), touched_.end());
     touched_.clear();
-    std::sort(order.begin(), order.end(), [](const Apex* a, const Apex* b) {
-      if (a->on_edge() != b->on_edge()) return b->on_edge();
-      if (a->id() != b->id()) return a->id() < b->id();
-      return before(a->x(), b->x());
-    });
     for (Apex* apex : order) {
       if (apex->on_edge()) csvs_met_.insert(apex);
     }
@@ -457,6 +452,15 @@ class Search {
     out.lit_edges.erase(std::unique(out.lit_edges.begin(), out.lit_edges.end()), out.lit_edges.end());
   }
 
+  // By what an apex is, and not by where it was allocated: what is left out next depends on what was before.
+  struct ApexLess {
+    bool operator()(const Apex* a, const Apex* b) const {
+      if (a->on_edge() != b->on_edge()) return b->on_edge();
+      if (a->id() != b->id()) return a->id() < b->id();
+      return before(a->x(), b->x());
+    }
+  };
+
   struct CsvLess {
     bool operator()(const std::pair<std::uint32_t, Point3>& a, const std::pair<std::uint32_t, Point3>& b) const {
       return a.first != b.first ? a.first < b.first : before(a.second, b.second);
@@ -478,9 +482,9 @@ class Search {
   Light light_ = Light::sure;  // that spreads now
   std::map<std::pair<std::uint32_t, Point3>, std::unique_ptr<Apex>, CsvLess> csvs_;
   std::map<std::uint32_t, std::unique_ptr<Apex>> corners_;
-  std::set<Apex*> touched_;
-  std::set<const Apex*> csvs_met_;  // in this round
-  std::set<const Apex*> left_out_;  // by a limit, in this round
+  std::set<Apex*, ApexLess> touched_;
+  std::set<const Apex*, ApexLess> csvs_met_;  // in this round
+  std::set<const Apex*, ApexLess> left_out_;  // by a limit, in this round
 };
 
 }  // namespace
