@@ -174,7 +174,10 @@ int run_contours(const ContoursRequest& request) {
   const auto options = request.method.to_reference();
   require_writable_parent(request.out);
   require_apart({&request.out}, {&request.scene, &request.parent, &request.cells});
+  const auto sha256 = scene::sha256_of_file(request.scene);
   const auto mesh = scene::read_plain_scene(request.scene);
+  if (scene::sha256_of_file(request.scene) != sha256)
+    throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
   const auto cells = placed_cells(request);
   for (const auto& cell : cells) {
     if (cell.within != 0) require_within(cell, cells);
@@ -195,7 +198,7 @@ int run_contours(const ContoursRequest& request) {
   }
   if (!request.out.empty()) {
     auto file = maker.file();
-    file.scene_sha256 = scene::sha256_of_file(request.scene);
+    file.scene_sha256 = sha256;
     const std::string bytes = scene::to_bytes(file);
     scene::write_file_atomically(request.out, bytes);
     text += fmt::format("{}: {} cells in {} bytes\n", request.out, file.cells.size(), bytes.size());

@@ -75,8 +75,8 @@ int run_detail(const DetailRequest& request) {
   const auto from = exact::ConvexCell::from_doubles(scene::parse_cell(request.from).points),
              to = exact::ConvexCell::from_doubles(scene::parse_cell(request.to).points);
   const reference::MovingEye eye{{at[0], at[1], at[2]}, {velocity[0], velocity[1], velocity[2]}};
-  if (!from.contains(eye.at))
-    throw Error(ErrorCode::bad_argument, "--eye " + request.eye + ": is not in the cell of --from");
+  if (!to.contains(eye.at))  // from the first cell nothing of the packet is seen, so nothing would be proved there
+    throw Error(ErrorCode::bad_argument, "--eye " + request.eye + ": is not in the cell of --to");
   const auto plus = reference::packets_of(reference::first_order_visibility(mesh, from, options).visible,
                                           reference::first_order_visibility(mesh, to, options).visible)
                         .plus;
@@ -100,7 +100,7 @@ void add_delta_detail(CLI::App& delta, int& status) {
   command->add_option("SCENE", request->scene, std::string("The scene: ") + scene::scene_formats)->required();
   required("--from", request->from, "The cell that the viewer leaves", "SPEC");
   required("--to", request->to, "The cell that he enters", "SPEC");
-  required("--eye", request->eye, "Where he is, in the first cell", "X,Y,Z");
+  required("--eye", request->eye, "Where he is as he enters, in the second cell", "X,Y,Z");
   required("--velocity", request->velocity, "How he moves, in units of the scene a second", "X,Y,Z");
   required("--curve", request->curve, "Which error goes unseen at which speed of the image (docs/formats.md)", "FILE");
   required("--errors", request->errors, "How far each coarser detail is from the finest, at most: rising", "E,E,...");
@@ -112,11 +112,13 @@ void add_delta_detail(CLI::App& delta, int& status) {
           "triangle\n"
           "  moves over the eye at some speed at least, and at that speed, the curve says, so large an error is not "
           "seen.\n"
-          "  Detail 0 is the finest. docs/delta.md says what is proved; `clues maps --remesh` makes details with a "
+          "  Detail 0 is the finest. That is of an eye at that place with that velocity: nearer, or slower, it may see "
+          "more.\n"
+          "  docs/delta.md says what is proved; `clues maps --remesh` makes details with a "
           "proved error.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
-      "  clues delta detail town.obj --from box:0,0,1,1,2,2 --to box:1,0,1,2,2,2 --eye 0.5,1,1.5 --velocity 8,0,0 "
+      "  clues delta detail town.obj --from box:0,0,1,1,2,2 --to box:1,0,1,2,2,2 --eye 1,1,1.5 --velocity 8,0,0 "
       "--curve seen.curve --errors 0.01,0.1\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input   4 an oracle contradicted itself");

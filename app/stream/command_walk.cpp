@@ -217,6 +217,9 @@ int run_walk(const WalkRequest& request) {
     throw Error(ErrorCode::bad_argument, "--routes is for --steps, and for figures alone");
   if (request.ahead > 0 && request.send.horizon == 0)
     throw Error(ErrorCode::bad_argument, "--ahead needs a --horizon of 1 or more: what he still sees would go");
+  if (request.ahead > request.pace * static_cast<double>(request.send.horizon))
+    throw Error(ErrorCode::bad_argument,
+                "--ahead: at most --pace times --horizon; from farther behind, what he still sees would go");
   if (request.in_time && request.send.levels == 0)
     throw Error(ErrorCode::bad_argument, "--in-time needs a --hierarchy of 1 or more: it chooses among its nodes");
   if (!request.connect.empty() && (!request.link.empty() || !request.send.is_default()))

@@ -180,7 +180,7 @@ class Baker {
     map_below(node, std::make_shared<const Part>(Part{std::move(lister), std::move(ids)}), tasks);
   }
 
-  // All that is visible, of which the store gets what counts.
+  // What is visible and counts: what the store gets, and the next one's guess, whether it was mapped now or found.
   Ids map_cell(std::uint32_t cell, const Part& part, const Ids& guess) {
     if (auto there = places_.find(PlaceKind::cell, cell)) return std::move(there->list);
     if (stop_) return {};

@@ -132,11 +132,7 @@ class Atlas {
     std::vector<Place> places;
     const Vec3<Interval>& from = drawn[0].graph->drawn().points[drawn[0].k].at;
     const Vec3<Interval>& to = drawn[0].graph->drawn().points[(drawn[0].k + 1) % 3].at;
-    const std::array<Interval, 3> way{to.x - from.x, to.y - from.y, to.z - from.z};
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (size_of(way[i]) > size_of(way[axis])) axis = i;
-    }
+    const int axis = longest_axis(from, to);  // that of both sides: what is one stop there is in one group here
     for (std::size_t who = 0; who < drawn.size(); ++who) {
       AlongEdge& side = drawn[who];
       side.group_of.assign(side.stops(), 0);
@@ -176,8 +172,6 @@ class Atlas {
     }
     return groups.size();
   }
-
-  static double size_of(const Interval& x) { return std::fabs(x.inf() / 2 + x.sup() / 2); }
 
   static std::vector<int> blocked_at(const std::vector<AlongEdge>& drawn, std::size_t g) {
     std::vector<int> levels;
@@ -313,7 +307,7 @@ bool LitRegion::may_hold(const scene::Point& point) const {
     const double ahead = dx * (p[0] - a[0]) + dy * (p[1] - a[1]);
     const double turn = dx * (p[1] - a[1]) - dy * (p[0] - a[0]);
     const double before = std::hypot(p[0] - a[0], p[1] - a[1]), behind = std::hypot(p[0] - b[0], p[1] - b[1]);
-    if (before <= slack || behind <= slack) return true;
+    if (!std::isfinite(turn) || !std::isfinite(ahead) || before <= slack || behind <= slack) return true;
     if (ahead >= -slack * length && ahead <= length * (length + slack) && std::fabs(turn) <= slack * length)
       return true;
     if ((a[1] <= p[1]) != (b[1] <= p[1])) turns += a[1] <= p[1] ? (turn > 0 ? 1 : 0) : (turn < 0 ? -1 : 0);

@@ -16,14 +16,17 @@ Interval dot2(const FlatBox& a, const FlatBox& b) { return a.x * b.x + a.y * b.y
 
 bool is_left_turn(const FlatBox& a, const FlatBox& b) { return filtered_sign(cross2(a, b)) == 1; }
 
+}  // namespace
+
 int longest_axis(const Box3& a, const Box3& b) {
   std::array<double, 3> size{};
-  for (int i = 0; i < 3; ++i)
-    size[static_cast<std::size_t>(i)] = std::fabs(middle(coordinate(b, i)) - middle(coordinate(a, i)));
+  for (int i = 0; i < 3; ++i) {
+    const double x = middle(coordinate(a, i)), y = middle(coordinate(b, i));
+    size[static_cast<std::size_t>(i)] =
+        std::max(x, y) - std::min(x, y);  // however it is rounded, the same from both ends
+  }
   return static_cast<int>(std::max_element(size.begin(), size.end()) - size.begin());
 }
-
-}  // namespace
 
 JoinedNumbers::JoinedNumbers(std::size_t count) : first_(count) { std::iota(first_.begin(), first_.end(), 0U); }
 
@@ -46,11 +49,13 @@ std::optional<std::vector<std::size_t>> turning_order(const std::vector<FlatBox>
     }
   }
   if (opposite.size() > 1) return std::nullopt;
-  const auto angle = [&](std::size_t i) {
-    return std::atan2(middle(cross2(first, directions[i])), middle(dot2(first, directions[i])));
-  };
+  std::vector<double> angles;  // where they begin
+  for (const FlatBox& direction : directions) {
+    angles.push_back(std::atan2(middle(cross2(first, direction)), middle(dot2(first, direction))));
+    if (std::isnan(angles.back())) return std::nullopt;
+  }
   for (auto* half : {&less, &more})
-    std::sort(half->begin(), half->end(), [&](std::size_t i, std::size_t j) { return angle(i) < angle(j); });
+    std::sort(half->begin(), half->end(), [&](std::size_t i, std::size_t j) { return angles[i] < angles[j]; });
   std::vector<std::size_t> out{0};
   out.insert(out.end(), less.begin(), less.end());
   out.insert(out.end(), opposite.begin(), opposite.end());
@@ -247,6 +252,13 @@ std::vector<std::uint32_t> SideGraph::atoms_towards(std::uint32_t point, const F
     for (const Out& out : outs) atoms.insert(atoms.end(), {left_of(out), right_of(out)});
   }
   std::erase_if(atoms, [this](std::uint32_t atom) { return is_outer(atom); });
+  if (!atoms.empty()) return atoms;
+  // A seed always lights something: what its point has besides.
+  for (const Out& out : outs_[v]) {
+    for (const std::uint32_t atom : {left_of(out), right_of(out)}) {
+      if (!is_outer(atom)) atoms.push_back(atom);
+    }
+  }
   return atoms;
 }
 

@@ -42,6 +42,10 @@ struct FlatBox {
 // The places of directions in counter-clockwise order, from the first on; none where boxes do not tell it.
 std::optional<std::vector<std::size_t>> turning_order(const std::vector<FlatBox>& directions);
 
+// In which coordinate the two are farthest apart, 0 to 2: the same from both ends, as of an edge that two sides share each goes its
+// own way.
+int longest_axis(const Box3& a, const Box3& b);
+
 class SideGraph {
  public:
   // Sides of edges have numbers from 0 on, 2 e on the left of edge e and 2 e + 1 on its right; behind them each point has

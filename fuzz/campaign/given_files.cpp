@@ -19,7 +19,7 @@ using scene::ErrorCode;
 constexpr std::size_t most_triangles = 40;
 
 bool is_a_mesh(const fs::path& file) {
-  const auto extension = file.extension();
+  const auto extension = scene::lower_case_extension(file);
   return extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl";
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "fuzz/generators/city.h"
@@ -60,9 +61,12 @@ bool is_free(const FlaggedMesh& scene, const Bounds& box) {
 // Corners with floats as coordinates, so that numbers stay short.
 std::vector<Point> short_box(const Bounds& box) {
   Bounds b;
+  const auto shortened = [](double x) {
+    return std::abs(x) <= static_cast<double>(std::numeric_limits<float>::max()) ? static_cast<float>(x) : x;
+  };
   for (std::size_t i = 0; i < 3; ++i) {
-    b.low[i] = static_cast<float>(box.low[i]);
-    b.high[i] = static_cast<float>(box.high[i]);
+    b.low[i] = shortened(box.low[i]);
+    b.high[i] = shortened(box.high[i]);
   }
   auto corners = box_of(b.low, b.high);
   std::sort(corners.begin(), corners.end());
@@ -77,13 +81,14 @@ std::vector<Point> box_near_something(const FlaggedMesh& scene, Random& random) 
   const double diagonal = std::sqrt(dot(size, size));
   const bool as_it_comes = random.one_in(8), flat = random.one_in(8);
   Bounds box{all.low, all.high};
+  if (!std::isfinite(diagonal)) return short_box(box);
   for (int tries = 0; tries < 24; ++tries) {
     const auto t = static_cast<std::size_t>(random.next() % scene.mesh.triangles.size());
     if (!scene.counting(static_cast<std::uint32_t>(t))) continue;
     const auto corners = corners_of(scene.mesh, t);
     const Point normal = cross_of(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
     const double length = std::sqrt(dot(normal, normal));
-    if (!(length > 0)) continue;
+    if (!(length > 0) || !std::isfinite(length)) continue;
     const double a = random.between(1, 16), b = random.between(1, 16), c = random.between(1, 16);
     double away = diagonal * std::ldexp(1, -random.between(4, 10)) / length;
     if (random.one_in(4)) away = -away;

@@ -110,12 +110,14 @@ const std::vector<Apart>& impossible() {
   return all;
 }
 
-bool is_impossible(std::string_view a, std::string_view b) {
+// Null where they may.
+const char* why_never(std::string_view a, std::string_view b) {
   const auto has = [](const Apart& apart, std::string_view x, std::string_view y) {
     return apart.a == x && std::find(apart.b.begin(), apart.b.end(), y) != apart.b.end();
   };
-  return std::any_of(impossible().begin(), impossible().end(),
-                     [&](const Apart& apart) { return has(apart, a, b) || has(apart, b, a); });
+  const auto found = std::find_if(impossible().begin(), impossible().end(),
+                                  [&](const Apart& apart) { return has(apart, a, b) || has(apart, b, a); });
+  return found == impossible().end() ? nullptr : found->why;
 }
 
 std::string pair_of(const Rule& a, const Rule& b) { return std::string(a.name) + " + " + b.name; }
@@ -140,9 +142,9 @@ RulesMet rules_met(const Counters& counters) {
     if (!met(rules[i])) out.never.emplace_back(rules[i].name);
     for (std::size_t k = i + 1; k < rules.size(); ++k) {
       const std::string pair = pair_of(rules[i], rules[k]);
-      if (is_impossible(rules[i].name, rules[k].name)) {
+      if (const char* why = why_never(rules[i].name, rules[k].name)) {
         ++out.impossible;
-        if (counters.contains("pair " + pair)) out.wrongly_impossible.push_back(pair);
+        if (counters.contains("pair " + pair)) out.wrongly_impossible.push_back(pair + ", though " + why);
         continue;
       }
       ++out.all_pairs;

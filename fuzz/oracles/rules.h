@@ -20,7 +20,7 @@ struct RulesMet {
   std::vector<std::string> never;               // rules
   std::size_t pairs = 0, all_pairs = 0;         // met, of all that can meet
   std::size_t impossible = 0;                   // pairs that cannot; the reasons are in rules.cpp
-  std::vector<std::string> wrongly_impossible;  // ... and did: must stay empty
+  std::vector<std::string> wrongly_impossible;  // ... and did, with the reason: must stay empty
   std::vector<std::string> apart;               // "R + Q": each was met, and never both
 };
 RulesMet rules_met(const Counters& counters);

@@ -59,9 +59,12 @@ class DeniedShooter {
       if (const auto exact = exact_corners(t); is_surface(exact) && exact::meets_cell(exact, hull_))
         return DeniedSight{t, std::nullopt, "it meets the cell"};
     }
-    if (viewpoints_.empty()) return std::nullopt;
+    if (viewpoints_.empty()) {
+      ++outcome_.counters["cells without a viewpoint"];
+      return std::nullopt;
+    }
     for (int i = 0; i < lines && !found_; ++i) shoot(i);
-    outcome_.counters["sight lines decided"] += walls_.counts().queries + panes_.counts().queries;
+    outcome_.counters["sight lines decided"] += walls_.counts().queries;
     outcome_.counters["triangles decided in whole numbers"] += walls_.counts().exact + panes_.counts().exact;
     return found_;
   }
@@ -81,6 +84,7 @@ class DeniedShooter {
   static bool is_surface(const exact::TriangleCorners& t) { return !CGAL::collinear(t[0], t[1], t[2]); }
 
   void choose_viewpoints() {
+    const auto box = scene::bounds_of(points_);
     for (int tries = 0; tries < 48 && viewpoints_.size() < 16; ++tries) {
       Point sum{};
       double total = 0;
@@ -90,6 +94,9 @@ class DeniedShooter {
         for (std::size_t i = 0; i < 3; ++i) sum[i] += weight * p[i];
       }
       for (double& x : sum) x /= total;
+      for (std::size_t i = 0; i < 3; ++i) {  // in the plane of a flat cell, exactly, where that is across an axis
+        if (box.low[i] == box.high[i]) sum[i] = box.low[i];
+      }
       if (tries % 2 == 1) {  // extremal lines leave the cell near its corners
         const Point corner = any(points_, random_);
         const double t = std::ldexp(1, -random_.between(1, 20));

@@ -41,12 +41,13 @@ struct LinkReport {
 // How much a server with a tree of cells sends in advance.
 enum class NodeChoice : std::uint8_t { coarsest, in_time };
 
-// He asks for a cell `ahead_us` before he gets there. That is sound where the horizon of the store is 1 or more: what
-// he sees from the cell that he is still in stays then. Between two connections the server forgets everything.
+// He asks for a cell `ahead_us` before he gets there. That is sound where he is then no more steps behind than the
+// horizon of the store has: what he sees from the cell that he is still in stays. Between two connections the server
+// forgets everything.
 //
 // FIG. 48A and the small packets of the text: with NodeChoice::in_time the server takes of the nodes around a cell, the
-// coarsest first, the first whose data are sent before the viewer can ask for another cell; else the cell alone. What
-// he waits for is so never behind what is only to come.
+// coarsest first, the first whose data are sent before the viewer can ask for another cell; else the cell with what its
+// horizon needs, which may be late.
 LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& steps, const Link& link,
                      std::uint64_t ahead_us, NodeChoice choice = NodeChoice::coarsest);
 

@@ -46,8 +46,8 @@ std::vector<Point> points_beside(const RationalPoint& p, int units) {
 }
 
 // For each vertex a double point near it that is in none of the half spaces of its faces but on their planes, with the coordinates
-// of the vertex that are doubles: their hull most often holds the polytope, and never reaches over its sides across the axes. A
-// vertex without such a point has the corners of a box around it.
+// of the vertex that are doubles: their hull most often holds the polytope, and none of them is beyond a side across an axis that
+// its vertex is in. A vertex without such a point has the corners of a box around it.
 std::set<Point> points_beyond(const Polytope& polytope, int most_units) {
   std::vector<std::vector<const HalfSpace*>> faces_at(polytope.vertices.size());
   for (const auto& face : polytope.faces) {
@@ -175,9 +175,11 @@ std::vector<Point> outer_points(const Polytope& polytope) {
     for (const auto& v : polytope.vertices) exact.insert(nearest_corner(v));
     return {exact.begin(), exact.end()};
   }
-  const auto beyond = points_beyond(polytope, most_units);
-  std::vector<Point> points(beyond.begin(), beyond.end());
-  if (points.size() <= most_for_hull && hull_holds(points, polytope)) return points;
+  if (polytope.vertices.size() <= most_for_hull) {
+    const auto beyond = points_beyond(polytope, most_units);
+    std::vector<Point> points(beyond.begin(), beyond.end());
+    if (points.size() <= most_for_hull && hull_holds(points, polytope)) return points;
+  }
   std::set<Point> corners;
   for (const auto& v : polytope.vertices) {
     for (const auto& corner : box_around(v)) corners.insert(corner);

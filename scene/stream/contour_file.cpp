@@ -1,6 +1,7 @@
 #include "scene/stream/contour_file.h"
 
 #include <fmt/format.h>
+#include <gmpxx.h>
 
 #include <algorithm>
 #include <utility>
@@ -110,13 +111,19 @@ bool is_fraction(std::string_view text) {
   return is_number(text.substr(0, bar)) && is_number(below) && below != "0" && below != "1";
 }
 
+std::string in_lowest_terms(const std::string& text) {
+  mpq_class x(text);
+  x.canonicalize();
+  return x.get_str();
+}
+
 std::uint32_t read_number(VarintReader& in, std::uint64_t below) {
   return static_cast<std::uint32_t>(in.number(std::min(below, all_numbers)));
 }
 
 std::string read_fraction(VarintReader& in) {
   std::string text = in.text();
-  if (!is_fraction(text)) in.fail("a coordinate in full is no fraction p/q");
+  if (!is_fraction(text) || in_lowest_terms(text) != text) in.fail("a coordinate in full is no fraction p/q");
   return text;
 }
 
@@ -223,6 +230,8 @@ ContourSeed read_seed(VarintReader& in, std::uint32_t side, std::uint64_t points
   seed.bits = static_cast<std::uint32_t>(begin % (most_bits + 1));
   if (seed.bits == 0) {
     for (std::string& x : seed.fractions) x = read_fraction(in);
+    const mpq_class u(seed.fractions[0]), v(seed.fractions[1]);
+    if (sgn(u) <= 0 || sgn(v) <= 0 || u + v >= 1) in.fail("a seed that is not inside of its triangle");
     return seed;
   }
   const std::uint64_t whole = std::uint64_t{1} << seed.bits;

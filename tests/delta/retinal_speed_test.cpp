@@ -153,15 +153,16 @@ TEST(DetailCommand, CountsTrianglesByDetailAndRefusesWhatMakesNoSense) {
                                         "--curve",
                                         "c"};
   const auto ran =
-      tests::run_clues(detail, {"--eye", "-0.1,0,-0.1", "--velocity", "1,0,0", "--errors", "0.1,0.2"}, folder.path());
+      tests::run_clues(detail, {"--eye", "0,0,-0.1", "--velocity", "1,0,0", "--errors", "0.1,0.2"}, folder.path());
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_NE(ran.out.find("packet +: "), std::string::npos) << ran.out;
-  for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{
-           {"--eye", "1,0,-0.1", "--velocity", "1,0,0", "--errors", "0.1"},  // not in the cell
-           {"--eye", "-0.1,0", "--velocity", "1,0,0", "--errors", "0.1"},
-           {"--eye", "-0.1,0,-0.1", "--velocity", "1,0,nan", "--errors", "0.1"},
-           {"--eye", "-0.1,0,-0.1", "--velocity", "1,0,0", "--errors", "0.2,0.1"},
-           {"--eye", "-0.1,0,-0.1", "--velocity", "1,0,0", "--errors", ""}}) {
+  for (const std::vector<std::string>& bad :
+       std::vector<std::vector<std::string>>{{"--eye", "-0.1,0,-0.1", "--velocity", "1,0,0", "--errors",
+                                              "0.1"},  // in the first cell, where nothing of it is seen
+                                             {"--eye", "0.1,0", "--velocity", "1,0,0", "--errors", "0.1"},
+                                             {"--eye", "0.1,0,-0.1", "--velocity", "1,0,nan", "--errors", "0.1"},
+                                             {"--eye", "0.1,0,-0.1", "--velocity", "1,0,0", "--errors", "0.2,0.1"},
+                                             {"--eye", "0.1,0,-0.1", "--velocity", "1,0,0", "--errors", ""}}) {
     const auto refused = tests::run_clues(detail, bad, folder.path());
     EXPECT_EQ(refused.exit_code, 2) << refused.out;
     EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;

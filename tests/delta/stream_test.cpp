@@ -503,6 +503,7 @@ TEST(StreamCommands, WhatIsNoNumberOrNoRouteIsBadUsage) {
   for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{{"--steps", "1", "--pace", "nan"},
                                                                                    {"--steps", "1", "--ahead", "nan"},
                                                                                    {"--steps", "1", "--ahead", "inf"},
+                                                                                   {"--steps", "1", "--ahead", "1.5"},
                                                                                    {"--steps", "0"},
                                                                                    {"--steps", "1000001"}}) {
     EXPECT_EQ(tests::run_clues(walk, bad, folder.path()).exit_code, 2) << bad.back();

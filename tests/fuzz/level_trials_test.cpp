@@ -120,6 +120,20 @@ TEST(BakesTrial, AGroupThatSeesLessThanItsCellsIsFound) {
   }
 }
 
+// What the neighbour lists is listed as well: longer than alone, and not for what the group's box leaves out.
+TEST(BakesTrial, AListWithItsGuessInItIsFound) {
+  const scene::TemporaryFolder folder;
+  const auto wrong = bakes_with([](CellList& list, auto guess) {
+    list.visible.insert(list.visible.end(), guess.begin(), guess.end());
+    std::sort(list.visible.begin(), list.visible.end());
+    list.visible.erase(std::unique(list.visible.begin(), list.visible.end()), list.visible.end());
+  });
+  auto options = options_for(8, folder.path());
+  options.generators = {"interiors", "axis_boxes"};
+  options.errors = 1;
+  found_by(*wrong, options, "list-as-alone");
+}
+
 // Who was there before changes what is listed.
 TEST(BakesTrial, AListThatDependsOnWhatIsThereAlreadyIsFound) {
   const scene::TemporaryFolder folder;
@@ -274,6 +288,20 @@ TEST(LevelsTrial, TakesLevelsAndNeedsThemForSomeGenerators) {
   const auto summary = run_campaign(options, *make_subject("levels"));
   EXPECT_EQ(summary.counters.at("cases of given_boxes"), 1U);
   EXPECT_EQ(summary.exit_code(), 0) << to_text(summary, folder.path());
+}
+
+// Squares of their extent overflow, and floats do not hold them: cells are finite all the same, and the store can be read again.
+TEST(LevelsTrial, TakesHugeScenes) {
+  const scene::TemporaryFolder folder;
+  auto options = options_for_levels(folder.path(), 2);
+  GivenLevel huge{"huge", {{}, {}, {}, {}}, {}};
+  huge.scene.mesh.points = {{0, 0, 0}, {1e300, 0, 0}, {0, 1e300, 0}, {0, 0, 1e300}};
+  huge.scene.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  huge.scene.mesh.face_of = {0, 1};
+  options.given.levels = {huge};
+  options.given.paths = {"huge"};
+  run_campaign(options, *make_subject("levels"));
+  EXPECT_EQ(run_campaign(options, *make_subject("levels")).counters.at("cases of given_boxes"), 2U);
 }
 
 // Each is a function of seed and number, with as many flags as triangles, and a cell with points.
