@@ -10,6 +10,8 @@
 
 #include "reference/visibility/first_order.h"
 #include "reference/visibility/refinement/subdivision.h"
+#include "scene/messages/error.h"
+#include "scene/result.h"
 #include "validate/verdicts/precision.h"
 
 namespace clues::app {
@@ -54,6 +56,17 @@ void require_writable_parent(const std::filesystem::path& path);
 
 // Throws Error bad_argument when an output is one of the inputs, or another output, under whatever name. Empty names, and what is no file, are passed over.
 void require_apart(const std::vector<const std::string*>& outputs, const std::vector<const std::string*>& inputs);
+
+// The SHA-256 of the file, which read() reads in between; throws Error file_unreadable where it has another one afterwards, so that a result never names a scene that it is not of.
+template <class Read>
+std::string sha256_around(const std::filesystem::path& file, const Read& read) {
+  const auto sha256 = scene::sha256_of_file(file);
+  read();
+  if (scene::sha256_of_file(file) != sha256)
+    throw scene::Error(scene::ErrorCode::file_unreadable,
+                       file.string() + ": changes while it is read; wait until it is written");
+  return sha256;
+}
 
 // Makes the folder where it does not exist (its parent must); throws Error file_unwritable. Returns whether it was made.
 bool make_folder(const std::filesystem::path& folder);

@@ -143,11 +143,12 @@ int run_bake(const BakeRequest& request) {
     require_writable_parent(request.json.file());
     require_unspoilt(request);
   }
-  const auto sha256 = scene::sha256_of_file(request.scene);
-  const auto level = scene::read_level(request.scene);
-  const auto scene = level ? scene::scene_of_level(*level).scene : scene::read_scene(request.scene);
-  if (scene::sha256_of_file(request.scene) != sha256)
-    throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
+  std::optional<scene::BspFile> level;
+  scene::FlaggedMesh scene;
+  const auto sha256 = sha256_around(request.scene, [&] {
+    level = scene::read_level(request.scene);
+    scene = level ? scene::scene_of_level(*level).scene : scene::read_scene(request.scene);
+  });
   const auto plan =
       plan_of(request, sha256, scene, parse_bake_cells(request.cells, request.scene, scene, level, up_of(request)));
   const auto make_lister = request.kernel == "fast" ? fastpath::bakes::fast_lister() : validate::exact_lister();

@@ -189,17 +189,16 @@ int run_map(MapRequest request) {
   require_writable_parent(request.json.file());
   require_apart({&request.out, &request.json.file(), &request.umbra.file, &request.fragments, &request.overlap_graph},
                 {&request.scene, &request.cell, &request.cells});
-  const std::string sha256 = scene::sha256_of_file(request.scene);
   scene::FlaggedMesh scene;
-  if (const auto level = scene::read_level(request.scene)) {
-    auto of_level = scene::scene_of_level(*level);
-    request.covered_sides = of_level.covered_sides;
-    scene = std::move(of_level.scene);
-  } else {
-    scene = scene::read_scene(request.scene);
-  }
-  if (scene::sha256_of_file(request.scene) != sha256)
-    throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
+  const std::string sha256 = sha256_around(request.scene, [&] {
+    if (const auto level = scene::read_level(request.scene)) {
+      auto of_level = scene::scene_of_level(*level);
+      request.covered_sides = of_level.covered_sides;
+      scene = std::move(of_level.scene);
+    } else {
+      scene = scene::read_scene(request.scene);
+    }
+  });
   const auto cells = many ? scene::parse_cells(request.cells) : std::vector{scene::parse_cell(request.cell)};
   const auto mapper = !scene.is_plain()                 ? see_through_mapper(scene, sha256, request)
                       : request.method.kernel == "fast" ? fast_mapper(scene.mesh, sha256, request)

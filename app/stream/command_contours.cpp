@@ -174,10 +174,8 @@ int run_contours(const ContoursRequest& request) {
   const auto options = request.method.to_reference();
   require_writable_parent(request.out);
   require_apart({&request.out}, {&request.scene, &request.parent, &request.cells});
-  const auto sha256 = scene::sha256_of_file(request.scene);
-  const auto mesh = scene::read_plain_scene(request.scene);
-  if (scene::sha256_of_file(request.scene) != sha256)
-    throw Error(ErrorCode::file_unreadable, request.scene + ": changes while it is read; wait until it is written");
+  scene::TriangleMesh mesh;
+  const auto sha256 = sha256_around(request.scene, [&] { mesh = scene::read_plain_scene(request.scene); });
   const auto cells = placed_cells(request);
   for (const auto& cell : cells) {
     if (cell.within != 0) require_within(cell, cells);

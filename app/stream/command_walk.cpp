@@ -215,8 +215,6 @@ int run_walk(const WalkRequest& request) {
     throw Error(ErrorCode::bad_argument, "give one of --route, --camera and --steps (see `clues walk --help`)");
   if (request.routes != 1 && (!request.route.at_random() || !request.out.empty() || !request.connect.empty()))
     throw Error(ErrorCode::bad_argument, "--routes is for --steps, and for figures alone");
-  if (request.ahead > 0 && request.send.horizon == 0)
-    throw Error(ErrorCode::bad_argument, "--ahead needs a --horizon of 1 or more: what he still sees would go");
   if (request.ahead > request.pace * static_cast<double>(request.send.horizon))
     throw Error(ErrorCode::bad_argument,
                 "--ahead: at most --pace times --horizon; from farther behind, what he still sees would go");

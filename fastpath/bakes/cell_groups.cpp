@@ -5,10 +5,9 @@
 #include <limits>
 #include <numeric>
 #include <span>
-#include <tuple>
 #include <utility>
 
-#include "scene/mesh/bounds.h"
+#include "scene/mesh/halved.h"
 
 namespace clues::fastpath::bakes {
 namespace {
@@ -32,12 +31,6 @@ class Builder {
   }
 
  private:
-  Bounds bounds_of_all(std::span<const std::uint32_t> cells) const {
-    Bounds b = bounds_[cells[0]];
-    for (const auto c : cells) b = scene::hull_of(b, bounds_[c]);
-    return b;
-  }
-
   // T6 asks for boxes that hold the insides of the cells in theirs. That of a flat cell, a segment or a point may lie in the border of
   // the box; then that side is moved out by an eighth, or by as little as doubles can.
   Bounds around_insides(std::span<const std::uint32_t> cells, const Bounds& b) const {
@@ -60,33 +53,14 @@ class Builder {
 
   void split(std::span<std::uint32_t> cells) {
     if (cells.size() <= 1) return;
-    const Bounds b = bounds_of_all(cells);
     if (cells.size() <= most_) {
-      const Bounds around = around_insides(cells, b);
-      std::vector<Point> box;
-      for (unsigned i = 0; i < 8; ++i) {
-        box.push_back({(i & 1U) != 0 ? around.high[0] : around.low[0], (i & 2U) != 0 ? around.high[1] : around.low[1],
-                       (i & 4U) != 0 ? around.high[2] : around.low[2]});
-      }
-      std::sort(box.begin(), box.end());
-      box.erase(std::unique(box.begin(), box.end()), box.end());
       for (const auto c : cells) groups_.group_of[c] = static_cast<std::uint32_t>(groups_.boxes.size());
-      groups_.boxes.push_back(std::move(box));
+      groups_.boxes.push_back(scene::corners_of(around_insides(cells, scene::bounds_around(cells, bounds_))));
       return;
     }
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      if (b.high[i] - b.low[i] > b.high[axis] - b.low[axis]) axis = i;
-    }
-    const auto middle = cells.begin() + static_cast<std::ptrdiff_t>(cells.size() / 2);
-    std::nth_element(cells.begin(), middle, cells.end(), [&](std::uint32_t a, std::uint32_t c) {
-      const auto key = [&](std::uint32_t i) {
-        return std::tuple(bounds_[i].low[axis] / 2 + bounds_[i].high[axis] / 2, i);
-      };
-      return key(a) < key(c);
-    });
-    split(cells.subspan(0, cells.size() / 2));
-    split(cells.subspan(cells.size() / 2));
+    const std::size_t half = scene::halve(cells, bounds_);
+    split(cells.first(half));
+    split(cells.subspan(half));
   }
 
   const std::size_t most_;

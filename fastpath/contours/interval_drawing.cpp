@@ -42,23 +42,11 @@ Box3 box_of(const scene::Point& p) { return {Interval(p[0]), Interval(p[1]), Int
 
 Box3 hull_of(const Box3& a, const Box3& b) { return {hull_of(a.x, b.x), hull_of(a.y, b.y), hull_of(a.z, b.z)}; }
 
-SceneEdges::SceneEdges(const scene::TriangleMesh& mesh) : flat_(mesh.triangles.size(), false) {
+SceneEdges::SceneEdges(const scene::TriangleMesh& mesh)
+    : flat_(mesh.triangles.size(), false), edges_(mesh), users_(edges_.count()) {
   for (const std::uint32_t t : scene::degenerate_triangles(mesh)) flat_[t] = true;
-  std::map<scene::Point, std::uint32_t> numbers;
-  std::vector<std::uint32_t> number;
-  for (const scene::Point& p : mesh.points)
-    number.push_back(numbers.emplace(p, static_cast<std::uint32_t>(numbers.size())).first->second);
-  std::map<std::array<std::uint32_t, 2>, std::uint32_t> known;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = number[mesh.triangles[t][k]], b = number[mesh.triangles[t][(k + 1) % 3]];
-      const auto [at, is_new] =
-          known.try_emplace({std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(users_.size()));
-      if (is_new) users_.emplace_back();
-      edges_.push_back(at->second);
-      up_.push_back(a < b);
-      if (!flat_[t]) users_[at->second].push_back(t);
-    }
+    for (std::size_t k = 0; k < 3 && !flat_[t]; ++k) users_[edge(t, k)].push_back(t);
   }
 }
 

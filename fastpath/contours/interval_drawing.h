@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "fastpath/visibility/points/numbers.h"
-#include "scene/mesh/mesh.h"
+#include "scene/mesh/mesh_edges.h"
 #include "scene/stream/contour_file.h"
 
 namespace clues::fastpath {
@@ -25,10 +25,9 @@ class SceneEdges {
   explicit SceneEdges(const scene::TriangleMesh& mesh);  // O(n log n)
 
   bool has_area(std::uint32_t triangle) const { return !flat_[triangle]; }
-  std::uint32_t edge(std::uint32_t triangle, std::size_t k) const { return edges_[3 * triangle + k]; }
+  std::uint32_t edge(std::uint32_t triangle, std::size_t k) const { return edges_.edge(triangle, k); }
   std::size_t count() const { return users_.size(); }
-  // From the smaller end of the edge to the other: so edge k of the triangle runs from corner k to the next.
-  bool runs_up(std::uint32_t triangle, std::size_t k) const { return up_[3 * triangle + k]; }
+  bool runs_up(std::uint32_t triangle, std::size_t k) const { return edges_.runs_up(triangle, k); }
   struct Beyond {
     std::uint32_t side = 0;
     std::size_t k = 0;
@@ -37,8 +36,8 @@ class SceneEdges {
   Beyond beyond(std::uint32_t side, std::size_t k) const;
 
  private:
-  std::vector<bool> flat_, up_;
-  std::vector<std::uint32_t> edges_;
+  std::vector<bool> flat_;
+  scene::MeshEdges edges_;
   std::vector<std::vector<std::uint32_t>> users_;
 };
 

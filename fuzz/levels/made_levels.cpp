@@ -68,10 +68,7 @@ std::vector<Point> short_box(const Bounds& box) {
     b.low[i] = shortened(box.low[i]);
     b.high[i] = shortened(box.high[i]);
   }
-  auto corners = box_of(b.low, b.high);
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  return corners;
+  return scene::corners_of(b);
 }
 
 // Near something that counts, mostly before its front; it meets nothing if that can be had. One box of eight is taken as it comes, one of eight is flat.

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "scene/mesh/mesh_edges.h"
 #include "scene/messages/error.h"
 
 namespace clues::reference {
@@ -126,10 +127,8 @@ std::vector<PointPair> DrawnSide::bridges() const {
   }
 }
 
-Drawings::Drawings(const scene::TriangleMesh& mesh) : mesh_(&mesh), flat_(mesh.triangles.size(), false) {
-  std::map<scene::Point, std::uint32_t> numbers;
-  for (const scene::Point& p : mesh.points)
-    number_.push_back(numbers.emplace(p, static_cast<std::uint32_t>(numbers.size())).first->second);
+Drawings::Drawings(const scene::TriangleMesh& mesh)
+    : mesh_(&mesh), number_(scene::numbers_of_places(mesh)), flat_(mesh.triangles.size(), false) {
   for (const std::uint32_t t : scene::degenerate_triangles(mesh)) flat_[t] = true;
 }
 

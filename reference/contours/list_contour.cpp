@@ -43,19 +43,11 @@ void flood(const EdgeUsers& edges, const std::vector<bool>& blocked, std::uint32
 
 }  // namespace
 
-EdgeUsers::EdgeUsers(const scene::TriangleMesh& mesh) {
-  std::map<scene::Point, std::uint32_t> numbers;
-  std::vector<std::uint32_t> number;
-  for (const scene::Point& p : mesh.points)
-    number.push_back(numbers.emplace(p, static_cast<std::uint32_t>(numbers.size())).first->second);
-  std::map<std::array<std::uint32_t, 2>, std::uint32_t> known;
+EdgeUsers::EdgeUsers(const scene::TriangleMesh& mesh) : edges_(mesh), users_(edges_.count()) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(number[mesh.triangles[t][k]], number[mesh.triangles[t][(k + 1) % 3]]);
-      const auto [at, is_new] = known.try_emplace({a, b}, static_cast<std::uint32_t>(users_.size()));
-      if (is_new) users_.emplace_back();
-      edges_.push_back(at->second);
-      if (users_[at->second].empty() || users_[at->second].back() != t) users_[at->second].push_back(t);
+      auto& users = users_[edge(t, k)];
+      if (users.empty() || users.back() != t) users.push_back(t);
     }
   }
 }

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scene/mesh/mesh.h"
+#include "scene/mesh/mesh_edges.h"
 
 namespace clues::reference {
 
@@ -19,12 +19,12 @@ class EdgeUsers {
   explicit EdgeUsers(const scene::TriangleMesh& mesh);  // O(n log n)
 
   const std::vector<std::uint32_t>& at(std::uint32_t edge) const { return users_[edge]; }  // triangles, ascending
-  std::uint32_t edge(std::uint32_t triangle, std::size_t k) const { return edges_[3 * triangle + k]; }
+  std::uint32_t edge(std::uint32_t triangle, std::size_t k) const { return edges_.edge(triangle, k); }
   std::uint32_t edge_count() const { return static_cast<std::uint32_t>(users_.size()); }
-  std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(edges_.size() / 3); }
+  std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(edges_.triangle_count()); }
 
  private:
-  std::vector<std::uint32_t> edges_;  // three of each triangle
+  scene::MeshEdges edges_;
   std::vector<std::vector<std::uint32_t>> users_;
 };
 

@@ -8,6 +8,8 @@
 #include <set>
 #include <utility>
 
+#include "scene/mesh/mesh_edges.h"
+
 namespace clues::reference {
 namespace {
 
@@ -35,10 +37,8 @@ FT place_on(const Point2& a, const Point2& b, const Point2& p) {
 
 class EdgeTable {
  public:
-  EdgeTable(const std::vector<InputSide>& sides, const scene::TriangleMesh& mesh) : mesh_(mesh) {
-    std::map<scene::Point, std::uint32_t> numbers;
-    for (const scene::Point& p : mesh.points)
-      number_.push_back(numbers.emplace(p, static_cast<std::uint32_t>(numbers.size())).first->second);
+  EdgeTable(const std::vector<InputSide>& sides, const scene::TriangleMesh& mesh)
+      : mesh_(mesh), number_(scene::numbers_of_places(mesh)) {
     std::set<std::uint32_t> seen;
     for (const InputSide& side : sides) {
       if (!seen.insert(side.triangle).second) continue;

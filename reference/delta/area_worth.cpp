@@ -3,6 +3,7 @@
 #include <bit>
 #include <limits>
 
+#include "exact/last_where.h"
 #include "reference/delta/stream_server.h"
 #include "scene/stream/packets.h"
 
@@ -16,14 +17,9 @@ std::optional<double> root_above(const FT& square) {
     const FT x(std::bit_cast<double>(bits));
     return x * x >= square;
   };
-  // Patterns of positive doubles stand in the order of their values.
-  std::uint64_t below = 0, above = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::max());
-  if (!is_above(above)) return {};
-  while (above - below > 1) {
-    const std::uint64_t middle = below + (above - below) / 2;
-    (is_above(middle) ? above : below) = middle;
-  }
-  return std::bit_cast<double>(above);
+  const auto most = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::max());
+  if (!is_above(most)) return {};
+  return std::bit_cast<double>(exact::last_where(0, most, [&](std::uint64_t bits) { return !is_above(bits); }) + 1);
 }
 
 const std::optional<FT>& AreaWorth::area_of_one(std::uint32_t triangle) const {

@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
-#include <tuple>
 
-#include "scene/mesh/bounds.h"
+#include "scene/mesh/halved.h"
 
 namespace clues::reference {
 namespace {
-
-using scene::Bounds;
 
 class TreeBuilder {
  public:
@@ -35,24 +32,12 @@ class TreeBuilder {
       ++next_[named];
     }
     if (cells.size() == 1) return;
-    Bounds around = bounds_[cells[0]];
-    for (const std::uint32_t c : cells) around = scene::hull_of(around, bounds_[c]);
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i) {
-      // Halves, because a difference of large numbers may not be one.
-      if (around.high[i] / 2 - around.low[i] / 2 > around.high[axis] / 2 - around.low[axis] / 2) axis = i;
-    }
-    const auto key = [&](std::uint32_t c) {
-      return std::tuple(bounds_[c].low[axis] / 2 + bounds_[c].high[axis] / 2, c);
-    };
-    const std::size_t half = cells.size() / 2;
-    std::nth_element(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(half), cells.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    const std::size_t half = scene::halve(cells, bounds_);
     split(cells.first(half), named);
     split(cells.subspan(half), named);
   }
 
-  std::vector<Bounds> bounds_;
+  std::vector<scene::Bounds> bounds_;
   std::vector<std::uint32_t> next_;  // of each level, the number of its next node
   CellTree tree_;
 };

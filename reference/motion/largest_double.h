@@ -10,6 +10,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "exact/last_where.h"
+
 namespace clues::reference {
 
 // 0 when it holds for no positive double, infinity when it holds for all radii: viewpoints are not doubles, and samples may be two largest
@@ -22,13 +24,11 @@ double largest_double(const Holds& holds_for, double known = 0) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (known == infinity) return known;
   if (known == most || holds(most)) return holds_for(mpq_class(mpz_class(1) << 4096U)) ? infinity : most;
-  std::uint64_t below = std::bit_cast<std::uint64_t>(known), above = std::bit_cast<std::uint64_t>(most);
+  const auto below = std::bit_cast<std::uint64_t>(known);
   if (known > 0 && !holds(std::bit_cast<double>(below + 1))) return known;
-  while (above - below > 1) {
-    const auto middle = below + (above - below) / 2;
-    (holds(std::bit_cast<double>(middle)) ? below : above) = middle;
-  }
-  return std::bit_cast<double>(below);
+  return std::bit_cast<double>(exact::last_where(below, std::bit_cast<std::uint64_t>(most), [&](std::uint64_t bits) {
+    return holds(std::bit_cast<double>(bits));
+  }));
 }
 
 // The largest double of at most 21 binary digits for which it holds, or `known` if that is larger: half the questions, where a lower bound within a millionth is
@@ -37,12 +37,9 @@ template <class Holds>
 double largest_short_double(const Holds& holds_for, double known) {
   const auto number = [](std::uint64_t upper) { return std::bit_cast<double>(upper << 32U); };
   const auto upper_half = [](double x) { return std::bit_cast<std::uint64_t>(x) >> 32U; };
-  std::uint64_t below = upper_half(known), above = upper_half(std::numeric_limits<double>::max());
-  while (above - below > 1) {
-    const auto middle = below + (above - below) / 2;
-    (holds_for(mpq_class(number(middle))) ? below : above) = middle;
-  }
-  return std::max(known, number(below));
+  const auto last = exact::last_where(upper_half(known), upper_half(std::numeric_limits<double>::max()),
+                                      [&](std::uint64_t upper) { return holds_for(mpq_class(number(upper))); });
+  return std::max(known, number(last));
 }
 
 }  // namespace clues::reference

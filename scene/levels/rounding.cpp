@@ -5,6 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "scene/mesh/bounds.h"
+
 namespace clues::scene {
 namespace {
 
@@ -21,28 +23,20 @@ bool is_double(const RationalPoint& p) {
   return std::all_of(p.begin(), p.end(), [](const mpq_class& x) { return cmp(x, mpq_class(x.get_d())) == 0; });
 }
 
-std::vector<Point> box_around(const RationalPoint& p) {
-  const std::array sides{neighbours(p[0]), neighbours(p[1]), neighbours(p[2])};
-  std::set<Point> corners;
-  for (std::size_t i = 0; i < 8; ++i) corners.insert({sides[0][i & 1], sides[1][(i >> 1) & 1], sides[2][i >> 2]});
-  return {corners.begin(), corners.end()};
-}
-
-// The points that differ from p, rounded, by so many units in the last place, up or down, in each coordinate that is no double;
-// the others stay. So no plane across an axis that p is in parts them from p.
-std::vector<Point> points_beside(const RationalPoint& p, int units) {
-  std::array<std::array<double, 2>, 3> sides;
+// Around p: by so many units in the last place, rounded, in each coordinate that is no double; the others stay. So no plane across
+// an axis that p is in parts it from p.
+Bounds box_around(const RationalPoint& p, int units = 1) {
+  Bounds box;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    auto& side = sides[axis];
-    side = neighbours(p[axis]);
-    for (int i = 1; i < units && side[0] != side[1]; ++i) {
-      side = {std::nextafter(side[0], -std::numeric_limits<double>::infinity()),
-              std::nextafter(side[1], std::numeric_limits<double>::infinity())};
+    auto [low, high] = neighbours(p[axis]);
+    for (int i = 1; i < units && low != high; ++i) {
+      low = std::nextafter(low, -std::numeric_limits<double>::infinity());
+      high = std::nextafter(high, std::numeric_limits<double>::infinity());
     }
+    box.low[axis] = low;
+    box.high[axis] = high;
   }
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < 8; ++i) points.push_back({sides[0][i & 1], sides[1][(i >> 1) & 1], sides[2][i >> 2]});
-  return points;
+  return box;
 }
 
 // For each vertex a double point near it that is in none of the half spaces of its faces but on their planes, with the coordinates
@@ -62,14 +56,15 @@ std::set<Point> points_beyond(const Polytope& polytope, int most_units) {
     };
     std::optional<Point> found;
     for (int units = 1; !found && units <= most_units; units *= 2) {
-      for (const auto& p : points_beside(polytope.vertices[v], units)) {
-        if (!found && is_beyond(p)) found = p;
+      const Bounds box = box_around(polytope.vertices[v], units);
+      for (unsigned i = 0; i < 8 && !found; ++i) {
+        if (is_beyond(corner_of(box, i))) found = corner_of(box, i);
       }
     }
     if (found) {
       points.insert(*found);
     } else {
-      for (const auto& corner : box_around(polytope.vertices[v])) points.insert(corner);
+      for (const auto& corner : corners_of(box_around(polytope.vertices[v]))) points.insert(corner);
     }
   }
   return points;
@@ -154,7 +149,7 @@ std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope) {
   for (const auto& v : polytope.vertices) {
     std::optional<Point> found;
     if (is_double(v)) found = nearest_corner(v);
-    for (const auto& corner : found ? std::vector<Point>{} : box_around(v)) {
+    for (const auto& corner : found ? std::vector<Point>{} : corners_of(box_around(v))) {
       if (!found && polytope.holds(to_rational(corner))) found = corner;
     }
     for (unsigned exponent = finest; !found && exponent > 0; --exponent) {
@@ -182,7 +177,7 @@ std::vector<Point> outer_points(const Polytope& polytope) {
   }
   std::set<Point> corners;
   for (const auto& v : polytope.vertices) {
-    for (const auto& corner : box_around(v)) corners.insert(corner);
+    for (const auto& corner : corners_of(box_around(v))) corners.insert(corner);
   }
   return {corners.begin(), corners.end()};
 }

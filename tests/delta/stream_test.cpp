@@ -120,45 +120,6 @@ TEST(Stream, AServerThatForgetsTheClientIsCaught) {
   EXPECT_FALSE(town().judge(joined).findings.empty());
 }
 
-TEST(StreamRequests, ComeBackAsTheyWereWritten) {
-  scene::StreamRequest request;
-  request.cell = 3;
-  EXPECT_EQ(scene::parse_stream_request(scene::to_line(request), "x", 4).cell, 3U);
-  EXPECT_THROW(scene::parse_stream_request(scene::to_line(request), "x", 3), scene::Error);
-  request.resumes = true;
-  request.route = {0, 1};
-  request.have = 5;
-  const auto back = scene::parse_stream_request(scene::to_line(request), "x", 4);
-  EXPECT_TRUE(back.resumes);
-  EXPECT_EQ(back.route, request.route);
-  EXPECT_EQ(back.have, 5U);
-  for (const char* bad :
-       {"{}", "[]", "{\"resume\": 3}", "{\"resume\": {\"route\": [9], \"have\": 0}}", "{\"resume\": {\"route\": []}}",
-        "{\"resume\": {\"route\": [0], \"have\": 0, \"x\": 1}}", "{\"enter\": 0, \"x\": 1}", "enter"}) {
-    EXPECT_THROW(scene::parse_stream_request(bad, "x", 4), scene::Error) << bad;
-  }
-  EXPECT_EQ(scene::parse_stream_end(scene::stream_end_line(7)), 7U);
-  EXPECT_FALSE(scene::parse_stream_end("{\"cell\": 7}"));
-}
-
-// The program as a server, and one that forgets what it sent.
-TEST(StreamServers, TheProgramIsOne) {
-  const tests::TestFolder folder;
-  folder.write("screen.off", tests::screen_scene);
-  const std::string cells = "grid:2x2x1:box:-0.25,-0.25,-0.25,0.25,0.25,0";
-  const auto good =
-      tests::run_clues({"conform", "--stream-server", std::string(CLUES_PROGRAM) + " serve screen.off --cells " + cells,
-                        "--scene", "screen.off", "--cells", cells, "--steps", "6"},
-                       folder.path());
-  EXPECT_EQ(good.exit_code, 0) << good.out << good.err;
-  EXPECT_NE(good.out.find("sound: 7 cells entered"), std::string::npos) << good.out;
-  EXPECT_NE(good.out.find("it sent the rest each time"), std::string::npos) << good.out;
-  EXPECT_NE(good.out.find("started anew after message 1, after message "), std::string::npos) << good.out;
-  const auto none = tests::run_clues(
-      {"conform", "--stream-server", "echo nothing", "--scene", "screen.off", "--cells", cells}, folder.path());
-  EXPECT_EQ(none.exit_code, 1) << none.out << none.err;
-}
-
 // One wrong thing at a time, in a walk through all cells of the lower layer.
 class PlantedStream : public ::testing::Test {
  protected:
@@ -390,55 +351,6 @@ TEST_F(PlantedStream, SlotZeroIsNothing) {
   expect_caught();
 }
 
-TEST(StreamFile, ComesBackAsItWasWritten) {
-  const tests::TestFolder folder;
-  const auto messages = town().stream({0, 1, 2, 5, 4, 3}, 1);
-  std::string text = scene::to_line(scene::StreamHeader{"abc", "grid", town().mesh().triangles.size(), 18});
-  for (const auto& m : messages) text += scene::to_line(m);
-  const auto back = scene::read_stream(folder.write("s.jsonl", text));
-  std::string again = scene::to_line(back.header);
-  for (const auto& m : back.messages) again += scene::to_line(m);
-  EXPECT_EQ(again, text);
-}
-
-TEST(StreamFile, MinusZeroKeepsItsSign) {
-  const scene::StreamHeader header{"abc", "grid", 10, 2};
-  const auto read = scene::parse_stream_message(R"({"plus": [], "vertices": [[1, -0, 0, -0.0]]})", "x", header);
-  ASSERT_EQ(read.vertices.size(), 1U);
-  EXPECT_TRUE(std::signbit(read.vertices[0].at[0]));
-  EXPECT_FALSE(std::signbit(read.vertices[0].at[1]));
-  EXPECT_TRUE(std::signbit(read.vertices[0].at[2]));
-}
-
-TEST(StreamFile, HeadersSayModeAndListsWhereThereIsSomethingToSay) {
-  scene::StreamHeader header{"abc", "grid", 10, 2};
-  const std::string plain = scene::to_line(header);
-  EXPECT_EQ(plain.find("mode"), std::string::npos);
-  EXPECT_EQ(plain.find("lists_sha256"), std::string::npos);
-  for (const auto& [mode, lists] : {std::pair("sheet", ""), {"solid", ""}, {"sheet", "cd"}, {"solid", "cd"}}) {
-    header.mode = mode;
-    header.lists_sha256 = lists;
-    for (const auto& back : {scene::parse_stream_header(scene::to_line(header), "x"),
-                             scene::parse_packets(scene::to_packet(header), "x").header}) {
-      EXPECT_EQ(back.mode, mode);
-      EXPECT_EQ(back.lists_sha256, lists);
-      EXPECT_TRUE(difference_of_messages(header, back).empty());
-    }
-  }
-  header.mode = "sold";
-  EXPECT_THROW(scene::parse_stream_header(scene::to_line(header), "x"), scene::Error);
-  EXPECT_THROW(scene::parse_packets(scene::to_packet(header), "x"), scene::Error);
-}
-
-TEST(StreamFile, SaysThatThereIsNoCellWhereThereIsNone) {
-  try {
-    scene::parse_stream_message(R"({"cell": 0})", "x", scene::StreamHeader{"abc", "grid", 10, 0});
-    ADD_FAILURE() << "there is no cell 0";
-  } catch (const scene::Error& e) {
-    EXPECT_STREQ(e.what(), "x: the cell 0: there is none");
-  }
-}
-
 TEST(Stream, TheDigestIsThatOfListsAndHorizon) {
   const reference::StreamStore same(town().mesh(), town().lists(), town().neighbours(), 1);
   EXPECT_EQ(town().store(1).digest(), same.digest());
@@ -446,88 +358,6 @@ TEST(Stream, TheDigestIsThatOfListsAndHorizon) {
   auto lists = town().lists();
   lists[0].pop_back();
   EXPECT_NE(reference::StreamStore(town().mesh(), lists, town().neighbours(), 1).digest(), same.digest());
-}
-
-// A box that all cells lie in, and that hides nothing from them in mode solid; in mode sheet it hides what is outside.
-TEST(StreamCommands, SolidStreamsAreJudgedAsSolid) {
-  const tests::TestFolder folder;
-  SceneBuilder scene;
-  scene.box({-1, -1, -1}, {1, 1, 1});
-  scene.box({3, -1, -1}, {4, 1, 1});
-  std::string off = fmt::format("OFF\n{} {} 0\n", scene.mesh().points.size(), scene.mesh().triangles.size());
-  for (const auto& p : scene.mesh().points) off += fmt::format("{} {} {}\n", p[0], p[1], p[2]);
-  for (const auto& t : scene.mesh().triangles) off += fmt::format("3 {} {} {}\n", t[0], t[1], t[2]);
-  folder.write("boxes.off", off);
-  const std::string cells = "grid:2x1x1:box:-0.5,-0.5,-0.5,0.5,0.5,0.5";
-  const std::vector<std::string> walk{"walk", "boxes.off", "--cells", cells, "--steps", "2", "-o", "walk", "--mode"};
-  const std::vector<std::string> judge{"conform", "--stream", "walk", "--scene", "boxes.off", "--cells", cells};
-  for (const char* mode : {"sheet", "solid"}) {
-    const auto walked = tests::run_clues(walk, {mode}, folder.path());
-    ASSERT_EQ(walked.exit_code, 0) << walked.err;
-    const auto judged = tests::run_clues(judge, folder.path());
-    EXPECT_EQ(judged.exit_code, 0) << mode << judged.out << judged.err;
-    EXPECT_EQ(judged.out.find("in mode solid") != std::string::npos, std::string(mode) == "solid") << judged.out;
-  }
-  // The same messages are not sound in the other mode.
-  auto stream = scene::read_stream(folder.path() / "walk");
-  EXPECT_EQ(stream.header.mode, "solid");
-  stream.header.mode = "sheet";
-  std::string text = scene::to_line(stream.header);
-  for (const auto& message : stream.messages) text += scene::to_line(message);
-  folder.write("walk", text);
-  EXPECT_EQ(tests::run_clues(judge, folder.path()).exit_code, 1);
-}
-
-TEST(StreamCommands, AStreamOfOtherCellsIsRefused) {
-  const tests::TestFolder folder;
-  folder.write("screen.off", tests::screen_scene);
-  ASSERT_EQ(tests::run_clues({"walk", "screen.off", "--cells", "grid:2x1x1:box:-0.25,-0.25,-0.25,0.25,0.25,0",
-                              "--steps", "1", "-o", "walk"},
-                             folder.path())
-                .exit_code,
-            0);
-  const auto judged = tests::run_clues({"conform", "--stream", "walk", "--scene", "screen.off", "--cells",
-                                        "grid:1x2x1:box:-0.25,-0.25,-0.25,0.25,0.25,0"},
-                                       folder.path());
-  EXPECT_EQ(judged.exit_code, 2) << judged.out;
-  EXPECT_NE(judged.err.find("other cells"), std::string::npos) << judged.err;
-}
-
-TEST(StreamCommands, WhatIsNoNumberOrNoRouteIsBadUsage) {
-  const tests::TestFolder folder;
-  folder.write("screen.off", tests::screen_scene);
-  const std::vector<std::string> walk{
-      "walk",      "screen.off", "--cells", "grid:2x1x1:box:-0.25,-0.25,-0.25,0.25,0.25,0",
-      "--horizon", "1",          "--link",  "1000:1"};
-  EXPECT_EQ(tests::run_clues(walk, {"--steps", "1", "--pace", "0.5", "--ahead", "0.5"}, folder.path()).exit_code, 0);
-  for (const std::vector<std::string>& bad : std::vector<std::vector<std::string>>{{"--steps", "1", "--pace", "nan"},
-                                                                                   {"--steps", "1", "--ahead", "nan"},
-                                                                                   {"--steps", "1", "--ahead", "inf"},
-                                                                                   {"--steps", "1", "--ahead", "1.5"},
-                                                                                   {"--steps", "0"},
-                                                                                   {"--steps", "1000001"}}) {
-    EXPECT_EQ(tests::run_clues(walk, bad, folder.path()).exit_code, 2) << bad.back();
-  }
-  const auto contours = tests::run_clues({"delta", "contours", "screen.off", "--parent", tests::screen_cell, "--cells",
-                                          "grid:1x1x1:box:-0.1,-0.1,-0.1,0.1,0.1,0", "--reach", "nan"},
-                                         folder.path());
-  EXPECT_EQ(contours.exit_code, 2) << contours.out;
-}
-
-TEST(StreamFile, RefusesWhatIsNone) {
-  const tests::TestFolder folder;
-  const std::string header = scene::to_line(scene::StreamHeader{"abc", "grid", 10, 2});
-  for (const std::string& bad :
-       {std::string(), std::string("{}\n"), std::string("{\"cell\": 0}\n"), header + "{\"cell\": 2}\n",
-        header + "{\"cell\": -1}\n", header + "{\"plus\": []}\n", header + "{\"minus\": [10], \"unused\": []}\n",
-        header + "{\"plus\": [[0,0,1,2,3]], \"vertices\": []}\n", header + "nonsense\n", header + "[1]\n",
-        header + "{\"plus\": [[0,1,1,2,3]], \"vertices\": [[1,1e999,0,0]]}\n",
-        header + "{\"plus\": [[0,1,1,2]], \"vertices\": []}\n", header + "{\"minus\": [], \"unused\": [0]}\n"}) {
-    EXPECT_THROW(scene::read_stream(folder.write("s.jsonl", bad)), scene::Error) << bad;
-  }
-  EXPECT_THROW(scene::read_route(folder.write("r.txt", "0 1 7"), 7), scene::Error);
-  EXPECT_THROW(scene::read_route(folder.write("r.txt", "# none\n"), 7), scene::Error);
-  EXPECT_THROW(scene::read_route(folder.write("r.txt", "1.5"), 7), scene::Error);
 }
 
 }  // namespace

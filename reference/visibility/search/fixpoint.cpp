@@ -262,8 +262,7 @@ class Search {
         touched_.insert(apex);
       }
     }
-    const std::vector<Apex*> order(touched_.begin(), touched_.end());
-    touched_.clear();
+    const auto order = std::exchange(touched_, {});
     for (Apex* apex : order) {
       if (apex->on_edge()) csvs_met_.insert(apex);
     }
