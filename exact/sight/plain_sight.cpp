@@ -18,7 +18,7 @@ Rational dot(const Vec& a, const Vec& b) { return a[0] * b[0] + a[1] * b[1] + a[
 
 bool is_zero(const Vec& a) { return sgn(a[0]) == 0 && sgn(a[1]) == 0 && sgn(a[2]) == 0; }
 
-Rational read(const FT& x) { return Rational(to_string_exact(x)); }
+Rational read(const FT& x) { return CGAL::exact(x); }
 
 Vec read(const scene::Point& p) { return {Rational(p[0]), Rational(p[1]), Rational(p[2])}; }
 

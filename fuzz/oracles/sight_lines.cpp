@@ -9,13 +9,13 @@
 #include "exact/sight/scene_query.h"
 #include "exact/sight/witness.h"
 #include "fastpath/queries/segment_queries.h"
+#include "fuzz/findings/sight_aims.h"
 #include "fuzz/generators/parts.h"
 #include "fuzz/oracles/oracle.h"
 
 namespace clues::fuzz {
 namespace {
 
-using exact::FT;
 using exact::Point3;
 using scene::Point;
 
@@ -46,12 +46,12 @@ class Shooter {
     if (!viewpoints_.empty()) {
       for (int i = 0; i < 96; ++i) shoot_at("random", mix(exam_.scene().mesh.points), viewpoints_);
       for (int i = 0; i < 64; ++i)
-        shoot_at("through vertices", off_by_a_little(any(exam_.scene().mesh.points)), viewpoints_);
-      for (int i = 0; i < 96; ++i) shoot_at("beside edges", off_by_a_little(on_an_edge()), viewpoints_);
+        shoot_at("through vertices", off_by_a_little(any(exam_.scene().mesh.points), random_), viewpoints_);
+      for (int i = 0; i < 96; ++i) shoot_at("beside edges", off_by_a_little(on_an_edge(), random_), viewpoints_);
       const auto borders = borders_of_what_is_denied();
       for (int i = 0; i < 96 && !borders.empty(); ++i) {
         const auto& [a, b] = any(borders);
-        shoot_at("toward borders", off_by_a_little(between(a, b, random_.between(0, 16) / 16.0)),
+        shoot_at("toward borders", off_by_a_little(between(a, b, random_.between(0, 16) / 16.0), random_),
                  random_.one_in(2) ? near_corners_ : viewpoints_);
       }
     }
@@ -88,17 +88,7 @@ class Shooter {
     return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
   }
 
-  Point mix(const std::vector<Point>& points) {
-    Point sum{};
-    double total = 0;
-    for (const Point& p : points) {
-      const double weight = random_.between(1, 64) * (random_.one_in(3) ? 16 : 1);
-      total += weight;
-      for (std::size_t i = 0; i < 3; ++i) sum[i] += weight * p[i];
-    }
-    for (double& x : sum) x /= total;
-    return sum;
-  }
+  Point mix(const std::vector<Point>& points) { return random_mean(points, 16, random_); }
 
   Point on_an_edge() {
     const auto& mesh = exam_.scene().mesh;
@@ -106,16 +96,6 @@ class Shooter {
     const auto i = static_cast<std::size_t>(random_.between(0, 2));
     const Point &a = mesh.points[t[i]], &b = mesh.points[t[(i + 1) % 3]];
     return between(a, b, random_.between(0, 64) / 64.0);
-  }
-
-  // Nothing, an ulp, or 2^-10 to 2^-40 in some coordinates.
-  Point off_by_a_little(Point p) {
-    for (double& x : p) {
-      const int kind = random_.between(0, 4);
-      if (kind <= 1) x = std::nextafter(x, kind == 0 ? -1e300 : 1e300);
-      if (kind >= 3) x += std::ldexp(random_.one_in(2) ? 1 : -1, -random_.between(10, 40));
-    }
-    return p;
   }
 
   // From the cell past q; what it hits is visible.
@@ -131,17 +111,9 @@ class Shooter {
     const bool listed = exam_.lists(*hit);
     if (listed ? found_region_ || !exam_.answer().map : found_triangle_) return;
     const auto corners = bvh_.corners(*hit);
-    const Point3 a = exact::to_exact(corners[0]), b = exact::to_exact(corners[1]), c = exact::to_exact(corners[2]);
-    const exact::Plane3 plane(a, b, c);
-    const Point3 from = exact::to_exact(v), to = exact::to_exact(end);
-    const FT at_v = exact::value_at(plane, from), at_end = exact::value_at(plane, to);
-    if (CGAL::is_zero(at_v) || at_v == at_end) return;
-    const Point3 p = exact::collapsed(from + at_v / (at_v - at_end) * (to - from));
-    for (const auto& [x, y, z] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
-      if (CGAL::coplanar_orientation(x, y, z, p) != CGAL::POSITIVE) return;  // on an edge: no witness (D5)
-    }
-    const bool front = CGAL::is_positive(at_v);
-    file({*hit, front, from, p}, aim);
+    const exact::TriangleCorners t{exact::to_exact(corners[0]), exact::to_exact(corners[1]),
+                                   exact::to_exact(corners[2])};
+    if (const auto witness = witness_on(*hit, t, exact::to_exact(v), exact::to_exact(end))) file(*witness, aim);
   }
 
   void at_denied_points() {
@@ -164,7 +136,8 @@ class Shooter {
 
   void file(const validate::Witness& w, const char* aim) {
     bool& found = exam_.lists(w.triangle) ? found_region_ : found_triangle_;
-    if (found || exact::check_witness(exam_.scene().mesh, exam_.cell(), w.triangle, w.front, w.v, w.p).special) return;
+    if (found || !exam_.denies(w)) return;  // most are not: the checker is asked about few
+    if (exact::check_witness(exam_.scene().mesh, exam_.cell(), w.triangle, w.front, w.v, w.p).special) return;
     found = exam_.claim(oracle_, w, fmt::format("a free sight line ({}) ends where all is called hidden", aim));
   }
 
