@@ -14,7 +14,7 @@ struct Dials {
   static constexpr std::int64_t kOwn = -1;  // as the engine has it
 
   // D17. What lies beyond counts as visible, and as a fallback.
-  int generation_limit = 16;  // wedges of a later generation are not built
+  int generation_limit = 8;  // wedges of a later generation are not built
   // Nor are those of more CSVs than csv_limit and so many for each edge of the complex; they are left out by whole waves.
   std::size_t csv_limit = 1000, csv_limit_per_edge = 1;
   std::int64_t longest_walk = kOwn;  // D14: legs after which a walk is given up
