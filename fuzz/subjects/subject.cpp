@@ -223,7 +223,7 @@ std::unique_ptr<Subject> make_subject(const std::string& text) {
   if (text == "deltas") return subject_of(text, make_deltas_trial());
   if (text == "bakes") return subject_of(text, make_bakes_trial());
   if (text == "streams") return subject_of(text, make_streams_trial());
-  if (text == "levels") return subject_of(text, make_levels_trial());
+  if (const auto lines = lines_of_each_level(text)) return subject_of(text, make_levels_trial(*lines));
   assert(text == "fast:backprojected");
   return refined_fast_subject(text, fastpath::RefineBy::backprojection);
 }

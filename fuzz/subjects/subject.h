@@ -48,13 +48,16 @@ class Subject {
 };
 
 // "reference": the exact reference. "fast": the fast path; "fast/N": the same, with the reference asked about one case in N. "subdivided",
-// "backprojected": the reference refined to depth 2; after "fast:" the fast path to depth 3. "maps", "motion", "deltas", "bakes", "streams", "levels": trials. Anything else is a command line (words and quotes as in
+// "backprojected": the reference refined to depth 2; after "fast:" the fast path to depth 3. "maps", "motion", "deltas", "bakes", "streams", "levels": trials; "levels/N" with N sight lines a case. Anything else is a command line (words and quotes as in
 // a shell), in which {scene}, {cell} and {pvs} stand for an OFF file, an OBJ file of the cell's points and the file that it has to write, {mode} for
 // sheet or solid; without any of these words, the first three are appended. Throws scene::Error bad_argument.
 std::unique_ptr<Subject> make_subject(const std::string& text);
 
 // N of "fast/N", 1 for "fast"; none: it is another subject. N from 2 to 10^6, without zeros in front.
 std::optional<std::uint64_t> cases_for_a_comparison(const std::string& name);
+
+// Sight lines of each case of "levels/N", 4,096 of "levels"; none: it is another subject. N from 1 to 10^9, without zeros in front.
+std::optional<std::uint64_t> lines_of_each_level(const std::string& name);
 
 // Whether make_subject() takes it for a command line. What a file names is not run unless the user says so.
 bool is_program(const std::string& text);

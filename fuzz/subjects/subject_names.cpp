@@ -6,23 +6,38 @@
 #include <string_view>
 
 #include "fuzz/subjects/subject.h"
+#include "fuzz/trials/levels_trial.h"
 #include "scene/formats/number.h"
 
 namespace clues::fuzz {
 
-std::optional<std::uint64_t> cases_for_a_comparison(const std::string& name) {
-  if (name == "fast") return 1;
-  constexpr std::string_view begin = "fast/";
+namespace {
+
+// N of "begin/N", from `least` to `most`, without zeros in front.
+std::optional<std::uint64_t> number_in(const std::string& name, std::string_view begin, std::int64_t least,
+                                       std::int64_t most) {
   if (!name.starts_with(begin)) return std::nullopt;
   const auto n = scene::parse_integer(name.substr(begin.size()));
-  if (!n || *n < 2 || *n > 1'000'000 || name != fmt::format("{}{}", begin, *n)) return std::nullopt;
+  if (!n || *n < least || *n > most || name != fmt::format("{}{}", begin, *n)) return std::nullopt;
   return static_cast<std::uint64_t>(*n);
+}
+
+}  // namespace
+
+std::optional<std::uint64_t> cases_for_a_comparison(const std::string& name) {
+  if (name == "fast") return 1;
+  return number_in(name, "fast/", 2, 1'000'000);
+}
+
+std::optional<std::uint64_t> lines_of_each_level(const std::string& name) {
+  if (name == "levels") return lines_of_a_level;
+  return number_in(name, "levels/", 1, 1'000'000'000);
 }
 
 bool is_program(const std::string& text) {
   constexpr std::array names{"reference", "subdivided", "backprojected", "fast:subdivided", "fast:backprojected"};
   const auto has = [&](const auto& all) { return std::find(all.begin(), all.end(), text) != all.end(); };
-  return !cases_for_a_comparison(text) && !has(names) && !has(trial_names);
+  return !cases_for_a_comparison(text) && !lines_of_each_level(text) && !has(names) && !has(trial_names);
 }
 
 }  // namespace clues::fuzz

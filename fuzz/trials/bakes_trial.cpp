@@ -48,13 +48,6 @@ constexpr const char* bake_same_bytes = "bake-same-bytes";
 constexpr std::size_t most_for_exact = 12;  // triangles
 constexpr int lines_of_a_cell = 160;
 
-std::vector<Point> corners_of_box(const scene::Bounds& b) {
-  auto corners = box_of(b.low, b.high);
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  return corners;
-}
-
 // As `--cell` takes it.
 std::string spec_of(const scene::BakePlace& cell) {
   const auto b = scene::bounds_of(cell.points);
@@ -65,7 +58,7 @@ std::string spec_of(const scene::BakePlace& cell) {
 std::vector<scene::BakePlace> cells_within(const scene::Bounds& box, Random& random, bool few) {
   std::vector<scene::BakePlace> cells;
   const auto add_cell = [&](const scene::Bounds& b) {
-    cells.push_back({std::to_string(cells.size()), 0, corners_of_box(b), {}, -1});
+    cells.push_back({std::to_string(cells.size()), 0, scene::corners_of(b), {}, -1});
   };
   const auto between = [&](std::size_t axis, int at, int of) {
     return at == of ? box.high[axis] : box.low[axis] + (box.high[axis] - box.low[axis]) * at / of;
@@ -108,7 +101,7 @@ void add_root(BakePlan& plan) {
     box->low[i] -= by;
     box->high[i] += by;
   }
-  plan.nodes.insert(plan.nodes.begin() + 1, {"", 0, corners_of_box(*box), {}, -1});
+  plan.nodes.insert(plan.nodes.begin() + 1, {"", 0, scene::corners_of(*box), {}, -1});
   for (std::size_t i = 2; i < plan.nodes.size(); ++i) ++plan.nodes[i].node;
   for (auto& cell : plan.cells) ++cell.node;
 }

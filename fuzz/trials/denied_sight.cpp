@@ -8,7 +8,9 @@
 
 #include "exact/cell/convex_cell.h"
 #include "exact/sight/scene_query.h"
+#include "fastpath/predicates/estimated_vectors.h"
 #include "fastpath/queries/segment_queries.h"
+#include "fuzz/findings/sight_aims.h"
 #include "fuzz/findings/witness_text.h"
 #include "fuzz/generators/parts.h"
 #include "scene/mesh/bounds.h"
@@ -16,9 +18,12 @@
 namespace clues::fuzz {
 namespace {
 
-using exact::Point3;
 using scene::Point;
 using Ids = std::vector<std::uint32_t>;
+
+constexpr std::array aims{"through vertices", "beside edges", "beside edges of what is listed", "to inner points"};
+constexpr std::size_t to_vertices = 0, to_edges = 1, past_listed = 2;
+constexpr std::size_t at_once = 256;  // lines
 
 class DeniedShooter {
  public:
@@ -46,10 +51,10 @@ class DeniedShooter {
       if (std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return is_lit[c]; })) near_.push_back(t);
     }
     outcome_.counters["triangles denied"] += denied_.size();
-    choose_viewpoints();
   }
 
-  std::optional<DeniedSight> find(int lines) {
+  std::optional<DeniedSight> find(std::uint64_t lines) {
+    choose_viewpoints(lines);
     if (denied_.empty()) return std::nullopt;
     const auto box = scene::bounds_of(points_);
     for (const auto t : denied_) {
@@ -63,7 +68,16 @@ class DeniedShooter {
       ++outcome_.counters["cells without a viewpoint"];
       return std::nullopt;
     }
-    for (int i = 0; i < lines && !found_; ++i) shoot(i);
+    for (std::uint64_t left = lines; left > 0 && !found_;) {
+      const std::uint64_t some = std::min<std::uint64_t>(left, at_once);
+      shoot(static_cast<std::size_t>(some));
+      left -= some;
+    }
+    for (std::size_t aim = 0; aim < aims.size(); ++aim)
+      outcome_.counters[std::string("sight lines ") + aims[aim]] += shot_[aim];
+    outcome_.counters["sight lines that end on a surface"] += on_surfaces_;
+    outcome_.counters["sight lines into the open"] += into_the_open_;
+    outcome_.counters["panes crossed"] += panes_crossed_;
     outcome_.counters["sight lines decided"] += walls_.counts().queries;
     outcome_.counters["triangles decided in whole numbers"] += walls_.counts().exact + panes_.counts().exact;
     return found_;
@@ -83,17 +97,12 @@ class DeniedShooter {
   }
   static bool is_surface(const exact::TriangleCorners& t) { return !CGAL::collinear(t[0], t[1], t[2]); }
 
-  void choose_viewpoints() {
+  // 16, and one more for each 256 lines.
+  void choose_viewpoints(std::uint64_t lines) {
     const auto box = scene::bounds_of(points_);
-    for (int tries = 0; tries < 48 && viewpoints_.size() < 16; ++tries) {
-      Point sum{};
-      double total = 0;
-      for (const Point& p : points_) {
-        const double weight = random_.between(1, 64) * (random_.one_in(3) ? 64 : 1);
-        total += weight;
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += weight * p[i];
-      }
-      for (double& x : sum) x /= total;
+    const std::uint64_t wanted = std::max<std::uint64_t>(16, lines / 256);
+    for (std::uint64_t tries = 0; tries < 3 * wanted && viewpoints_.size() < wanted; ++tries) {
+      Point sum = random_mean(points_, 64, random_);
       for (std::size_t i = 0; i < 3; ++i) {  // in the plane of a flat cell, exactly, where that is across an axis
         if (box.low[i] == box.high[i]) sum[i] = box.low[i];
       }
@@ -106,14 +115,6 @@ class DeniedShooter {
     }
   }
 
-  Point off_by_little(Point p) {
-    for (double& x : p) {
-      const int kind = random_.between(0, 4);
-      if (kind <= 1) x = std::nextafter(x, kind == 0 ? -1e300 : 1e300);
-      if (kind >= 3) x += std::ldexp(random_.one_in(2) ? 1 : -1, -random_.between(10, 40));
-    }
-    return p;
-  }
   std::uint32_t denied() { return !near_.empty() && !random_.one_in(3) ? any(near_, random_) : any(denied_, random_); }
   Point on_an_edge_of(std::uint32_t triangle) {
     const auto t = corners_of(triangle);
@@ -131,58 +132,84 @@ class DeniedShooter {
     return p;
   }
 
-  void shoot(int number) {
-    switch (number % 4) {
-      case 0: {
-        const auto corners = corners_of(denied());
-        return shoot_at("through vertices", off_by_little(any(corners, random_)));
+  // Three of four lines go to what is denied, many at once; the fourth goes past what is listed, to see what is behind.
+  void shoot(std::size_t count) {
+    segments_.clear();
+    aims_.clear();
+    for (std::size_t i = 0; i < count && !found_; ++i) {
+      const std::size_t aim = i % aims.size();
+      if (aim == past_listed) {
+        if (edges_of_listed_.empty()) continue;
+        const Point q = off_by_a_little(on_an_edge_of(any(edges_of_listed_, random_)), random_);
+        look_along({any(viewpoints_, random_), q}, aim);
+        ++shot_[aim];
+        continue;
       }
-      case 1:
-        return shoot_at("beside edges", off_by_little(on_an_edge_of(denied())));
-      case 2:
-        if (edges_of_listed_.empty()) return;
-        return shoot_at("beside edges of what is listed", off_by_little(on_an_edge_of(any(edges_of_listed_, random_))));
-      default:
-        return shoot_at("to inner points", within(denied()));
+      const std::uint32_t t = denied();
+      const Point q = aim == to_vertices
+                          ? off_by_a_little(corners_of(t)[static_cast<std::size_t>(random_.between(0, 2))], random_)
+                      : aim == to_edges ? off_by_a_little(on_an_edge_of(t), random_)
+                                        : within(t);
+      segments_.push_back({any(viewpoints_, random_), q});
+      aims_.push_back(aim);
+      ++shot_[aim];
+    }
+    // Most are stopped long before.
+    auto before = segments_;
+    for (auto& s : before) s.b = toward(s, 1 - 0x1p-20);
+    blocked_.resize(before.size());
+    walls_.any_hits(before, blocked_, {{}, &cell_});
+    for (std::size_t i = 0; i < segments_.size() && !found_; ++i) {
+      if (blocked_[i] != 0) {
+        ++on_surfaces_;
+      } else {
+        look_along(segments_[i], aims_[i]);
+      }
     }
   }
 
-  // From the cell past q; the first wall that it meets is visible, and what it crosses before.
-  void shoot_at(const char* aim, const Point& q) {
-    const Point& v = any(viewpoints_, random_);
-    Point end;
-    for (std::size_t i = 0; i < 3; ++i) end[i] = v[i] + 4 * (q[i] - v[i]);
-    ++outcome_.counters[std::string("sight lines ") + aim];
+  static Point toward(const fastpath::Segment& s, double t) {
+    Point p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = s.a[i] + t * (s.b[i] - s.a[i]);
+    return p;
+  }
+
+  // Past the end of the segment; the first wall that it meets is visible, and what it crosses before.
+  void look_along(const fastpath::Segment& s, std::size_t aim) {
+    const Point &v = s.a, end = toward(s, 4);
     const auto wall = walls_.first_hit({v, end}, {{}, &cell_});
-    ++outcome_.counters[wall ? "sight lines that end on a surface" : "sight lines into the open"];
-    const Point3 from = exact::to_exact(v), to = exact::to_exact(end);
+    ++(wall ? on_surfaces_ : into_the_open_);
     if (wall) {
-      if (const auto id = scene_.blocking_id(*wall); is_denied(id)) claim(id, from, to, aim, true);
+      if (const auto id = scene_.blocking_id(*wall); is_denied(id)) claim(id, v, end, aims[aim], true);
     }
     if (found_ || scene_.passing().mesh().triangles.empty()) return;
     for (const auto pane : panes_.all_hits({v, end}, {{}, &cell_})) {
       const auto id = scene_.passing_id(pane);
-      ++outcome_.counters["panes crossed"];
-      if (is_denied(id)) claim(id, from, to, aim, false);
+      ++panes_crossed_;
+      if (is_denied(id) && !(wall && is_behind_a_wall(id, v, end))) claim(id, v, end, aims[aim], false);
       if (found_) return;
     }
   }
 
+  // Whether walls stop the line from v before it crosses the pane, but for rounding: the checker takes long to say so, and most panes are behind some wall.
+  bool is_behind_a_wall(std::uint32_t pane, const Point& v, const Point& end) {
+    const auto t = corners_of(pane);
+    const Point normal = fastpath::cross_of(fastpath::minus(t[1], t[0]), fastpath::minus(t[2], t[0]));
+    const double at_v = fastpath::dot_of(normal, fastpath::minus(v, t[0]));
+    const double at_end = fastpath::dot_of(normal, fastpath::minus(end, t[0]));
+    const Point p = toward({v, end}, at_v / (at_v - at_end));
+    return std::isfinite(p[0] + p[1] + p[2]) && walls_.any_hit({v, p}, {{}, &cell_});
+  }
+
   // Where the line crosses the triangle. Of a wall that it meets first nothing else may stand before that point.
-  void claim(std::uint32_t id, const Point3& from, const Point3& to, const char* aim, bool is_first) {
+  void claim(std::uint32_t id, const Point& v, const Point& end, const char* aim, bool is_first) {
     const auto t = exact_corners(id);
     if (!is_surface(t)) return;
-    const exact::Plane3 plane(t[0], t[1], t[2]);
-    const exact::FT at_v = exact::value_at(plane, from), at_end = exact::value_at(plane, to);
-    if (CGAL::is_zero(at_v) || at_v == at_end) return;
-    const Point3 p = exact::collapsed(from + at_v / (at_v - at_end) * (to - from));
-    for (std::size_t i = 0; i < 3; ++i) {  // on an edge: no witness (D5)
-      if (CGAL::coplanar_orientation(t[i], t[(i + 1) % 3], t[(i + 2) % 3], p) != CGAL::POSITIVE) return;
-    }
-    const validate::Witness w{id, CGAL::is_positive(at_v), from, p};
-    const auto checked = check_flagged_witness(scene_.scene(), hull_, w);
+    const auto w = witness_on(id, t, exact::to_exact(v), exact::to_exact(end));
+    if (!w) return;
+    const auto checked = check_flagged_witness(scene_.scene(), hull_, *w);
     if (checked.valid) {
-      found_ = DeniedSight{id, w, aim};
+      found_ = DeniedSight{id, *w, aim};
     } else if (is_first && !checked.special) {
       outcome_.contradictions.push_back(
           fmt::format("triangle {} is said to be met first, and the witness checker says: {}", id, checked.reason));
@@ -200,13 +227,19 @@ class DeniedShooter {
   fastpath::SegmentQueries walls_, panes_;
   Ids denied_, near_, edges_of_listed_;
   std::vector<Point> viewpoints_;  // in int V
+  std::array<std::uint64_t, aims.size()> shot_{};
+  std::uint64_t on_surfaces_ = 0, into_the_open_ = 0, panes_crossed_ = 0;
   std::optional<DeniedSight> found_;
+  // Of the lines that go at once:
+  std::vector<fastpath::Segment> segments_;
+  std::vector<std::size_t> aims_;
+  std::vector<std::uint8_t> blocked_;
 };
 
 }  // namespace
 
 std::optional<DeniedSight> find_denied_sight(const fastpath::SeeThroughScene& scene, const std::vector<Point>& cell,
-                                             const Ids& list, int lines, Random random, Outcome& outcome) {
+                                             const Ids& list, std::uint64_t lines, Random random, Outcome& outcome) {
   return DeniedShooter(scene, cell, list, random, outcome).find(lines);
 }
 

@@ -25,7 +25,7 @@ struct DeniedSight {
 // aimed at more often. Counts what it does. O(lines log n); a claim O(n).
 std::optional<DeniedSight> find_denied_sight(const fastpath::SeeThroughScene& scene,
                                              const std::vector<scene::Point>& cell,
-                                             const std::vector<std::uint32_t>& list, int lines, Random random,
+                                             const std::vector<std::uint32_t>& list, std::uint64_t lines, Random random,
                                              Outcome& outcome);
 
 }  // namespace clues::fuzz

@@ -20,11 +20,10 @@ namespace {
 using Ids = std::vector<std::uint32_t>;
 
 constexpr const char* level_sight_lines = "level-sight-lines";
-constexpr int lines_of_a_level = 4096;
 
 class LevelsTrial : public Trial {
  public:
-  explicit LevelsTrial(LevelLister lister) : lister_(std::move(lister)) {}
+  LevelsTrial(std::uint64_t lines, LevelLister lister) : lines_(lines), lister_(std::move(lister)) {}
 
   const char* what() const override {
     return "lists of cells in whole levels, those of --scenes or made, with flags and hulls (D22)";
@@ -76,7 +75,7 @@ class LevelsTrial : public Trial {
     const Ids list = lister_(trees, scene.cell);
     ++outcome.counters["lists searched"];
     outcome.counters["triangles listed"] += list.size();
-    const auto seen = find_denied_sight(trees, scene.cell, list, lines_of_a_level, random_for(scene, "lines"), outcome);
+    const auto seen = find_denied_sight(trees, scene.cell, list, lines_, random_for(scene, "lines"), outcome);
     if (seen) outcome.findings.push_back(finding_of(scene, *seen));
   }
 
@@ -114,16 +113,17 @@ class LevelsTrial : public Trial {
     return f;
   }
 
+  std::uint64_t lines_;
   LevelLister lister_;
 };
 
 }  // namespace
 
-std::unique_ptr<Trial> make_levels_trial(LevelLister lister) {
-  return std::make_unique<LevelsTrial>(std::move(lister));
+std::unique_ptr<Trial> make_levels_trial(std::uint64_t lines, LevelLister lister) {
+  return std::make_unique<LevelsTrial>(lines, std::move(lister));
 }
-std::unique_ptr<Trial> make_levels_trial() {
-  return make_levels_trial([](const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell) {
+std::unique_ptr<Trial> make_levels_trial(std::uint64_t lines) {
+  return make_levels_trial(lines, [](const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell) {
     return exact::by_threads(1, [&] { return fastpath::visible_through(scene, cell, {}).counting(scene.scene()); });
   });
 }

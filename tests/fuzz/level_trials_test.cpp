@@ -249,11 +249,13 @@ TEST(LevelsTrial, OursHold) {
 TEST(LevelsTrial, AListThatLacksOneTriangleIsFoundAndShrunk) {
   const scene::TemporaryFolder folder;
   const auto wrong = subject_of(
-      "levels", make_levels_trial([](const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell) {
-        auto list = fastpath::visible_through(scene, cell, {}).counting(scene.scene());
-        if (!list.empty()) list.erase(list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2));
-        return list;
-      }));
+      "levels", make_levels_trial(lines_of_a_level,
+                                  [](const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell) {
+                                    auto list = fastpath::visible_through(scene, cell, {}).counting(scene.scene());
+                                    if (!list.empty())
+                                      list.erase(list.begin() + static_cast<std::ptrdiff_t>(list.size() / 2));
+                                    return list;
+                                  }));
   const auto saved = found_by(*wrong, options_for_levels(folder.path(), 2), "level-sight-lines");
   EXPECT_GT(saved.original.where.mesh.triangles.size(), 200U);
   EXPECT_LT(saved.finding.where.mesh.triangles.size(), 20U);
@@ -265,12 +267,13 @@ TEST(LevelsTrial, AListThatLacksOneTriangleIsFoundAndShrunk) {
 TEST(LevelsTrial, PanesThatBlockAreFound) {
   const scene::TemporaryFolder folder;
   const auto wrong = subject_of(
-      "levels", make_levels_trial([](const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell) {
-        scene::FlaggedMesh walls = scene.scene();
-        walls.blocks.clear();
-        const fastpath::SeeThroughScene other(walls);
-        return fastpath::visible_through(other, cell, {}).counting(scene.scene());
-      }));
+      "levels", make_levels_trial(lines_of_a_level,
+                                  [](const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell) {
+                                    scene::FlaggedMesh walls = scene.scene();
+                                    walls.blocks.clear();
+                                    const fastpath::SeeThroughScene other(walls);
+                                    return fastpath::visible_through(other, cell, {}).counting(scene.scene());
+                                  }));
   const auto saved = found_by(*wrong, options_for_levels(folder.path(), 12), "level-sight-lines");
   EXPECT_LT(saved.finding.where.mesh.triangles.size(), 40U);
 }
@@ -288,6 +291,20 @@ TEST(LevelsTrial, TakesLevelsAndNeedsThemForSomeGenerators) {
   const auto summary = run_campaign(options, *make_subject("levels"));
   EXPECT_EQ(summary.counters.at("cases of given_boxes"), 1U);
   EXPECT_EQ(summary.exit_code(), 0) << to_text(summary, folder.path());
+}
+
+TEST(LevelsTrial, DecidesAsManyLinesAsAreAskedFor) {
+  const scene::TemporaryFolder folder;
+  const auto subject = make_subject("levels/700");
+  EXPECT_EQ(subject->name(), "levels/700");
+  const auto summary = run_campaign(options_for_levels(folder.path(), 1), *subject);
+  std::uint64_t lines = 0;
+  for (const char* aim : {"through vertices", "beside edges", "beside edges of what is listed", "to inner points"})
+    lines += summary.counters.at(std::string("sight lines ") + aim);
+  EXPECT_EQ(lines, 700U);
+  EXPECT_GE(summary.counters.at("sight lines decided"), lines);
+  for (const char* none : {"levels/", "levels/0", "levels/07", "levels/x", "levels/1000000001"})
+    EXPECT_TRUE(is_program(none)) << none;
 }
 
 // Squares of their extent overflow, and floats do not hold them: cells are finite all the same, and the store can be read again.
