@@ -38,7 +38,8 @@ struct FuzzRequest {
   std::string subject = "reference";
   std::vector<std::string> scenes;
   std::uint64_t cases = 0;
-  std::string time, shard, agreement;
+  std::string time, case_time, shard, agreement;
+  std::uint64_t lines = 0;  // 0: as usual
   bool no_dials = false;
 };
 
@@ -53,6 +54,13 @@ std::string compared(const std::string& subject, const std::string& share) {
   if (subject != "fast" || name == "fast" || !fuzz::cases_for_a_comparison(name))
     throw Error(ErrorCode::bad_argument, "--agreement " + share + ": give 1/N, N up to 1000000, with --subject fast");
   return name;
+}
+
+// "levels" and 65536: "levels/65536".
+std::string with_lines(const std::string& subject, std::uint64_t lines) {
+  if (lines == 0) return subject;
+  if (subject != "levels") throw Error(ErrorCode::bad_argument, "--lines: give it with --subject levels");
+  return fmt::format("{}/{}", subject, lines);
 }
 
 // What the campaign of one subject is put to.
@@ -99,7 +107,10 @@ int run_all(const FuzzRequest& request) {
     for (auto& folder : options.merged) folder /= name;
     if (options.time) *options.time /= static_cast<std::int64_t>(all_subjects.size());
     print(fmt::format("SUBJECT {}: {}\n", name, scene::printable(options.out.string())));
-    const auto subject = fuzz::make_subject(std::string(name) == "fast" ? compared(name, request.agreement) : name);
+    const std::string kind = name;
+    const auto subject = fuzz::make_subject(kind == "fast"     ? compared(kind, request.agreement)
+                                            : kind == "levels" ? with_lines(kind, request.lines)
+                                                               : kind);
     const int code = run_campaign_of(*subject, options);
     // Contradictions are worse than findings, and these than a campaign that is vacuous or was interrupted.
     const auto rank = [](int c) { return c == oracle_contradiction ? 3 : c == findings ? 2 : c == fine ? 0 : 1; };
@@ -117,6 +128,10 @@ int run_fuzz(FuzzRequest& request) {
   if (request.cases > 0) options.cases = request.cases;
   if (request.time.empty() && !options.cases) request.time = usual_time;
   if (!request.time.empty()) options.time = scene::parse_duration("--time", request.time);
+  if (!request.case_time.empty()) {
+    const auto limit = scene::parse_duration("--case-time", request.case_time);
+    options.time_for_one = std::chrono::ceil<std::chrono::seconds>(limit);
+  }
   options.dials = !request.no_dials;
   const Shard shard = parse_shard(request.shard);
   options.shard = shard.index;
@@ -126,11 +141,13 @@ int run_fuzz(FuzzRequest& request) {
   if (shard.count > 1 && options.errors > 0)
     throw Error(ErrorCode::bad_argument, "--shard: a shard cannot know when all have --errors; leave that out");
   if (request.subject == "all") {
+    if (options.seek_pairs)
+      throw Error(ErrorCode::bad_argument, "--seek-pairs: give it in a campaign of one subject that has a map");
     if (!cluster.alone())
       throw Error(ErrorCode::bad_argument, "--subject all: under mpirun give each subject a command of its own");
     return run_all(request);
   }
-  const auto subject = fuzz::make_subject(compared(request.subject, request.agreement));
+  const auto subject = fuzz::make_subject(with_lines(compared(request.subject, request.agreement), request.lines));
   options.given = scenes_for(*subject, request.scenes);
   const auto processes = [&](const validate::Work& work) {
     return std::make_unique<validate::Workers>(options.jobs, work, options.time_for_one);
@@ -264,6 +281,8 @@ std::string fuzz_footer() {
          "  clues fuzz --subject bakes --cases 16 --out fuzz-bakes\n"
          "  clues fuzz --subject streams --cases 6 --out fuzz-streams\n"
          "  clues fuzz --subject levels --scenes level.bsp --cases 8 --out fuzz-levels\n"
+         "  clues fuzz --subject levels --lines 20000 --cases 4 --out fuzz-lines\n"
+         "  clues fuzz --seek-pairs --cases 400 --out fuzz-pairs\n"
          "  clues fuzz --subject all --time 1h --jobs 2 --out fuzz-all\n"
          "  clues fuzz --generator axis_boxes --oracle sight-lines --cases 50 --out fuzz-boxes\n"
          "  clues fuzz --generator umbrellas:1 --cases 50 --out fuzz-gaps            # gaps of one ulp only\n"
@@ -307,6 +326,9 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   fuzz->add_option("--time", request->time,
                    "For new cases: 90 or 90s, 10m, 2h (default 60 without --cases); shrinking comes on top")
       ->type_name("T");
+  fuzz->add_option("--case-time", request->case_time,
+                   "Processor time of one case, after which it is a finding without end (default 5m)")
+      ->type_name("T");
   fuzz->add_option("--jobs", options.jobs, "Processes that work at once, of each rank under mpirun (default 1)")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
@@ -323,6 +345,12 @@ void add_fuzz_commands(CLI::App& program, int& status) {
   fuzz->add_option("--agreement", request->agreement,
                    "With --subject fast: ask the reference about one case in N only (default 1/1)")
       ->type_name("1/N");
+  fuzz->add_option("--lines", request->lines, "With --subject levels: sight lines of each case (default 4096)")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+  fuzz->add_flag("--seek-pairs", options.seek_pairs,
+                 "Choose the cases: first of generators, dials and settings that still show pairs of rules which were "
+                 "never met in one case");
   fuzz->add_option("--oracle", options.oracles, "Only this oracle; may be repeated")->type_name("NAME");
   fuzz->add_option("--errors", options.errors, "Stop at this many different findings; 0: never (default)")
       ->type_name("N")

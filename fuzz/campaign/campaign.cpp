@@ -8,6 +8,7 @@
 #include <set>
 
 #include "fuzz/campaign/generators.h"
+#include "fuzz/campaign/pair_seeker.h"
 #include "fuzz/findings/dials.h"
 #include "fuzz/findings/store_content.h"
 #include "fuzz/oracles/oracle.h"
@@ -38,6 +39,7 @@ std::string plan_of(const CampaignOptions& options, const std::vector<NamedGener
   json plan{
       {"seed", options.seed}, {"first", options.first}, {"subject", subject.name()}, {"scenes", options.given.hashes}};
   if (dials) plan["dials"] = true;
+  if (options.seek_pairs) plan["seeks"] = "pairs";
   if (shards > 1) plan["shard"] = fmt::format("{}/{}", shard + 1, shards);
   for (const auto& g : generators) plan["generators"].push_back(g.name);
   for (const auto& name : oracles) plan["oracles"].push_back(name);
@@ -49,6 +51,11 @@ class Cases {
  public:
   Cases(const CampaignOptions& options, const Subject& subject)
       : options_(options), subject_(subject), trial_(subject.trial()) {
+    if (options.seek_pairs && (options.shards > 1 || !options.merged.empty()))
+      throw Error(
+          ErrorCode::bad_argument,
+          "--seek-pairs: which case comes next depends on all that were judged, which shards cannot know; leave "
+          "out --shard and --merge, or use mpirun");
     if (!trial_) {
       generators_ = generators_named(options.generators, options.given);
       oracles_ = oracles_named(options.oracles);
@@ -56,6 +63,9 @@ class Cases {
     }
     if (!options.given.paths.empty() && !trial_->takes_levels())
       throw Error(ErrorCode::bad_argument, "--scenes: the subject " + subject.name() + " takes none");
+    if (options.seek_pairs)
+      throw Error(ErrorCode::bad_argument,
+                  "--seek-pairs: no map says which rules a case of the subject " + subject.name() + " meets");
     checks_ = checks_named(*trial_, options.oracles);
     generators_ = generators_named(*trial_, options.generators, checks_, options.given);
   }
@@ -120,7 +130,11 @@ class Campaign {
         subject_(subject),
         cases_(options, subject),
         file_(made(options.out) / "findings.sqlite"),
-        store_(with_shards(), cases_.plan(options.shard, options.shards)) {}
+        store_(with_shards(), cases_.plan(options.shard, options.shards)) {
+    if (!options.seek_pairs) return;
+    seeker_.emplace(cases_.generators().size(), [this](std::uint64_t number) { return cases_.make(number).dials; });
+    seeker_->resume(store_.sought(), store_.counters());
+  }
 
   CampaignSummary run() {
     const auto begin = Clock::now();
@@ -196,41 +210,51 @@ class Campaign {
     return file_;
   }
 
+  // Cases have places in the order of the campaign, of which this shard has every one, counted from 0.
+  bool knows(std::uint64_t place) const { return !seeker_ || seeker_->knows(place); }
+  std::uint64_t number_at(std::uint64_t place) const {
+    return seeker_ ? seeker_->number(place) : place * options_.shards + options_.shard;
+  }
+  // What the store has done when all cases before this place are.
+  std::uint64_t done_before(std::uint64_t place, std::uint64_t last) const {
+    return seeker_ ? place : std::min(number_at(place), last);
+  }
+
   void run_cases() {
-    const std::uint64_t step = options_.shards, done = store_.cases_done();
-    std::uint64_t next = ours_below(done) * step + options_.shard;
+    const std::uint64_t last = options_.cases.value_or(UINT64_MAX), done = store_.cases_done();
+    const std::uint64_t places = options_.cases ? ours_below(last) : UINT64_MAX;
+    std::uint64_t next = ours_below(done);
     const auto end = options_.time ? Clock::now() + *options_.time : Clock::time_point::max();
-    const std::uint64_t last = options_.cases.value_or(UINT64_MAX);
     if (done >= last || enough_errors()) return;
     const auto workers = new_pool();
-    std::uint64_t expected = next;  // the case to go into the store next
+    std::uint64_t expected = next;  // the place of the case to go into the store next
     std::map<std::uint64_t, Outcome> early;
     std::vector<Judged> block;
     const auto commit = [&] {
-      const std::uint64_t below = std::min(expected, last);
+      const std::uint64_t below = done_before(expected, last);
       if (!block.empty() || below > store_.cases_done()) store_.commit(block, below);
       block.clear();
     };
     while (true) {
-      while (workers->idle() && next < last && !stopped() && Clock::now() < end) {
-        workers->start(next);
-        next += step;
-      }
+      while (workers->idle() && next < places && knows(next) && !stopped() && Clock::now() < end)
+        workers->start(number_at(next++));
       if (workers->empty()) break;
       const auto reply = workers->wait(look_up);
       if (!reply) continue;
       early[reply->task] = reply->finished ? outcome_from_json_text(reply->text) : lost(reply->task, reply->text);
-      for (auto at = early.find(expected); at != early.end(); at = early.find(expected)) {
+      while (expected < next) {
+        const auto at = early.find(number_at(expected));
+        if (at == early.end()) break;
         for (const Finding& f : at->second.findings) signatures_.insert(f.signature());
-        block.push_back({expected, std::move(at->second)});
+        block.push_back({at->first, std::move(at->second)});
         early.erase(at);
-        expected += step;
+        if (seeker_) block.back().new_pairs = seeker_->tell(block.back().outcome.counters);
+        ++expected;
         if (enough_errors()) return commit();
         if (block.size() >= options_.block) commit();
       }
       if (options_.progress)
-        options_.progress(fmt::format("cases, {} findings", signatures_.size()), ours_below(expected),
-                          ours_below(std::min(last, next)));
+        options_.progress(fmt::format("cases, {} findings", signatures_.size()), expected, std::min(places, next));
     }
     commit();
   }
@@ -330,6 +354,7 @@ class Campaign {
   const Cases cases_;
   const fs::path file_;
   Store store_;
+  std::optional<PairSeeker> seeker_;
   std::set<std::string> signatures_;
 };
 

@@ -1,5 +1,6 @@
 // A campaign: cases of all generators by turns, put to a subject and judged by the oracles, in worker processes of one machine or many. Case number n is scene first + n / G of generator
-// n modulo G, a pure function of the seed; outcomes are committed in the order of the cases, so the findings do not depend on the number of jobs.
+// n modulo G, a pure function of the seed; outcomes are committed in the order of the cases, so the findings do not depend on the number of jobs. The order is that of
+// their numbers, or, with seek_pairs, one in which those come first that may show pairs of rules that were never met in one case.
 #pragma once
 
 #include <atomic>
@@ -24,6 +25,7 @@ struct CampaignOptions {
   std::vector<std::string> generators, oracles;  // empty: all
   GivenScenes given;
   bool dials = false;                             // turn dials in half of the cases (dials.h)
+  bool seek_pairs = false;                        // choose the cases (pair_seeker.h); not with shards
   std::optional<std::uint64_t> cases;             // in all, those of earlier runs included
   std::optional<std::chrono::milliseconds> time;  // of this run, before shrinking
   int jobs = 1;

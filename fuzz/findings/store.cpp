@@ -54,6 +54,7 @@ Store::~Store() = default;
 std::uint64_t Store::cases_done() const { return stored_cases_done(*db_); }
 Counters Store::counters() const { return stored_counters(*db_); }
 std::vector<StoredFinding> Store::findings() const { return stored_findings(*db_); }
+std::vector<SoughtCase> Store::sought() const { return stored_sought(*db_); }
 
 std::vector<std::string> Store::contradictions() const {
   std::vector<std::string> out;
@@ -65,7 +66,9 @@ void Store::commit(const std::vector<Judged>& judged, std::uint64_t done) {
   db_->run("BEGIN IMMEDIATE");
   try {
     Counters sums;
-    for (const auto& [number, outcome] : judged) {
+    std::uint64_t place = cases_done();
+    for (const auto& [number, outcome, new_pairs] : judged) {
+      if (new_pairs) insert_sought(*db_, place++, {number, *new_pairs});
       for (const auto& [name, value] : outcome.counters) sums[name] += value;
       for (const auto& text : outcome.contradictions) add_contradiction(*db_, first_place(number), text);
       for (const Finding& f : outcome.findings) {

@@ -26,6 +26,12 @@ struct StoredFinding {
 struct Judged {
   std::uint64_t number = 0;
   Outcome outcome;
+  std::optional<std::uint64_t> new_pairs{};  // of rules, in a campaign that chooses its cases by them
+};
+
+// A case that was chosen (pair_seeker.h), and of how many pairs of rules it was the first.
+struct SoughtCase {
+  std::uint64_t number = 0, new_pairs = 0;
 };
 
 class Store {
@@ -37,9 +43,11 @@ class Store {
   Store(const Store&) = delete;
   Store& operator=(const Store&) = delete;
 
-  std::uint64_t cases_done() const;  // all cases below this number that the campaign, or this shard of it, has
+  // All cases below this number that the campaign, or this shard of it, has; where they are chosen, how many.
+  std::uint64_t cases_done() const;
   Counters counters() const;
   std::vector<std::string> contradictions() const;
+  std::vector<SoughtCase> sought() const;       // in the order in which they were chosen
   std::vector<StoredFinding> findings() const;  // by id, which is the order in which they were found
 
   // The next cases, in order; `done` is what cases_done() says from now on. All or nothing.

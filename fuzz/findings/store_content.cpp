@@ -19,7 +19,9 @@ const char* const store_schema =
     "CREATE TABLE IF NOT EXISTS counters (name TEXT PRIMARY KEY, value INTEGER NOT NULL) WITHOUT ROWID;"
     "CREATE TABLE IF NOT EXISTS contradictions (id INTEGER PRIMARY KEY, text TEXT NOT NULL);"
     "CREATE TABLE IF NOT EXISTS findings (id INTEGER PRIMARY KEY, signature TEXT NOT NULL UNIQUE,"
-    " case_number INTEGER NOT NULL, occurrences INTEGER NOT NULL, finding TEXT NOT NULL, folder TEXT);";
+    " case_number INTEGER NOT NULL, occurrences INTEGER NOT NULL, finding TEXT NOT NULL, folder TEXT);"
+    "CREATE TABLE IF NOT EXISTS sought (place INTEGER PRIMARY KEY, case_number INTEGER NOT NULL,"
+    " new_pairs INTEGER NOT NULL);";
 
 namespace {
 
@@ -71,11 +73,32 @@ std::vector<StoredFinding> stored_findings(const Database& store) {
   return out;
 }
 
+void insert_sought(const Database& store, std::uint64_t place, const SoughtCase& sought) {
+  Statement(store, "INSERT INTO sought VALUES (?1, ?2, ?3)")
+      .with(static_cast<std::int64_t>(place))
+      .with(static_cast<std::int64_t>(sought.number))
+      .with(static_cast<std::int64_t>(sought.new_pairs))
+      .next();
+}
+
+std::vector<SoughtCase> stored_sought(const Database& store) {
+  std::vector<SoughtCase> out;
+  // Stores of older releases have no such table.
+  Statement table(store, "SELECT 1 FROM sqlite_master WHERE type = 'table' AND name = 'sought'");
+  if (!table.next()) return out;
+  for (Statement s(store, "SELECT place, case_number, new_pairs FROM sought ORDER BY place"); s.next();) {
+    if (s.number(0) != static_cast<std::int64_t>(out.size()) || !is_case(s.number(1)) || s.number(2) < 0)
+      throw Error(ErrorCode::malformed, store.file() + ": the order of its cases is none; the store was changed");
+    out.push_back({static_cast<std::uint64_t>(s.number(1)), static_cast<std::uint64_t>(s.number(2))});
+  }
+  return out;
+}
+
 StoreContent content_of(const Database& store) {
   Statement plan(store, "SELECT value FROM about WHERE name = 'plan'");
   if (!plan.next()) throw Error(ErrorCode::malformed, store.file() + ": is no store of a campaign: it has no plan");
-  return {plan.text(0), stored_cases_done(store), stored_counters(store), stored_contradictions(store),
-          stored_findings(store)};
+  return {plan.text(0),           stored_cases_done(store), stored_counters(store), stored_contradictions(store),
+          stored_findings(store), stored_sought(store)};
 }
 
 StoreContent read_store(const std::filesystem::path& file) {
@@ -103,6 +126,7 @@ void write_store(const std::filesystem::path& file, const StoreContent& content)
           .with(f.folder.value_or(""))
           .next();
     }
+    for (std::size_t place = 0; place < content.sought.size(); ++place) insert_sought(db, place, content.sought[place]);
     db.run("COMMIT");
   });
 }

@@ -21,6 +21,7 @@ struct StoreContent {
   Counters counters;
   Contradictions contradictions;
   std::vector<StoredFinding> findings;  // in the order in which they were found
+  std::vector<SoughtCase> sought;       // in order; of a campaign that chooses its cases
 };
 
 extern const char* const store_schema;
@@ -29,6 +30,8 @@ std::uint64_t stored_cases_done(const scene::Database& store);
 Counters stored_counters(const scene::Database& store);
 Contradictions stored_contradictions(const scene::Database& store);
 std::vector<StoredFinding> stored_findings(const scene::Database& store);
+std::vector<SoughtCase> stored_sought(const scene::Database& store);
+void insert_sought(const scene::Database& store, std::uint64_t place, const SoughtCase& sought);
 
 StoreContent content_of(const scene::Database& store);
 // Throws scene::Error file_unreadable, malformed.

@@ -87,18 +87,30 @@ def kill_rank(mpirun, rank):
     return False
 
 
-def same(work):
+def same_by_ranks(work):
     work.run("whole")
     for ranks in (1, 2, 3, 4):
         work.run("ranks", ranks=ranks)
         work.require_same("ranks", f"{ranks} ranks")
         work.remove("ranks")
+
+
+def same(work):
+    same_by_ranks(work)
     shards = [f"shard{i}" for i in (1, 2, 3)]
     for i, shard in enumerate(shards, 1):
         work.run(shard, ["--shard", f"{i}/3"], ranks=i)
     work.run("merged", ["--merge", *shards])
     work.require_same("merged", "3 shards, each by other ranks")
     print(f"{work.name}: the same bytes by 1, 2, 3, 4 ranks, and by 3 shards of 1, 2, 3 ranks")
+
+
+def same_order(clues, folder):
+    """Of a campaign that chooses its cases by what came of those before."""
+    folder.mkdir()
+    same_by_ranks(Work(clues, folder, "fuzz", ["fuzz", "--seek-pairs", "--generator", "rim_fans", "--generator", "cell_contacts",
+                                               "--oracle", "cell-contact", "--cases", "16"], 0))
+    print("fuzz --seek-pairs: the same bytes by 1, 2, 3, 4 ranks")
 
 
 def kills(work, count):
@@ -175,6 +187,8 @@ def main():
                 same(work)
                 if kind == "bake":
                     same_reports(clues, folder)
+                else:
+                    same_order(clues, folder / "pairs")
             else:
                 kills(work, int(sys.argv[3]))
 
