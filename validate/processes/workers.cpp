@@ -22,6 +22,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr int slack = 10;  // so many times the processor time on the clock
+
 [[noreturn]] void fail(const char* what) {
   throw scene::Error(scene::ErrorCode::file_unreadable, std::string(what) + ": " + std::strerror(errno));
 }
@@ -141,7 +143,7 @@ void Workers::start(std::uint64_t task) {
   for (const auto& w : workers_) {
     if (w->task) continue;
     w->task = task;
-    w->deadline = time_ ? Clock::now() + 10 * *time_ : Clock::time_point::max();
+    w->deadline = time_ ? Clock::now() + slack * *time_ : Clock::time_point::max();
     w->spent = processor_time(w->pid);
     send_all(w->socket, &task, sizeof task);  // a dead worker is noticed when its reply is read
     return;
@@ -149,14 +151,18 @@ void Workers::start(std::uint64_t task) {
 }
 
 WorkerReply Workers::lost(Worker& worker, bool late) {
+  const auto spent = std::chrono::floor<std::chrono::seconds>(processor_time(worker.pid) - worker.spent);
   kill(worker.pid, SIGKILL);
   int status = 0;
   forget_known(worker.pid);
   waitpid(worker.pid, &status, 0);
   close(worker.socket);
   WorkerReply reply{*worker.task, false, {}, WIFSIGNALED(status) ? WTERMSIG(status) : 0};
-  if (late) {
+  if (late && spent >= *time_) {
     reply.text = "no end within " + std::to_string(time_->count()) + " s of processor time";
+  } else if (late) {  // it waits for something, or was stopped
+    reply.text = "no end within " + std::to_string((slack * *time_).count()) + " s, and no more than " +
+                 std::to_string(spent.count()) + " s of processor time";
   } else if (WIFSIGNALED(status)) {
     reply.text = "killed by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
   } else {
