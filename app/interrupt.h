@@ -5,7 +5,7 @@
 
 namespace clues::app {
 
-// From now on SIGINT and SIGTERM set what is returned. The second one ends the program at once.
+// From now on SIGINT and SIGTERM set what is returned, and say so on the standard error. The second one ends the program at once.
 const std::atomic<bool>& catch_interrupts();
 
 }  // namespace clues::app

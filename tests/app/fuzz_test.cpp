@@ -117,5 +117,22 @@ TEST(FuzzCommand, BadUsage) {
   EXPECT_EQ(run_clues({"fuzz", "--help"}, folder.path()).exit_code, 0);
 }
 
+// The subject interrupts the campaign, as Ctrl-C would, and then answers: the case is finished and kept.
+TEST(FuzzCommand, SaysWhatCtrlCWaitsFor) {
+  const TestFolder folder;
+  folder.write(
+      "subject.sh",
+      "q=$PPID\n"
+      "while [ \"$(cut -d' ' -f2 /proc/$q/stat)\" = '(clues)' ]; do p=$q; q=$(cut -d' ' -f4 /proc/$q/stat); done\n"
+      "kill -INT $p\n"
+      "awk 'NR == 2 { for (i = 0; i < $2; ++i) print i }' \"$1\" > \"$2\"\n");
+  const auto ran = run_clues({"fuzz", "--subject", "sh subject.sh {scene} {pvs}", "--generator", "cell_contacts",
+                              "--oracle", "cell-contact", "--cases", "1000", "--out", "out"},
+                             folder.path());
+  EXPECT_EQ(ran.exit_code, 3) << ran.err;
+  EXPECT_THAT(ran.err, testing::HasSubstr("clues: interrupted: finishing what is begun; once more, and that is lost"));
+  EXPECT_THAT(ran.out, testing::HasSubstr("1 case of 1 generator's 100; nothing found yet"));
+}
+
 }  // namespace
 }  // namespace clues::tests
