@@ -58,7 +58,7 @@ std::string compared(const std::string& subject, const std::string& share) {
 
 // "levels" and 65536: "levels/65536".
 std::string with_lines(const std::string& subject, std::uint64_t lines) {
-  if (lines == 0) return subject;
+  if (lines == 0 || (lines == fuzz::lines_of_each_level(subject))) return subject;
   if (subject != "levels") throw Error(ErrorCode::bad_argument, "--lines: give it with --subject levels");
   return fmt::format("{}/{}", subject, lines);
 }

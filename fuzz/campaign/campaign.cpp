@@ -56,6 +56,9 @@ class Cases {
           ErrorCode::bad_argument,
           "--seek-pairs: which case comes next depends on all that were judged, which shards cannot know; leave "
           "out --shard and --merge, or use mpirun");
+    if (options.seek_pairs && cases_for_a_comparison(subject.name()).value_or(1) > 1)
+      throw Error(ErrorCode::bad_argument,
+                  "--seek-pairs: the rules that a case meets are known where it is compared; leave out --agreement");
     if (!trial_) {
       generators_ = generators_named(options.generators, options.given);
       oracles_ = oracles_named(options.oracles);
@@ -133,7 +136,11 @@ class Campaign {
         store_(with_shards(), cases_.plan(options.shard, options.shards)) {
     if (!options.seek_pairs) return;
     seeker_.emplace(cases_.generators().size(), [this](std::uint64_t number) { return cases_.make(number).dials; });
-    seeker_->resume(store_.sought(), store_.counters());
+    const auto sought = store_.sought();
+    if (sought.size() != store_.cases_done())
+      throw Error(ErrorCode::malformed, fmt::format("{}: has done {} cases and chosen {}; the store was changed",
+                                                    file_.string(), store_.cases_done(), sought.size()));
+    seeker_->resume(sought, store_.counters());
   }
 
   CampaignSummary run() {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "fuzz/generators/parts.h"
@@ -38,12 +39,14 @@ PairSeeker::Chosen PairSeeker::with_dials(std::uint64_t number) const {
 }
 
 double PairSeeker::worth(const Chosen& c) const {
+  const Mark& arm = arms_[arm_of(c.number)];
+  if (arm.cases == 0) return std::numeric_limits<double>::infinity();
   double best = 0;
   for (const auto& dial : c.dials) {
     const auto at = dials_.find(dial);
     best = std::max(best, (at == dials_.end() ? Mark{} : at->second).worth());
   }
-  return arms_[arm_of(c.number)].worth() + best;
+  return arm.worth() + best;
 }
 
 void PairSeeker::choose_round() {

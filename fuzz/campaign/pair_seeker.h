@@ -16,7 +16,7 @@ namespace clues::fuzz {
 // Each case has marks: its generator at its strength (number of the scene modulo 8), and the dials that are turned in it, or that none is. A mark that k chosen
 // cases had, which found n new pairs, is worth (n + 1) / (k + 2), and what is long ago counts less: k and n lose an eighth with every round. A case is worth what its generator and
 // the best of its dials are together. The next is the one worth most of the next four of each generator and strength, of equal ones that with the lowest number; what it overtakes there
-// is left out. So what found something lately comes more often, and all come by turns where nothing does.
+// is left out. But first of all each generator has one case of each strength. So what found something lately comes more often, and all come by turns where nothing does.
 //
 // Cases are chosen in rounds. A round is a function of what came of all rounds but the last, so that the order does not depend on who works on what, and more than
 // a round of cases can be worked on at once.

@@ -31,7 +31,8 @@ std::optional<std::uint64_t> cases_for_a_comparison(const std::string& name) {
 
 std::optional<std::uint64_t> lines_of_each_level(const std::string& name) {
   if (name == "levels") return lines_of_a_level;
-  return number_in(name, "levels/", 1, 1'000'000'000);
+  const auto n = number_in(name, "levels/", 1, 1'000'000'000);
+  return n == lines_of_a_level ? std::nullopt : n;  // that has another name
 }
 
 bool is_program(const std::string& text) {

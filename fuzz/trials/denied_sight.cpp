@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "exact/cell/convex_cell.h"
 #include "exact/sight/scene_query.h"
@@ -23,7 +24,6 @@ using Ids = std::vector<std::uint32_t>;
 
 constexpr std::array aims{"through vertices", "beside edges", "beside edges of what is listed", "to inner points"};
 constexpr std::size_t to_vertices = 0, to_edges = 1, past_listed = 2;
-constexpr std::size_t at_once = 256;  // lines
 
 class DeniedShooter {
  public:
@@ -68,17 +68,13 @@ class DeniedShooter {
       ++outcome_.counters["cells without a viewpoint"];
       return std::nullopt;
     }
-    for (std::uint64_t left = lines; left > 0 && !found_;) {
-      const std::uint64_t some = std::min<std::uint64_t>(left, at_once);
-      shoot(static_cast<std::size_t>(some));
-      left -= some;
-    }
+    for (std::uint64_t i = 0; i < lines && !found_; ++i) shoot(static_cast<std::size_t>(i % aims.size()));
     for (std::size_t aim = 0; aim < aims.size(); ++aim)
       outcome_.counters[std::string("sight lines ") + aims[aim]] += shot_[aim];
+    outcome_.counters["sight lines decided"] += std::accumulate(shot_.begin(), shot_.end(), std::uint64_t{0});
     outcome_.counters["sight lines that end on a surface"] += on_surfaces_;
     outcome_.counters["sight lines into the open"] += into_the_open_;
     outcome_.counters["panes crossed"] += panes_crossed_;
-    outcome_.counters["sight lines decided"] += walls_.counts().queries;
     outcome_.counters["triangles decided in whole numbers"] += walls_.counts().exact + panes_.counts().exact;
     return found_;
   }
@@ -97,7 +93,7 @@ class DeniedShooter {
   }
   static bool is_surface(const exact::TriangleCorners& t) { return !CGAL::collinear(t[0], t[1], t[2]); }
 
-  // 16, and one more for each 256 lines.
+  // One for each 256 lines, at least 16.
   void choose_viewpoints(std::uint64_t lines) {
     const auto box = scene::bounds_of(points_);
     const std::uint64_t wanted = std::max<std::uint64_t>(16, lines / 256);
@@ -132,39 +128,25 @@ class DeniedShooter {
     return p;
   }
 
-  // Three of four lines go to what is denied, many at once; the fourth goes past what is listed, to see what is behind.
-  void shoot(std::size_t count) {
-    segments_.clear();
-    aims_.clear();
-    for (std::size_t i = 0; i < count && !found_; ++i) {
-      const std::size_t aim = i % aims.size();
-      if (aim == past_listed) {
-        if (edges_of_listed_.empty()) continue;
-        const Point q = off_by_a_little(on_an_edge_of(any(edges_of_listed_, random_)), random_);
-        look_along({any(viewpoints_, random_), q}, aim);
-        ++shot_[aim];
-        continue;
+  void shoot(std::size_t aim) {
+    if (aim == past_listed && edges_of_listed_.empty()) return;
+    ++shot_[aim];
+    const Point& v = any(viewpoints_, random_);
+    look_along({v, target(aim)}, aim);
+  }
+
+  Point target(std::size_t aim) {
+    switch (aim) {
+      case to_vertices: {
+        const auto corners = corners_of(denied());
+        return off_by_a_little(any(corners, random_), random_);
       }
-      const std::uint32_t t = denied();
-      const Point q = aim == to_vertices
-                          ? off_by_a_little(corners_of(t)[static_cast<std::size_t>(random_.between(0, 2))], random_)
-                      : aim == to_edges ? off_by_a_little(on_an_edge_of(t), random_)
-                                        : within(t);
-      segments_.push_back({any(viewpoints_, random_), q});
-      aims_.push_back(aim);
-      ++shot_[aim];
-    }
-    // Most are stopped long before.
-    auto before = segments_;
-    for (auto& s : before) s.b = toward(s, 1 - 0x1p-20);
-    blocked_.resize(before.size());
-    walls_.any_hits(before, blocked_, {{}, &cell_});
-    for (std::size_t i = 0; i < segments_.size() && !found_; ++i) {
-      if (blocked_[i] != 0) {
-        ++on_surfaces_;
-      } else {
-        look_along(segments_[i], aims_[i]);
-      }
+      case to_edges:
+        return off_by_a_little(on_an_edge_of(denied()), random_);
+      case past_listed:
+        return off_by_a_little(on_an_edge_of(any(edges_of_listed_, random_)), random_);
+      default:
+        return within(denied());
     }
   }
 
@@ -230,10 +212,6 @@ class DeniedShooter {
   std::array<std::uint64_t, aims.size()> shot_{};
   std::uint64_t on_surfaces_ = 0, into_the_open_ = 0, panes_crossed_ = 0;
   std::optional<DeniedSight> found_;
-  // Of the lines that go at once:
-  std::vector<fastpath::Segment> segments_;
-  std::vector<std::size_t> aims_;
-  std::vector<std::uint8_t> blocked_;
 };
 
 }  // namespace

@@ -55,6 +55,14 @@ TEST(PairSeeker, PrefersTheGeneratorAndStrengthThatFind) {
   EXPECT_EQ(others.size(), arms) << "none is left out";
 }
 
+// The first cases of a campaign meet most pairs, whatever they are: that says nothing of strengths that had none yet.
+TEST(PairSeeker, EachGeneratorAndStrengthHasACaseBeforeAnyIsPreferred) {
+  const auto numbers = rounds(8, no_dials, pair_named);
+  std::set<std::uint64_t> first;
+  for (std::size_t i = 0; i < arms; ++i) first.insert(numbers[i] % arms);
+  EXPECT_EQ(first.size(), arms);
+}
+
 TEST(PairSeeker, GoesBackToTurnsWhereNothingMoreIsFound) {
   // The first eight cases of generator 0 find something, and those after them the same again.
   const auto numbers = rounds(400, no_dials, [](std::uint64_t number) {
@@ -181,6 +189,8 @@ TEST(PairSeeker, RefusesShardsAndSubjectsWithoutMapsBeforeAnythingIsMade) {
   trial.generators.clear();
   trial.oracles.clear();
   EXPECT_NE(why_not(trial, "maps").find("--seek-pairs: no map says which rules"), std::string::npos);
+  auto few = seeking(folder.path() / "few", 4);
+  EXPECT_NE(why_not(few, "fast/16").find("leave out --agreement"), std::string::npos);
   // A campaign in the usual order is another one.
   auto usual = seeking(folder.path() / "usual", 4);
   usual.seek_pairs = false;

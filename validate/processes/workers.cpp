@@ -151,7 +151,7 @@ void Workers::start(std::uint64_t task) {
 }
 
 WorkerReply Workers::lost(Worker& worker, bool late) {
-  const auto spent = std::chrono::floor<std::chrono::seconds>(processor_time(worker.pid) - worker.spent);
+  const auto spent = processor_time(worker.pid) - worker.spent;
   kill(worker.pid, SIGKILL);
   int status = 0;
   forget_known(worker.pid);
@@ -161,8 +161,8 @@ WorkerReply Workers::lost(Worker& worker, bool late) {
   if (late && spent >= *time_) {
     reply.text = "no end within " + std::to_string(time_->count()) + " s of processor time";
   } else if (late) {  // it waits for something, or was stopped
-    reply.text = "no end within " + std::to_string((slack * *time_).count()) + " s, and no more than " +
-                 std::to_string(spent.count()) + " s of processor time";
+    reply.text = "no end within " + std::to_string((slack * *time_).count()) + " s, and less than " +
+                 std::to_string(time_->count()) + " s of processor time";
   } else if (WIFSIGNALED(status)) {
     reply.text = "killed by signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
   } else {
