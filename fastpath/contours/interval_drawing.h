@@ -4,11 +4,9 @@
 // triangle, and one of an edge or segment in the box of that: no box is larger.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "fastpath/visibility/points/numbers.h"

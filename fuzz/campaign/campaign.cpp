@@ -46,19 +46,24 @@ std::string plan_of(const CampaignOptions& options, const std::vector<NamedGener
   return plan.dump();
 }
 
+// Where the next case can be chosen by what the cases before it met.
+void require_seekable(const CampaignOptions& options, const Subject& subject) {
+  const auto refuse = [](const std::string& why) { throw Error(ErrorCode::bad_argument, "--seek-pairs: " + why); };
+  if (options.shards > 1 || !options.merged.empty())
+    refuse(
+        "which case comes next depends on all that were judged, which shards cannot know; leave out --shard and "
+        "--merge, or use mpirun");
+  if (cases_for_a_comparison(subject.name()).value_or(1) > 1)
+    refuse("the rules that a case meets are known where it is compared; leave out --agreement");
+  if (subject.trial()) refuse("no map says which rules a case of the subject " + subject.name() + " meets");
+}
+
 // What the cases are, and how one is judged.
 class Cases {
  public:
   Cases(const CampaignOptions& options, const Subject& subject)
       : options_(options), subject_(subject), trial_(subject.trial()) {
-    if (options.seek_pairs && (options.shards > 1 || !options.merged.empty()))
-      throw Error(
-          ErrorCode::bad_argument,
-          "--seek-pairs: which case comes next depends on all that were judged, which shards cannot know; leave "
-          "out --shard and --merge, or use mpirun");
-    if (options.seek_pairs && cases_for_a_comparison(subject.name()).value_or(1) > 1)
-      throw Error(ErrorCode::bad_argument,
-                  "--seek-pairs: the rules that a case meets are known where it is compared; leave out --agreement");
+    if (options.seek_pairs) require_seekable(options, subject);
     if (!trial_) {
       generators_ = generators_named(options.generators, options.given);
       oracles_ = oracles_named(options.oracles);
@@ -66,9 +71,6 @@ class Cases {
     }
     if (!options.given.paths.empty() && !trial_->takes_levels())
       throw Error(ErrorCode::bad_argument, "--scenes: the subject " + subject.name() + " takes none");
-    if (options.seek_pairs)
-      throw Error(ErrorCode::bad_argument,
-                  "--seek-pairs: no map says which rules a case of the subject " + subject.name() + " meets");
     checks_ = checks_named(*trial_, options.oracles);
     generators_ = generators_named(*trial_, options.generators, checks_, options.given);
   }

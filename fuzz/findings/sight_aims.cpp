@@ -9,6 +9,10 @@ namespace clues::fuzz {
 using exact::Point3;
 using scene::Point;
 
+Point on_line(const Point& a, const Point& b, double t) {
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+}
+
 Point random_mean(const std::vector<Point>& points, int heavy, Random& random) {
   Point sum{};
   double total = 0;

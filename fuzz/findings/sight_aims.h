@@ -12,6 +12,9 @@
 
 namespace clues::fuzz {
 
+// a + t (b - a), rounded.
+scene::Point on_line(const scene::Point& a, const scene::Point& b, double t);
+
 // A mean of the points, at random; one in three weighs `heavy` times as much. Rounded: it may be off the plane of points in one.
 scene::Point random_mean(const std::vector<scene::Point>& points, int heavy, Random& random);
 

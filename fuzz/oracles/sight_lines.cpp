@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "exact/sight/scene_query.h"
 #include "exact/sight/witness.h"
@@ -51,7 +50,7 @@ class Shooter {
       const auto borders = borders_of_what_is_denied();
       for (int i = 0; i < 96 && !borders.empty(); ++i) {
         const auto& [a, b] = any(borders);
-        shoot_at("toward borders", off_by_a_little(between(a, b, random_.between(0, 16) / 16.0), random_),
+        shoot_at("toward borders", off_by_a_little(on_line(a, b, random_.between(0, 16) / 16.0), random_),
                  random_.one_in(2) ? near_corners_ : viewpoints_);
       }
     }
@@ -84,10 +83,6 @@ class Shooter {
     return out;
   }
 
-  static Point between(const Point& a, const Point& b, double t) {
-    return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
-  }
-
   Point mix(const std::vector<Point>& points) { return random_mean(points, 16, random_); }
 
   Point on_an_edge() {
@@ -95,15 +90,14 @@ class Shooter {
     const scene::Triangle& t = any(mesh.triangles);
     const auto i = static_cast<std::size_t>(random_.between(0, 2));
     const Point &a = mesh.points[t[i]], &b = mesh.points[t[(i + 1) % 3]];
-    return between(a, b, random_.between(0, 64) / 64.0);
+    return on_line(a, b, random_.between(0, 64) / 64.0);
   }
 
   // From the cell past q; what it hits is visible.
   void shoot_at(const char* aim, const Point& q, const std::vector<Point>& from_where) {
     if (from_where.empty()) return;
     const Point& v = any(from_where);
-    Point end;
-    for (std::size_t i = 0; i < 3; ++i) end[i] = v[i] + 4 * (q[i] - v[i]);
+    const Point end = on_line(v, q, 4);
     exam_.count(std::string("sight lines ") + aim);
     const auto hit = queries_.first_hit({v, end}, {{}, &cell_});
     exam_.count(hit ? "sight lines that end on a surface" : "sight lines into the open");

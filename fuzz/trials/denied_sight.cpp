@@ -115,10 +115,7 @@ class DeniedShooter {
   Point on_an_edge_of(std::uint32_t triangle) {
     const auto t = corners_of(triangle);
     const auto i = static_cast<std::size_t>(random_.between(0, 2));
-    const double s = random_.between(0, 64) / 64.0;
-    Point p;
-    for (std::size_t k = 0; k < 3; ++k) p[k] = t[i][k] + s * (t[(i + 1) % 3][k] - t[i][k]);
-    return p;
+    return on_line(t[i], t[(i + 1) % 3], random_.between(0, 64) / 64.0);
   }
   Point within(std::uint32_t triangle) {
     const auto t = corners_of(triangle);
@@ -132,7 +129,7 @@ class DeniedShooter {
     if (aim == past_listed && edges_of_listed_.empty()) return;
     ++shot_[aim];
     const Point& v = any(viewpoints_, random_);
-    look_along({v, target(aim)}, aim);
+    look_along(v, target(aim), aim);
   }
 
   Point target(std::size_t aim) {
@@ -150,15 +147,9 @@ class DeniedShooter {
     }
   }
 
-  static Point toward(const fastpath::Segment& s, double t) {
-    Point p;
-    for (std::size_t i = 0; i < 3; ++i) p[i] = s.a[i] + t * (s.b[i] - s.a[i]);
-    return p;
-  }
-
-  // Past the end of the segment; the first wall that it meets is visible, and what it crosses before.
-  void look_along(const fastpath::Segment& s, std::size_t aim) {
-    const Point &v = s.a, end = toward(s, 4);
+  // From the cell past q; the first wall that it meets is visible, and what it crosses before.
+  void look_along(const Point& v, const Point& q, std::size_t aim) {
+    const Point end = on_line(v, q, 4);
     const auto wall = walls_.first_hit({v, end}, {{}, &cell_});
     ++(wall ? on_surfaces_ : into_the_open_);
     if (wall) {
@@ -179,7 +170,7 @@ class DeniedShooter {
     const Point normal = fastpath::cross_of(fastpath::minus(t[1], t[0]), fastpath::minus(t[2], t[0]));
     const double at_v = fastpath::dot_of(normal, fastpath::minus(v, t[0]));
     const double at_end = fastpath::dot_of(normal, fastpath::minus(end, t[0]));
-    const Point p = toward({v, end}, at_v / (at_v - at_end));
+    const Point p = on_line(v, end, at_v / (at_v - at_end));
     return std::isfinite(p[0] + p[1] + p[2]) && walls_.any_hit({v, p}, {{}, &cell_});
   }
 

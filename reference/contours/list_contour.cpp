@@ -1,8 +1,6 @@
 #include "reference/contours/list_contour.h"
 
 #include <algorithm>
-#include <array>
-#include <map>
 
 #include "scene/stream/varints.h"
 

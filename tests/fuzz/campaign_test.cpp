@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <sstream>
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/generators/random_scenes.h"
@@ -16,18 +15,12 @@
 #include "planted_subjects.h"
 #include "scene/files/temporary_folder.h"
 #include "scene/messages/error.h"
+#include "tests/read_all.h"
 
 namespace clues::fuzz {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 // All that a campaign left: findings as stored, every file of every finding, and the store, byte for byte.
 std::string left_by(const fs::path& out, const CampaignSummary& summary) {
@@ -42,7 +35,7 @@ std::string left_by(const fs::path& out, const CampaignSummary& summary) {
     if (entry.is_regular_file()) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
-  for (const auto& file : files) all += "\n" + fs::relative(file, out).string() + "\n" + bytes_of(file);
+  for (const auto& file : files) all += "\n" + fs::relative(file, out).string() + "\n" + tests::read_all(file);
   return all;
 }
 
@@ -271,7 +264,7 @@ class AFinding : public testing::Test {
     saved_ = options.out / summary.findings[0].folder.value();
   }
   void change(const fs::path& file, const std::string& from, const std::string& to) const {
-    std::string text = bytes_of(file);
+    std::string text = tests::read_all(file);
     const auto at = text.find(from);
     ASSERT_NE(at, text.npos);
     std::ofstream(file, std::ios::binary) << text.replace(at, from.size(), to);
@@ -282,7 +275,7 @@ class AFinding : public testing::Test {
 
 TEST_F(AFinding, IsRefusedWhenItsFilesWereChanged) {
   for (const char* file : {"scene.off", "cell.obj", "witness.json", "original/scene.off", "original/witness.json"}) {
-    const std::string before = bytes_of(saved_ / file);
+    const std::string before = tests::read_all(saved_ / file);
     std::ofstream(saved_ / file, std::ios::binary) << before << "\n";
     EXPECT_THROW(load_finding(saved_), scene::Error) << file;
     std::ofstream(saved_ / file, std::ios::binary) << before;

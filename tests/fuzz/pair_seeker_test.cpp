@@ -3,17 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "fuzz/campaign/campaign.h"
 #include "fuzz/campaign/pair_seeker.h"
 #include "fuzz/findings/store_content.h"
 #include "scene/files/temporary_folder.h"
 #include "scene/messages/error.h"
+#include "tests/read_all.h"
 
 namespace clues::fuzz {
 namespace {
@@ -126,13 +125,6 @@ TEST(PairSeeker, GoesOnWhereItEndedAndRefusesAnotherOrder) {
   }
 }
 
-std::string store_bytes(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
 CampaignOptions seeking(const fs::path& out, std::uint64_t cases) {
   CampaignOptions options;
   options.seed = 7;
@@ -160,9 +152,9 @@ TEST(PairSeeker, CampaignsOfOneJobAndTwoAndInPartsLeaveTheSame) {
     parts.cases = cases;
     EXPECT_EQ(run_campaign(parts, *reference).cases, cases);
   }
-  const std::string expected = store_bytes(one.out / "findings.sqlite");
-  EXPECT_EQ(store_bytes(two.out / "findings.sqlite"), expected);
-  EXPECT_EQ(store_bytes(parts.out / "findings.sqlite"), expected);
+  const std::string expected = tests::read_all(one.out / "findings.sqlite");
+  EXPECT_EQ(tests::read_all(two.out / "findings.sqlite"), expected);
+  EXPECT_EQ(tests::read_all(parts.out / "findings.sqlite"), expected);
   const auto sought = read_store(one.out / "findings.sqlite").sought;
   ASSERT_EQ(sought.size(), 20U);
   std::uint64_t found = 0, pairs = 0;
