@@ -25,7 +25,7 @@ CHAPTERS = {
     "exact": [".", "cell", "complex", "sight", "motion", "multires"],
     "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
                   "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",
-                  "visibility/refinement", "delta", "contours", "link", "motion", "multires/stars", "multires"],
+                  "visibility/refinement", "delta", "contours", "streams", "link", "motion", "multires/stars", "multires"],
     "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
                  "visibility/refinement", "contours", "motion", "multires", "bakes"],

@@ -185,12 +185,14 @@ int run_conform_stream(const ConformStreamRequest& request) {
   if (!verdict.findings.empty()) {
     text += "again: " + again(request) + "\n";
   }
-  text += fmt::format("{}: {} cells entered, {} triangles sent, {} taken away, {} held at most, {} undecided\n",
-                      !verdict.findings.empty()    ? "unsound"
-                      : !verdict.undecided.empty() ? "undecided"
-                      : verdict.cells_entered > 0  ? "sound"
-                                                   : "nothing to judge",
-                      verdict.cells_entered, verdict.sent, verdict.taken, verdict.most_held, verdict.undecided.size());
+  text +=
+      fmt::format("{}: {} cells entered, {} triangles sent, {} taken away, {} held at most, {}{} undecided\n",
+                  !verdict.findings.empty()    ? "unsound"
+                  : !verdict.undecided.empty() ? "undecided"
+                  : verdict.cells_entered > 0  ? "sound"
+                                               : "nothing to judge",
+                  verdict.cells_entered, verdict.sent, verdict.taken, verdict.most_held,
+                  verdict.contours > 0 ? fmt::format("{} contours, ", verdict.contours) : "", verdict.undecided.size());
   if (solid) text += "judged in mode solid, as the header says\n";
   if (run.resumed > 0) text += fmt::format("asked to go on {} times, it sent the rest each time\n", run.resumed);
   if (!run.anew.empty())

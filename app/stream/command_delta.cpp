@@ -16,7 +16,7 @@
 #include "app/stream/command_contours.h"
 #include "app/stream/command_decode.h"
 #include "app/stream/command_detail.h"
-#include "reference/delta/area_worth.h"
+#include "reference/streams/area_worth.h"
 #include "reference/delta/delta.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"

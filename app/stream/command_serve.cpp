@@ -13,7 +13,7 @@
 #include "app/common.h"
 #include "app/stream/served_cells.h"
 #include "app/stream/socket_server.h"
-#include "reference/delta/stream_session.h"
+#include "reference/streams/stream_session.h"
 #include "scene/messages/error.h"
 #include "scene/stream/stream_file.h"
 
@@ -103,7 +103,7 @@ void add_serve_command(CLI::App& program, int& status) {
       "  clues conform --stream-server 'clues serve town.obj --cells grid:2x2x1:box:0,0,1,4,4,2' --scene town.obj "
       "--cells grid:2x2x1:box:0,0,1,4,4,2\n"
       "  clues serve level.bsp --bake level.bake --horizon 1 --socket level.sock\n"
-      "  clues serve level.bsp --bake level.bake --hierarchy 3 --socket level.sock\n\n"
+      "  clues serve level.bsp --bake level.bake --hierarchy 3 --contours --socket level.sock\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input, or what is no request   4 an oracle contradicted itself");
   command->callback([request, &status] { status = run_serve(*request); });

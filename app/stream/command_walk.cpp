@@ -17,13 +17,14 @@
 #include "app/stream/number_between.h"
 #include "app/stream/routes.h"
 #include "app/stream/served_cells.h"
-#include "reference/delta/stream_server.h"
+#include "reference/streams/stream_server.h"
 #include "reference/link/link_simulator.h"
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
 #include "scene/stream/caller.h"
 #include "scene/stream/local_socket.h"
 #include "scene/stream/stream_file.h"
+#include "validate/stream/judge_stream.h"
 
 namespace clues::app {
 namespace {
@@ -69,6 +70,8 @@ reference::Link parse_link(const std::string& text, std::uint64_t seed) {
 struct WalkFigures {
   std::uint64_t entered = 0, packets = 0, sent = 0, taken = 0, bytes = 0;
   std::uint64_t whole_lists = 0, whole_bytes = 0;  // had each cell's list been sent as a whole
+  // With contours, after each step:
+  std::uint64_t contours = 0, contour_bytes = 0, held = 0, drawn = 0;
 };
 
 // Goes the route at the other end of a socket. When the connection is lost it waits for another server to come.
@@ -152,7 +155,16 @@ class Walk {
 
   void go(const std::vector<std::uint32_t>& route) {
     reference::StreamServer server(store_);
-    for (const std::uint32_t cell : route) add(cell, server.enter(cell));
+    validate::StreamClient client(served_.scene.mesh);
+    for (const std::uint32_t cell : route) {
+      const auto messages = server.enter(cell);
+      add(cell, messages);
+      if (!request_.send.contours) continue;
+      for (const auto& message : messages) client.apply(message);
+      const auto drawn = client.drawn_in(cell);
+      figures_.held += client.size();
+      figures_.drawn += drawn ? drawn->size() : client.size();
+    }
   }
   std::uint64_t go_connected(const std::vector<std::uint32_t>& route) {
     WalkingClient client(request_.connect);
@@ -190,6 +202,10 @@ class Walk {
       figures_.sent += message.plus.size();
       figures_.taken += message.minus.size();
       figures_.bytes += bytes.size();
+      if (message.kind == scene::StreamMessage::Kind::contours) {
+        figures_.contours += message.contours.size();
+        figures_.contour_bytes += bytes.size();
+      }
       if (!request_.out.empty()) text_ += bytes;
     }
     if (sent_.lists.empty()) return;  // the server knows them
@@ -223,7 +239,7 @@ int run_walk(const WalkRequest& request) {
   if (!request.connect.empty() && (!request.link.empty() || !request.send.is_default()))
     throw Error(ErrorCode::bad_argument,
                 "--connect: the link is a real one, and the server decides what it sends; leave out --link, --horizon, "
-                "--hierarchy, --drop and --drop-area");
+                "--hierarchy, --contours, --drop and --drop-area");
   if (!request.link.empty()) parse_link(request.link, 1);
   require_writable_parent(request.out);
   require_apart({&request.out}, {&request.choice.scene, &request.route.route, &request.route.camera,
@@ -251,6 +267,13 @@ int run_walk(const WalkRequest& request) {
                   "{:>13}  {:>8}  {:>14}  {:>10}  {:>9}{}\n",
                   lists_known ? "  whole lists: triangles      bytes" : "", f.entered, f.packets, f.sent, f.taken,
                   f.bytes, lists_known ? fmt::format("  {:>22}  {:>9}", f.whole_lists, f.whole_bytes) : ""));
+  if (request.send.contours) {
+    const auto mean = [&f](std::uint64_t sum) { return static_cast<double>(sum) / static_cast<double>(f.entered); };
+    print(
+        fmt::format("contours: {}, {} bytes; after a step {:.1f} triangles are held, {:.1f} are drawn, the cell lists "
+                    "{:.1f}\n",
+                    f.contours, f.contour_bytes, mean(f.held), mean(f.drawn), mean(f.whole_lists)));
+  }
   if (!walk.dropped().empty()) print(walk.dropped());
   if (!request.link.empty()) {
     const auto over = walk.go_over(choice.take(served));
@@ -326,6 +349,8 @@ void add_walk_command(CLI::App& program, int& status) {
       "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --steps 10 --horizon 1 --link 100000:50:10000:500 "
       "--ahead 0.2\n"
       "  clues walk town.obj --cells grid:4x4x1:box:0,0,1,4,4,2 --steps 10 --hierarchy 2 --link 20000:50 --in-time\n"
+      "  clues walk town.obj --cells grid:4x4x1:box:0,0,1,4,4,2 --steps 10 --hierarchy 2 --contours -o "
+      "drawn.stream.jsonl\n"
       "  clues conform --stream walk.stream.jsonl --scene town.obj --cells grid:2x2x1:box:0,0,1,4,4,2\n\n"
       "EXIT CODES\n"
       "  0 fine   2 bad usage or input, or no server   4 an oracle contradicted itself");

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "app/common.h"
-#include "reference/delta/camera_route.h"
+#include "reference/streams/camera_route.h"
 #include "scene/messages/error.h"
 #include "scene/messages/shell_word.h"
 #include "scene/motion/view_path.h"

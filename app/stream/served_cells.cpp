@@ -8,8 +8,8 @@
 #include "app/progress.h"
 #include "app/stream/number_between.h"
 #include "exact/cell/touching.h"
-#include "reference/delta/area_worth.h"
-#include "reference/delta/worth.h"
+#include "reference/streams/area_worth.h"
+#include "reference/streams/worth.h"
 #include "reference/visibility/first_order.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/messages/error.h"
@@ -77,6 +77,9 @@ void SendChoice::add_to(CLI::App& command) {
           "cells (default: 0)")
       ->type_name("N")
       ->check(CLI::Range(0, 16));
+  command.add_flag("--contours", contours,
+                   "With --horizon or --hierarchy: say as well what of all that the client holds each cell sees, as "
+                   "contours");
   command
       .add_option("--drop", drop,
                   "Send no `+` of so many triangles or fewer: cells before get them, on all routes (default: 0)")
@@ -142,7 +145,9 @@ reference::StreamStore store_of(const ServedCells& served, std::vector<std::vect
     for (const auto& cell : served.cells) corners.push_back(cell.points);
     tree = reference::cell_tree(corners, static_cast<std::size_t>(send.levels));
   }
-  return {served.scene.mesh, std::move(lists), served.neighbours, send.horizon, std::move(tree)};
+  reference::StreamStore store(served.scene.mesh, std::move(lists), served.neighbours, send.horizon, std::move(tree));
+  if (send.contours) store.add_contours();
+  return store;
 }
 
 scene::StreamHeader header_of(const ServedCells& served, const MethodOptions& method,

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/common.h"
-#include "reference/delta/stream_server.h"
+#include "reference/streams/stream_server.h"
 #include "reference/visibility/search/options.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh/flagged_mesh.h"
@@ -36,10 +36,11 @@ struct SendChoice {
   int horizon = 0, levels = 0;
   std::size_t drop = 0;
   double drop_area = 0;  // of a byte
+  bool contours = false;
 
-  void add_to(CLI::App& command);  // --horizon, --hierarchy, --drop, --drop-area
+  void add_to(CLI::App& command);  // --horizon, --hierarchy, --contours, --drop, --drop-area
   bool drops() const { return drop > 0 || drop_area > 0; }
-  bool is_default() const { return horizon == 0 && levels == 0 && !drops(); }
+  bool is_default() const { return horizon == 0 && levels == 0 && !contours && !drops(); }
 };
 
 struct SentLists {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "reference/delta/stream_session.h"
+#include "reference/streams/stream_session.h"
 
 namespace clues::app {
 

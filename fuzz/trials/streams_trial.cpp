@@ -1,5 +1,5 @@
 // A case is a small scene; its cells lie about the cell, by name: a grid, a grid and the box around it, or boxes that touch, as in a bake. The exact kernel says what is
-// visible from each; lists are those of one of the kernels, grown where poor packets are dropped.
+// visible from each; lists are those of one of the kernels, grown where poor packets are dropped. Some streams have nodes above the cells, and some contours.
 #include "fuzz/trials/streams_trial.h"
 
 #include <fmt/format.h>
@@ -16,8 +16,8 @@
 #include "fuzz/generators/parts.h"
 #include "fuzz/generators/random_scenes.h"
 #include "fuzz/trials/cell_space.h"
-#include "reference/delta/stream_session.h"
-#include "reference/delta/worth.h"
+#include "reference/streams/stream_session.h"
+#include "reference/streams/worth.h"
 #include "scene/cell_spec.h"
 #include "scene/mesh/bounds.h"
 #include "scene/messages/error.h"
@@ -139,7 +139,8 @@ class StreamsTrial : public Trial {
     static const std::vector<Check> all{
         {stream_judged,
          "at each step the client holds what is visible from the cell, and each message is right",
-         {"steps judged", "triangles sent", "triangles taken away", "streams with a horizon", "packets dropped"}},
+         {"steps judged", "triangles sent", "triangles taken away", "streams with a horizon",
+          "streams with a hierarchy", "contours judged", "packets dropped"}},
         {mirrors_equal, "after each step the client's slots are those of the server's mirror", {"mirrors compared"}},
         {resumed_equal, "a server that begins anew says the rest of the messages, byte for byte", {"streams resumed"}},
         {connection_cut,
@@ -158,6 +159,8 @@ class StreamsTrial : public Trial {
     const auto steps = static_cast<std::uint64_t>(random.between(2, most_steps));
     const auto first = static_cast<std::uint32_t>(random.next() % places.cells.size());
     const auto route = scene::random_route(places.neighbours, steps, random.next(), first);
+    const auto levels = static_cast<std::size_t>(random.between(0, 2));
+    const bool contours = random.one_in(2);
     std::vector<validate::Judgement> truth;
     Lists lists = lists_for(scene, places, fast, is_asked(asked, stream_judged) ? &truth : nullptr);
     if (drop > 0) {
@@ -167,11 +170,15 @@ class StreamsTrial : public Trial {
       outcome.counters["triangles held for dropped packets"] += grown.given_up;
       lists = std::move(grown.lists);
     }
-    const reference::StreamStore store(scene.mesh, lists, places.neighbours, horizon);
+    std::vector<std::vector<Point>> corners;
+    for (const auto& cell : places.cells) corners.push_back(cell.points);
+    reference::StreamStore store(scene.mesh, lists, places.neighbours, horizon, reference::cell_tree(corners, levels));
+    if (contours) store.add_contours();
     const auto said = makers_.walk(store, route);
     std::vector<StreamMessage> all;
     for (const auto& step : said.messages) all.insert(all.end(), step.begin(), step.end());
     outcome.counters["streams with a horizon"] += horizon > 0 ? 1U : 0U;
+    outcome.counters["streams with a hierarchy"] += levels > 0 ? 1U : 0U;
     if (is_asked(asked, stream_judged)) judge_messages(scene, places, all, truth, outcome);
     if (is_asked(asked, mirrors_equal)) compare_mirrors(scene, said, outcome);
     if (is_asked(asked, resumed_equal)) compare_rest(scene, store, route, said, random, outcome);
@@ -213,6 +220,7 @@ class StreamsTrial : public Trial {
     outcome.counters["triangles sent"] += verdict.sent;
     outcome.counters["triangles taken away"] += verdict.taken;
     outcome.counters["triangles missing and undecided"] += verdict.undecided.size();
+    outcome.counters["contours judged"] += verdict.contours;
     if (verdict.findings.empty()) return;
     const auto& found = verdict.findings.front();
     file(scene, stream_judged, fmt::format("message {}: {}", found.message, found.what), outcome);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "fuzz/trials/trial.h"
-#include "reference/delta/stream_server.h"
+#include "reference/streams/stream_server.h"
 
 namespace clues::fuzz {
 

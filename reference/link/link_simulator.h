@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "exact/kernel.h"
-#include "reference/delta/stream_server.h"
+#include "reference/streams/stream_server.h"
 
 namespace clues::reference {
 

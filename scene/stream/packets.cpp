@@ -7,13 +7,24 @@
 #include <cmath>
 
 #include "scene/messages/error.h"
+#include "scene/stream/varints.h"
 
 namespace clues::scene {
 namespace {
 
 // To a client, and from 16 on to a server.
 struct PacketKind {
-  enum : std::uint8_t { header = 0, plus = 1, cell = 2, minus = 3, end = 4, refusal = 5, enter = 16, resume = 17 };
+  enum : std::uint8_t {
+    header = 0,
+    plus = 1,
+    cell = 2,
+    minus = 3,
+    end = 4,
+    refusal = 5,
+    contours = 6,
+    enter = 16,
+    resume = 17
+  };
 };
 
 class PacketWriter {
@@ -138,6 +149,43 @@ StreamMessage minus_of(PacketBody& body, const StreamHeader& about) {
   return message;
 }
 
+// Numbers that ascend, as differences, less 1 behind the first.
+template <class Number>
+void put_ascending(const std::vector<Number>& numbers, VarintWriter& out) {
+  out.number(numbers.size());
+  std::uint64_t least = 0;
+  for (const std::uint64_t x : numbers) {
+    out.number(x - least);
+    least = x + 1;
+  }
+}
+
+template <class Number>
+void take_ascending(VarintReader& in, std::uint64_t below, std::vector<Number>& numbers) {
+  std::uint64_t least = 0;
+  for (std::uint64_t n = in.count(); n > 0; --n) {
+    numbers.push_back(static_cast<Number>(least + in.number(below - least)));
+    least = numbers.back() + std::uint64_t{1};
+  }
+}
+
+StreamMessage contours_of(PacketBody& body, const StreamHeader& about, const std::string& where) {
+  StreamMessage message;
+  message.kind = StreamMessage::Kind::contours;
+  std::uint64_t from = 0;
+  for (std::uint32_t n = body.count(8); n > 0; --n) {
+    CellContour contour{body.number_from(from, about.cell_count, "the cell of a contour"), {}, {}};
+    from = contour.cell + std::uint64_t{1};
+    const std::string bytes = body.text();
+    VarintReader in(bytes, where);
+    take_ascending(in, edges_of(about) / 3, contour.seeds);
+    take_ascending(in, edges_of(about), contour.boundary);
+    if (!in.done()) in.fail("a contour has bytes too many");
+    message.contours.push_back(std::move(contour));
+  }
+  return message;
+}
+
 }  // namespace
 
 bool PacketReader::take_magic() {
@@ -197,6 +245,18 @@ std::string to_packet(const StreamMessage& message) {
     out.count(message.plus.size());
     for (const auto& t : message.plus) {
       for (const std::uint32_t x : {t.triangle, t.slot, t.corners[0], t.corners[1], t.corners[2]}) out.u32(x);
+    }
+    return out.done();
+  }
+  if (message.kind == StreamMessage::Kind::contours) {
+    PacketWriter out(PacketKind::contours);
+    out.count(message.contours.size());
+    for (const CellContour& contour : message.contours) {
+      out.u32(contour.cell);
+      VarintWriter packed;
+      put_ascending(contour.seeds, packed);
+      put_ascending(contour.boundary, packed);
+      out.text(packed.bytes);
     }
     return out.done();
   }
@@ -264,6 +324,9 @@ ServerPacket parse_server_packet(const Packet& packet, const std::string& where,
       break;
     case PacketKind::minus:
       out.message = minus_of(body, about);
+      break;
+    case PacketKind::contours:
+      out.message = contours_of(body, about, where);
       break;
     case PacketKind::cell:
       out.message.cell = body.number_from(0, about.cell_count, "the cell");

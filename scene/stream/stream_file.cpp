@@ -20,6 +20,7 @@ using StreamJson = nlohmann::json;
 
 constexpr const char* stream_format = "clues-stream/1";
 constexpr std::uint64_t most_slots = std::uint64_t{1} << 32;
+constexpr std::uint64_t most_triangles = std::uint64_t{1} << 32;  // ids have 32 bits
 
 // One line of the file.
 class StreamLine {
@@ -36,7 +37,7 @@ class StreamLine {
     if (!has(key) || !json_[key].is_string()) fail(fmt::format("\"{}\" must be a text", key));
     return json_[key].get<std::string>();
   }
-  std::uint32_t number(const StreamJson& value, std::uint64_t from, std::uint64_t below, const char* what) const {
+  std::uint64_t number(const StreamJson& value, std::uint64_t from, std::uint64_t below, const char* what) const {
     if (!value.is_number_unsigned()) fail(fmt::format("{} must be a number from {} up", what, from));
     const auto i = value.get<std::uint64_t>();
     if (below == 0)
@@ -44,7 +45,11 @@ class StreamLine {
     if (i < from || i >= below)
       throw Error(ErrorCode::index_out_of_range,
                   fmt::format("{}: {} {} is not {} to {}", where_, what, i, from, below - 1));
-    return static_cast<std::uint32_t>(i);
+    return i;
+  }
+  // Of those that have 32 bits: `below` is no more than 2^32.
+  std::uint32_t number32(const StreamJson& value, std::uint64_t from, std::uint64_t below, const char* what) const {
+    return static_cast<std::uint32_t>(number(value, from, below, what));
   }
   std::uint64_t count(const char* key) const {
     if (!has(key) || !json_[key].is_number_unsigned()) fail(fmt::format("\"{}\" must be a number from 0 up", key));
@@ -78,26 +83,42 @@ StreamHeader header_of(const StreamLine& line) {
   return header;
 }
 
+// Of a cell from `from` on.
+CellContour contour_of(const StreamLine& line, const StreamJson& item, std::uint64_t from, const StreamHeader& header) {
+  if (!item.is_array() || item.size() != 3 || !item[1].is_array() || !item[2].is_array())
+    line.fail(json_excerpt(item) + " is no contour [CELL, [ID, ...], [EDGE, ...]]");
+  CellContour contour{line.number32(item[0], from, header.cell_count, "the cell of a contour"), {}, {}};
+  for (const auto& seed : item[1]) {
+    const std::uint64_t least = contour.seeds.empty() ? 0 : contour.seeds.back() + std::uint64_t{1};
+    contour.seeds.push_back(line.number32(seed, least, header.scene_triangles, "the seed of a contour"));
+  }
+  for (const auto& edge : item[2]) {
+    const std::uint64_t least = contour.boundary.empty() ? 0 : contour.boundary.back() + 1;
+    contour.boundary.push_back(line.number(edge, least, edges_of(header), "the edge of a contour"));
+  }
+  return contour;
+}
+
 StreamMessage message_of(const StreamLine& line, const StreamHeader& header) {
   StreamMessage message;
   if (line.has("cell") && line.size() == 1) {
-    message.cell = line.number(line.at("cell"), 0, header.cell_count, "the cell");
+    message.cell = line.number32(line.at("cell"), 0, header.cell_count, "the cell");
     return message;
   }
   if (line.has("plus") && line.has("vertices") && line.size() == 2) {
     message.kind = StreamMessage::Kind::plus;
     for (const auto& item : line.list("plus")) {
       if (!item.is_array() || item.size() != 5) line.fail(json_excerpt(item) + " is no triangle [ID, SLOT, a, b, c]");
-      StreamTriangle t{line.number(item[0], 0, header.scene_triangles, "the triangle"),
-                       line.number(item[1], 1, most_slots, "the slot"),
+      StreamTriangle t{line.number32(item[0], 0, header.scene_triangles, "the triangle"),
+                       line.number32(item[1], 1, most_slots, "the slot"),
                        {}};
       for (std::size_t i = 0; i < 3; ++i)
-        t.corners[i] = line.number(item[2 + i], 1, most_slots, "the slot of a vertex");
+        t.corners[i] = line.number32(item[2 + i], 1, most_slots, "the slot of a vertex");
       message.plus.push_back(t);
     }
     for (const auto& item : line.list("vertices")) {
       if (!item.is_array() || item.size() != 4) line.fail(json_excerpt(item) + " is no vertex [SLOT, x, y, z]");
-      message.vertices.push_back({line.number(item[0], 1, most_slots, "the slot of a vertex"),
+      message.vertices.push_back({line.number32(item[0], 1, most_slots, "the slot of a vertex"),
                                   {line.coordinate(item[1]), line.coordinate(item[2]), line.coordinate(item[3])}});
     }
     return message;
@@ -105,12 +126,21 @@ StreamMessage message_of(const StreamLine& line, const StreamHeader& header) {
   if (line.has("minus") && line.has("unused") && line.size() == 2) {
     message.kind = StreamMessage::Kind::minus;
     for (const auto& item : line.list("minus"))
-      message.minus.push_back(line.number(item, 0, header.scene_triangles, "the triangle"));
+      message.minus.push_back(line.number32(item, 0, header.scene_triangles, "the triangle"));
     for (const auto& item : line.list("unused"))
-      message.unused.push_back(line.number(item, 1, most_slots, "the slot of a vertex"));
+      message.unused.push_back(line.number32(item, 1, most_slots, "the slot of a vertex"));
     return message;
   }
-  line.fail(R"(a message is {"cell": N}, {"plus": [...], "vertices": [...]} or {"minus": [...], "unused": [...]})");
+  if (line.has("contours") && line.size() == 1) {
+    message.kind = StreamMessage::Kind::contours;
+    for (const auto& item : line.list("contours")) {
+      const std::uint64_t from = message.contours.empty() ? 0 : message.contours.back().cell + std::uint64_t{1};
+      message.contours.push_back(contour_of(line, item, from, header));
+    }
+    return message;
+  }
+  line.fail(
+      R"(a message is {"cell": N}, {"plus": [...], "vertices": [...]}, {"minus": [...], "unused": [...]} or {"contours": [...]})");
 }
 
 }  // namespace
@@ -128,9 +158,10 @@ std::string difference_of_messages(const StreamHeader& here, const StreamHeader&
 }
 
 std::uint64_t most_messages_of_a_step(const StreamHeader& header) {
-  constexpr std::uint64_t most_triangles = std::uint64_t{1} << 32;  // ids have 32 bits
-  return 4 + 2 * std::min(header.scene_triangles, most_triangles);
+  return 5 + 2 * std::min(header.scene_triangles, most_triangles);
 }
+
+std::uint64_t edges_of(const StreamHeader& header) { return 3 * std::min(header.scene_triangles, most_triangles); }
 
 std::string to_line(const StreamHeader& header) {
   StreamJson json{{"format", stream_format},
@@ -153,6 +184,9 @@ std::string to_line(const StreamMessage& message) {
     for (const auto& t : message.plus)
       json["plus"].push_back({t.triangle, t.slot, t.corners[0], t.corners[1], t.corners[2]});
     for (const auto& v : message.vertices) json["vertices"].push_back({v.slot, v.at[0], v.at[1], v.at[2]});
+  } else if (message.kind == StreamMessage::Kind::contours) {
+    json["contours"] = StreamJson::array();
+    for (const auto& c : message.contours) json["contours"].push_back({c.cell, c.seeds, c.boundary});
   } else {
     json["minus"] = message.minus;
     json["unused"] = message.unused;
@@ -178,7 +212,7 @@ StreamRequest parse_stream_request(std::string_view text, const std::string& whe
   const StreamLine line(text, where);
   StreamRequest request;
   if (line.has("enter") && line.size() == 1) {
-    request.cell = line.number(line.at("enter"), 0, cells, "the cell");
+    request.cell = line.number32(line.at("enter"), 0, cells, "the cell");
     return request;
   }
   if (!line.has("resume") || line.size() != 1) line.fail(R"(a request is {"enter": N} or {"resume": {...}})");
@@ -186,7 +220,7 @@ StreamRequest parse_stream_request(std::string_view text, const std::string& whe
   if (inner.size() != 2) inner.fail("\"resume\" has \"route\" and \"have\", and nothing else");
   request.resumes = true;
   request.have = inner.count("have");
-  for (const auto& cell : inner.list("route")) request.route.push_back(inner.number(cell, 0, cells, "the cell"));
+  for (const auto& cell : inner.list("route")) request.route.push_back(inner.number32(cell, 0, cells, "the cell"));
   return request;
 }
 

@@ -1,7 +1,8 @@
 // D25: what a server says to a client, as JSON lines ("clues-stream/1", docs/delta.md). The first line says of which
 // scene and cells; every other is a message. `+` brings triangles with the slots that they get in the client's display
 // list, and the vertices that are new to it; `-` takes triangles out, and says which slots of vertices become free;
-// `cell` says where the viewer is from here on. Slot 0 is nothing (FIG. 43).
+// `cell` says where the viewer is from here on. Slot 0 is nothing (FIG. 43). `contours` says, for some cells, which part of
+// the display list has to be drawn there (FIG. 54).
 #pragma once
 
 #include <array>
@@ -31,14 +32,26 @@ struct StreamVertex {
   friend bool operator==(const StreamVertex&, const StreamVertex&) = default;
 };
 
+// D26, FIG. 54: what of the display list is drawn in a cell: all that a flood over triangles of the list reaches from the
+// seeds, through edges that they have in common (corners with the same coordinates) and that are not of the boundary. In
+// a cell without a contour everything is drawn.
+struct CellContour {
+  std::uint32_t cell = 0;
+  std::vector<std::uint32_t> seeds;     // ids, ascending
+  std::vector<std::uint64_t> boundary;  // 3 * id + k: the edge from corner k of that triangle to the next, ascending
+
+  friend bool operator==(const CellContour&, const CellContour&) = default;
+};
+
 struct StreamMessage {
-  enum class Kind : std::uint8_t { plus, minus, cell };
+  enum class Kind : std::uint8_t { plus, minus, cell, contours };
   Kind kind = Kind::cell;
   std::uint32_t cell = 0;              // cell: its number
   std::vector<StreamTriangle> plus;    // plus
   std::vector<StreamVertex> vertices;  // plus
   std::vector<std::uint32_t> minus;    // minus: ids
   std::vector<std::uint32_t> unused;   // minus: slots of vertices that become free
+  std::vector<CellContour> contours;   // contours: by cell; they replace all that came before
 };
 
 struct StreamHeader {
@@ -74,8 +87,10 @@ struct StreamRequest {
   std::vector<std::uint32_t> route;  // resumes: the cells that were asked for before
   std::uint64_t have = 0;            // resumes: so many messages have come
 };
-// The most messages of the answer to one step: each triangle comes and goes once, and four are empty or the cell.
+// The most messages of the answer to one step: each triangle comes and goes once, and five are empty, the cell, or contours.
 std::uint64_t most_messages_of_a_step(const StreamHeader& header);
+// Numbers of edges are below.
+std::uint64_t edges_of(const StreamHeader& header);
 
 std::string to_line(const StreamRequest& request);
 StreamRequest parse_stream_request(std::string_view line, const std::string& where, std::uint64_t cells);

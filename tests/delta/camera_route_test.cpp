@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "exact/cell/touching.h"
-#include "reference/delta/camera_route.h"
+#include "reference/streams/camera_route.h"
 #include "scene/messages/error.h"
 #include "scene/stream/route.h"
 #include "tests/reference/support.h"

@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "reference/delta/cell_tree.h"
+#include "reference/streams/cell_tree.h"
 #include "reference/link/link_simulator.h"
 #include "scene/stream/route.h"
 #include "tests/app/program.h"

@@ -7,7 +7,7 @@
 #include <iterator>
 #include <random>
 
-#include "reference/delta/worth.h"
+#include "reference/streams/worth.h"
 #include "reference/link/link_simulator.h"
 #include "reference/link/penetration.h"
 #include "scene/stream/route.h"

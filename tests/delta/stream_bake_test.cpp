@@ -6,7 +6,7 @@
 #include <random>
 
 #include "exact/cell/touching.h"
-#include "reference/delta/stream_server.h"
+#include "reference/streams/stream_server.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/scenes/scene_io.h"
 #include "scene/stream/route.h"

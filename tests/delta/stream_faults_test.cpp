@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "reference/delta/stream_session.h"
+#include "reference/streams/stream_session.h"
 #include "scene/messages/error.h"
 #include "scene/stream/caller.h"
 #include "scene/stream/local_socket.h"

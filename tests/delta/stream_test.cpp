@@ -11,7 +11,7 @@
 #include <set>
 
 #include "fuzz/generators/random_scenes.h"
-#include "reference/delta/stream_server.h"
+#include "reference/streams/stream_server.h"
 #include "scene/messages/error.h"
 #include "scene/stream/route.h"
 #include "tests/app/program.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/delta/stream_server.h"
+#include "reference/streams/stream_server.h"
 #include "scene/cell_spec.h"
 #include "scene/stream/packets.h"
 #include "validate/stream/judge_stream.h"

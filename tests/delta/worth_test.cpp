@@ -9,8 +9,8 @@
 #include <numeric>
 #include <random>
 
-#include "reference/delta/area_worth.h"
-#include "reference/delta/worth.h"
+#include "reference/streams/area_worth.h"
+#include "reference/streams/worth.h"
 #include "tests/app/program.h"
 #include "tests/delta/town.h"
 #include "tests/reference/support.h"

@@ -21,10 +21,12 @@ struct NoAnswer {
   std::string what;
 };
 
-// Of an answer to one step: all triangles with their corners, gone and come, take less in either form.
+// Of an answer to one step: all triangles with their corners, gone and come, and a contour for each cell, take less in
+// either form.
 std::uint64_t most_bytes_of_a_step(const scene::StreamHeader& header) {
-  constexpr std::uint64_t to_spare = std::uint64_t{1} << 20, of_a_message = 512;
-  return to_spare + of_a_message * scene::most_messages_of_a_step(header);
+  constexpr std::uint64_t to_spare = std::uint64_t{1} << 20, of_each = 512;
+  constexpr std::uint64_t most_cells = std::uint64_t{1} << 32;
+  return to_spare + of_each * (scene::most_messages_of_a_step(header) + std::min(header.cell_count, most_cells));
 }
 
 // Speaks lines or packets (packets.h), as the program begins.

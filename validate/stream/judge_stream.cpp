@@ -31,8 +31,14 @@ class StreamJudge {
       verdict_.sent += message.plus.size();
       verdict_.taken += message.minus.size();
       verdict_.most_held = std::max<std::uint64_t>(verdict_.most_held, client_.size());
-      if (message.kind == StreamMessage::Kind::cell) enter(message.cell);
-      if (message.kind == StreamMessage::Kind::minus && cell_) require_visible(*cell_, "is taken away");
+      verdict_.contours += message.contours.size();
+      if (message.kind == StreamMessage::Kind::cell) {
+        enter(message.cell);
+      } else if (cell_ && message.kind == StreamMessage::Kind::minus) {
+        require_visible(*cell_, "is taken away");
+      } else if (cell_ && client_.drawn_in(*cell_)) {
+        require_visible(*cell_, "is not there");  // a contour may be new, or what is sent be at its boundary
+      }
       if (verdict_.findings.size() >= most_) break;
     }
     return std::move(verdict_);
@@ -54,15 +60,19 @@ class StreamJudge {
 
   void require_visible(std::uint32_t cell, const char* how) {
     const Judgement& judgement = truth_(cell);
+    const auto drawn = client_.drawn_in(cell);
     for (std::uint32_t t = 0; t < judgement.triangles.size(); ++t) {
       const bool seen = judgement.triangles[t] == TriangleVerdict::missing_visible;
       const bool open = judgement.triangles[t] == TriangleVerdict::missing_undecided;
-      if ((!seen && !open) || client_.holds(t)) continue;
+      if ((!seen && !open) || (drawn ? drawn->contains(t) : client_.holds(t))) continue;
       if (open) {
         verdict_.undecided.push_back({number_, cell, t});
         continue;
       }
-      StreamFinding finding{number_, fmt::format("triangle {} is visible from cell {} and {}", t, cell, how), {}};
+      StreamFinding finding{number_,
+                            fmt::format("triangle {} is visible from cell {} and {}", t, cell,
+                                        client_.holds(t) ? "its contour leaves it out" : how),
+                            {}};
       const auto at = std::find_if(judgement.witnesses.begin(), judgement.witnesses.end(),
                                    [t](const Witness& w) { return w.triangle == t; });
       if (at != judgement.witnesses.end()) finding.witness = *at;
@@ -85,7 +95,52 @@ std::vector<std::string> StreamClient::apply(const StreamMessage& message) {
   std::vector<std::string> wrong;
   if (message.kind == StreamMessage::Kind::plus) apply_plus(message, wrong);
   if (message.kind == StreamMessage::Kind::minus) apply_minus(message, wrong);
+  if (message.kind == StreamMessage::Kind::contours) {
+    contours_.clear();
+    for (const auto& contour : message.contours) contours_[contour.cell] = contour;
+  }
   return wrong;
+}
+
+std::optional<StreamClient::EdgeEnds> StreamClient::edge_of(const StreamTriangle& triangle, std::size_t k) const {
+  const auto a = vertices_.find(triangle.corners[k]), b = vertices_.find(triangle.corners[(k + 1) % 3]);
+  if (a == vertices_.end() || b == vertices_.end()) return std::nullopt;
+  return EdgeEnds{std::min(a->second, b->second), std::max(a->second, b->second)};
+}
+
+std::optional<std::set<std::uint32_t>> StreamClient::drawn_in(std::uint32_t cell) const {
+  const auto contour = contours_.find(cell);
+  if (contour == contours_.end()) return std::nullopt;
+  std::map<EdgeEnds, std::vector<std::uint32_t>> at_edge;  // passed by the flood
+  for (const auto& [id, triangle] : triangles_) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (const auto edge = edge_of(triangle, k)) at_edge[*edge].push_back(id);
+    }
+  }
+  for (const std::uint64_t edge : contour->second.boundary) {
+    const auto at = triangles_.find(static_cast<std::uint32_t>(edge / 3));
+    if (at == triangles_.end()) continue;
+    if (const auto ends = edge_of(at->second, edge % 3)) at_edge.erase(*ends);
+  }
+  std::set<std::uint32_t> drawn;
+  std::vector<std::uint32_t> queue;
+  const auto reach = [&](std::uint32_t id) {
+    if (drawn.insert(id).second) queue.push_back(id);
+  };
+  for (const std::uint32_t seed : contour->second.seeds) {
+    if (holds(seed)) reach(seed);
+  }
+  while (!queue.empty()) {
+    const StreamTriangle& triangle = triangles_.at(queue.back());
+    queue.pop_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto edge = edge_of(triangle, k);
+      const auto at = edge ? at_edge.find(*edge) : at_edge.end();
+      if (at == at_edge.end()) continue;
+      for (const std::uint32_t next : at->second) reach(next);
+    }
+  }
+  return drawn;
 }
 
 bool StreamClient::has_right_corner(std::uint32_t id, std::size_t corner) const {

@@ -4,6 +4,7 @@
 // A stream is unsound where
 //   - a `cell` message comes while something visible from that cell, or from the one that the viewer comes from, is not
 //     there (he is on the face between them), or a later message takes away what is visible from his cell;
+//   - there is a contour for the cell, and something visible from it is not drawn with it;
 //   - a triangle is sent that is there, or taken away though it is not there;
 //   - a slot is given to two triangles, or to none (slot 0); a vertex is sent into a slot that is in use; a slot is
 //     called unused while a triangle uses it, or not called unused though none does, be it after `+` or after `-`;
@@ -12,6 +13,7 @@
 //     it or is held by it; in a bake, one that touches it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -36,11 +38,15 @@ class StreamClient {
 
   std::size_t size() const { return triangles_.size(); }
   bool holds(std::uint32_t triangle) const { return triangles_.contains(triangle); }
+  // D26, FIG. 54: what is drawn in the cell; none: there is no contour for it, and so all is drawn. O(n log n).
+  std::optional<std::set<std::uint32_t>> drawn_in(std::uint32_t cell) const;
   std::string bytes() const;  // as DisplayList::bytes
 
  private:
   void apply_plus(const scene::StreamMessage& message, std::vector<std::string>& wrong);
   void apply_minus(const scene::StreamMessage& message, std::vector<std::string>& wrong);
+  using EdgeEnds = std::array<scene::Point, 2>;
+  std::optional<EdgeEnds> edge_of(const scene::StreamTriangle& triangle, std::size_t k) const;
   bool has_right_corner(std::uint32_t id, std::size_t corner) const;
   void look_at_corners(std::uint32_t id);
   void put(const scene::StreamTriangle& triangle);
@@ -51,6 +57,7 @@ class StreamClient {
   std::map<std::uint32_t, scene::StreamTriangle> triangles_;  // by id
   std::map<std::uint32_t, std::uint32_t> slots_;              // of triangles: ids
   std::map<std::uint32_t, scene::Point> vertices_;            // by slot
+  std::map<std::uint32_t, scene::CellContour> contours_;      // by cell
   // What follows from these, so that a message costs what it says and not what the client holds.
   std::map<std::uint32_t, std::set<std::uint32_t>> users_;  // of slots of vertices: ids; none is empty
   std::set<std::uint32_t> idle_;                            // slots of vertices that no triangle uses
@@ -73,13 +80,13 @@ struct StreamVerdict {
   std::vector<StreamFinding> findings;  // none: nothing visible was ever missing
   std::uint64_t cells_entered = 0;
   std::vector<StreamDoubt> undecided;
-  std::uint64_t sent = 0, taken = 0, most_held = 0;
+  std::uint64_t sent = 0, taken = 0, most_held = 0, contours = 0;
 };
 
 // What is visible from a cell: the judgement of an empty list (judge.h).
 using CellTruth = std::function<const Judgement&(std::uint32_t cell)>;
 
-// At most `most_findings`. `neighbours`: of each cell, ascending. O(messages + triangles of a cell at each step).
+// At most `most_findings`. `neighbours`: of each cell, ascending. O(messages + triangles of a cell at each step, and of all that is held where there are contours).
 StreamVerdict judge_stream(const scene::TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& neighbours,
                            const std::vector<scene::StreamMessage>& messages, const CellTruth& truth,
                            std::size_t most_findings = 20);

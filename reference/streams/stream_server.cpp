@@ -1,9 +1,10 @@
-#include "reference/delta/stream_server.h"
+#include "reference/streams/stream_server.h"
 
 #include <algorithm>
 #include <utility>
 
 #include "reference/delta/delta.h"
+#include "reference/streams/client_contours.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
 
@@ -120,8 +121,28 @@ std::vector<std::uint32_t> StreamStore::wanted_in(std::uint32_t cell, std::size_
   return wanted;
 }
 
+void StreamStore::add_contours() {
+  const EdgeUsers edges(*mesh_);
+  contours_.clear();
+  for (std::uint32_t cell = 0; cell < lists_.size(); ++cell)
+    contours_.push_back(client_contour(edges, cell, wanted_in(cell, coarsest()), lists_[cell]));
+}
+
+std::uint32_t StreamStore::coarsest_node(std::uint32_t cell) const {
+  return coarsest() == 0 ? cell : tree_.node_of[coarsest()][cell];
+}
+
+std::vector<scene::CellContour> StreamStore::contours_of_node(std::uint32_t node) const {
+  std::vector<scene::CellContour> out;
+  for (const auto& contour : contours_) {
+    if (coarsest_node(contour.cell) == node) out.push_back(contour);
+  }
+  return out;
+}
+
 std::string StreamStore::digest() const {
   std::string text = "horizon " + std::to_string(horizon_) + "\n";
+  if (!contours_.empty()) text += "contours\n";
   const auto add = [&text](const char* name, const std::vector<std::uint32_t>& row) {
     text += name;
     for (const std::uint32_t x : row) text.append(" ").append(std::to_string(x));
@@ -144,6 +165,14 @@ std::vector<StreamMessage> StreamServer::enter(std::uint32_t cell, std::size_t l
   if (!gone.empty()) messages.push_back(mirror_.minus(gone));
   const auto later = packets_of(mirror_.triangles(), store_->wanted_in(cell, level)).plus;
   if (!later.empty()) messages.push_back(mirror_.plus(later));
+  const std::uint32_t node = store_->coarsest_node(cell);
+  if (node_ != node) {
+    node_ = node;
+    StreamMessage drawn;
+    drawn.kind = StreamMessage::Kind::contours;
+    drawn.contours = store_->contours_of_node(node);
+    if (!drawn.contours.empty()) messages.push_back(std::move(drawn));
+  }
   messages_ += messages.size();
   return messages;
 }
@@ -164,6 +193,7 @@ std::vector<StreamMessage> StreamServer::resume(const std::vector<std::uint32_t>
 
 void StreamServer::restart() {
   mirror_ = DisplayList(store_->mesh());
+  node_.reset();
   messages_ = 0;
 }
 

@@ -1,4 +1,4 @@
-#include "reference/delta/cell_tree.h"
+#include "reference/streams/cell_tree.h"
 
 #include <algorithm>
 #include <numeric>

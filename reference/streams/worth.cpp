@@ -1,4 +1,4 @@
-#include "reference/delta/worth.h"
+#include "reference/streams/worth.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "reference/delta/stream_session.h"
+#include "reference/streams/stream_session.h"
 
 #include <algorithm>
 

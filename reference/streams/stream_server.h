@@ -11,16 +11,18 @@
 // FIGS. 52, 54: with a hierarchy the client gets, behind what he waits for, what is seen from the whole node that the
 // cell is in, and within the node nothing is sent any more. Fewer packets, larger ones. Where the link is too slow for
 // that a smaller node, or the cell alone, will do for the moment: nothing that a larger node has use for is taken away.
-// So after each step the client has what the cell sees, and nothing that the coarsest node does not see.
+// So after each step the client has what the cell sees, and nothing that the coarsest node does not see. With contours
+// (client_contours.h) he is told as well, once in each of these nodes, what of it each of its cells sees.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "reference/delta/cell_tree.h"
+#include "reference/streams/cell_tree.h"
 #include "scene/mesh/mesh.h"
 #include "scene/stream/stream_file.h"
 
@@ -76,14 +78,22 @@ class StreamStore {
   const std::vector<std::uint32_t>& seen_from(std::uint32_t cell) const { return lists_[cell]; }
   std::size_t coarsest() const { return tree_.node_of.empty() ? 0 : tree_.node_of.size() - 1; }  // level of the tree
   std::vector<std::uint32_t> wanted_in(std::uint32_t cell, std::size_t level) const;             // ascending
-  // SHA-256 of the lists, which follow from mode and --drop, the neighbours, the horizon and the tree: from these, and
-  // the scene, all messages follow. O(size of the lists).
+
+  // From here on clients get contours: of each cell within what they hold when the viewer is there. O(cells * size of
+  // what is held there * log n).
+  void add_contours();
+  std::uint32_t coarsest_node(std::uint32_t cell) const;
+  // Of the cells of this node; none where clients get none.
+  std::vector<scene::CellContour> contours_of_node(std::uint32_t node) const;
+  // SHA-256 of the lists, which follow from mode and --drop, the neighbours, the horizon, the tree, and whether there are
+  // contours: from these, and the scene, all messages follow. O(size of the lists).
   std::string digest() const;
 
  private:
   std::vector<std::vector<std::uint32_t>> lists_, neighbours_;
   CellTree tree_;
   std::vector<std::vector<std::vector<std::uint32_t>>> node_lists_;  // of each level but 0, of each node
+  std::vector<scene::CellContour> contours_;                         // of each cell; or none
   const scene::TriangleMesh* mesh_;
   int horizon_;
 };
@@ -115,6 +125,7 @@ class StreamServer {
   const StreamStore* store_;
   std::uint64_t messages_ = 0;
   DisplayList mirror_;
+  std::optional<std::uint32_t> node_;  // that the client has the contours of
 };
 
 }  // namespace clues::reference

@@ -1,4 +1,4 @@
-#include "reference/delta/camera_route.h"
+#include "reference/streams/camera_route.h"
 
 #include <fmt/format.h>
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reference/delta/stream_server.h"
+#include "reference/streams/stream_server.h"
 #include "scene/stream/packets.h"
 
 namespace clues::reference {

@@ -1,10 +1,10 @@
-#include "reference/delta/area_worth.h"
+#include "reference/streams/area_worth.h"
 
 #include <bit>
 #include <limits>
 
 #include "exact/last_where.h"
-#include "reference/delta/stream_server.h"
+#include "reference/streams/stream_server.h"
 #include "scene/stream/packets.h"
 
 namespace clues::reference {
