@@ -284,9 +284,14 @@ void add_conform_command(CLI::App& program, int& status) {
       ->excludes(file);
   command->add_option("--scene", stream->choice.scene, "With a stream: the scene")->type_name("SCENE");
   auto* cells = command->add_option("--cells", stream->choice.cells, "With a stream: the cells")->type_name("SPEC");
-  command->add_option("--bake", stream->choice.bake, "With a stream: the cells, and what is hidden, of this bake")
+  auto* bake =
+      command->add_option("--bake", stream->choice.bake, "With a stream: the cells, and what is hidden, of this bake")
+          ->type_name("FILE")
+          ->excludes(cells);
+  command->add_option("--lists", stream->choice.lists, "With a stream: the same, of this file of lists")
       ->type_name("FILE")
-      ->excludes(cells);
+      ->excludes(cells)
+      ->excludes(bake);
   stream->route.steps = 40;
   stream->route.add_to(*command, "Of --stream-server: so many steps at random (default: 40)");
   command->callback(

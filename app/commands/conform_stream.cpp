@@ -38,8 +38,10 @@ std::string again(const ConformStreamRequest& request) {
                                             : "clues conform --stream " + scene::shell_word(request.stream);
   const CellsChoice& choice = request.choice;
   text += " --scene " + scene::shell_word(choice.scene);
-  text +=
-      choice.bake.empty() ? " --cells " + scene::shell_word(choice.cells) : " --bake " + scene::shell_word(choice.bake);
+  for (const auto& [option, value] :
+       {std::pair(" --cells ", choice.cells), {" --bake ", choice.bake}, {" --lists ", choice.lists}}) {
+    if (!value.empty()) text += option + scene::shell_word(value);
+  }
   return request.stream.empty() ? text + " " + request.route.as_options() : text;
 }
 
@@ -156,7 +158,8 @@ std::string text_of(const validate::StreamFinding& f, const ConformStreamRequest
 
 int run_conform_stream(const ConformStreamRequest& request) {
   if (request.choice.scene.empty())
-    throw Error(ErrorCode::bad_argument, "--stream and --stream-server need --scene, and --cells or --bake, too");
+    throw Error(ErrorCode::bad_argument,
+                "--stream and --stream-server need --scene, and --cells, --bake or --lists, too");
   const ServedCells served = served_cells(request.choice);
   const auto& mesh = served.scene.mesh;
   const auto run = run_of(request, served);
@@ -169,8 +172,8 @@ int run_conform_stream(const ConformStreamRequest& request) {
                             stream.header.scene_triangles, stream.header.cell_count, stream.header.cells));
   }
   validate::StreamVerdict verdict;
-  const bool solid = request.choice.bake.empty() && stream.header.mode == "solid";
-  if (request.choice.bake.empty()) {
+  const bool solid = !request.choice.has_lists() && stream.header.mode == "solid";
+  if (!request.choice.has_lists()) {
     MappedTruth truth(served, solid ? reference::Mode::solid : reference::Mode::sheet);
     verdict = validate::judge_stream(mesh, served.neighbours, stream.messages,
                                      [&](std::uint32_t c) -> const validate::Judgement& { return truth(c); });

@@ -124,7 +124,7 @@ std::string line_of(const scene::ContourFile& file, const reference::MadeContour
 // Of a bake there are lists only. From each cell to each neighbour: what comes, and what goes, as a list of it or as the
 // contour of what stays.
 int run_list_contours(const ContoursRequest& request) {
-  const ServedCells served = served_cells({request.scene, {}, request.bake});
+  const ServedCells served = served_cells({request.scene, {}, request.bake, {}});
   const reference::EdgeUsers edges(served.scene.mesh);
   const auto triangles = static_cast<std::uint32_t>(served.scene.mesh.triangles.size());
   std::uint64_t transitions = 0, whole = 0, plus = 0, minus = 0, contours = 0, packed = 0, listed = 0, seeds = 0,

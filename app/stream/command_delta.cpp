@@ -16,8 +16,9 @@
 #include "app/stream/command_contours.h"
 #include "app/stream/command_decode.h"
 #include "app/stream/command_detail.h"
-#include "reference/streams/area_worth.h"
+#include "app/stream/command_lists.h"
 #include "reference/delta/delta.h"
+#include "reference/streams/area_worth.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
@@ -230,6 +231,7 @@ void add_delta_command(CLI::App& program, int& status) {
   add_delta_contours(*command, status);
   add_delta_detail(*command, status);
   add_delta_decode(*command, status);
+  add_delta_lists(*command, status);
 }
 
 }  // namespace clues::app

@@ -17,8 +17,8 @@
 #include "app/stream/number_between.h"
 #include "app/stream/routes.h"
 #include "app/stream/served_cells.h"
-#include "reference/streams/stream_server.h"
 #include "reference/link/link_simulator.h"
+#include "reference/streams/stream_server.h"
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
 #include "scene/stream/caller.h"
@@ -243,7 +243,7 @@ int run_walk(const WalkRequest& request) {
   if (!request.link.empty()) parse_link(request.link, 1);
   require_writable_parent(request.out);
   require_apart({&request.out}, {&request.choice.scene, &request.route.route, &request.route.camera,
-                                 &request.choice.cells, &request.choice.bake});
+                                 &request.choice.cells, &request.choice.bake, &request.choice.lists});
   const ServedCells served = served_cells(request.choice);
   RouteChoice choice = request.route;
   auto route = choice.take(served);

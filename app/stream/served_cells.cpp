@@ -9,12 +9,14 @@
 #include "app/stream/number_between.h"
 #include "exact/cell/touching.h"
 #include "reference/streams/area_worth.h"
+#include "reference/streams/list_store.h"
 #include "reference/streams/worth.h"
 #include "reference/visibility/first_order.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
 #include "scene/scenes/scene_io.h"
+#include "scene/stream/list_file.h"
 #include "scene/stream/route.h"
 
 namespace clues::app {
@@ -23,20 +25,35 @@ namespace {
 using scene::Error;
 using scene::ErrorCode;
 
+void require_same_scene(const CellsChoice& choice, const std::string& file, const std::string& sha256,
+                        std::uint64_t triangles, const ServedCells& served) {
+  if (sha256 != served.header.scene_sha256 || triangles != served.header.scene_triangles)
+    throw Error(ErrorCode::bad_argument, file + ": is of another scene than " + choice.scene);
+}
+
+void add_cell(const std::string& name, const std::vector<scene::Point>& points, const std::vector<scene::Point>& inner,
+              ServedCells& served) {
+  served.cells.push_back({name, points});
+  served.inner.push_back(inner.empty() ? points : inner);
+}
+
 void add_cells_of_bake(const CellsChoice& choice, ServedCells& served) {
   const scene::FinishedBake bake(choice.bake);
-  if (bake.plan().scene_sha256 != served.header.scene_sha256)
-    throw Error(ErrorCode::bad_argument, choice.bake + ": is of another scene than " + choice.scene);
-  served.header.cells = bake.plan().question;
-  std::vector<exact::ConvexCell> hulls;
-  for (std::uint32_t c = 0; c < bake.plan().cells.size(); ++c) {
-    const auto& place = bake.plan().cells[c];
-    served.cells.push_back({place.name, place.points});
-    served.inner.push_back(place.inner.empty() ? place.points : place.inner);
+  const auto& plan = bake.plan();
+  require_same_scene(choice, choice.bake, plan.scene_sha256, plan.triangles, served);
+  served.header.cells = plan.question;
+  for (std::uint32_t c = 0; c < plan.cells.size(); ++c) {
+    add_cell(plan.cells[c].name, plan.cells[c].points, plan.cells[c].inner, served);
     served.lists.push_back(bake.cell(c).list);
-    hulls.push_back(exact::ConvexCell::from_doubles(place.points));
   }
-  served.neighbours = exact::touching_cells(hulls);
+}
+
+void add_cells_of_lists(const CellsChoice& choice, ServedCells& served) {
+  const auto file = scene::read_lists(choice.lists);
+  require_same_scene(choice, choice.lists, file.scene_sha256, file.scene_triangles, served);
+  served.header.cells = file.question;
+  for (const auto& cell : file.cells) add_cell(cell.name, cell.points, cell.inner, served);
+  served.lists = reference::decoded_levels(reference::EdgeUsers(served.scene.mesh), file.levels).back();
 }
 
 std::string words_of(const reference::AreaWorth& worth, const ServedCells& served,
@@ -61,9 +78,13 @@ void CellsChoice::add_to(CLI::App& command) {
   auto* grid =
       command.add_option("--cells", cells, "The cells: grid:NXxNYxNZ:box:x0,y0,z0,x1,y1,z1; they are mapped now")
           ->type_name("SPEC");
-  command.add_option("--bake", bake, "The cells and lists of `clues bake` of this scene")
+  auto* baked = command.add_option("--bake", bake, "The cells and lists of `clues bake` of this scene")
+                    ->type_name("FILE")
+                    ->excludes(grid);
+  command.add_option("--lists", lists, "The same in a file of `clues delta lists`")
       ->type_name("FILE")
-      ->excludes(grid);
+      ->excludes(grid)
+      ->excludes(baked);
 }
 
 void SendChoice::add_to(CLI::App& command) {
@@ -94,24 +115,31 @@ void SendChoice::add_to(CLI::App& command) {
 }
 
 ServedCells served_cells(const CellsChoice& choice) {
-  if (choice.cells.empty() == choice.bake.empty())
-    throw Error(ErrorCode::bad_argument, "give one of --cells and --bake");
+  if (choice.cells.empty() + choice.bake.empty() + choice.lists.empty() != 2)
+    throw Error(ErrorCode::bad_argument, "give one of --cells, --bake and --lists");
   ServedCells served;
-  if (choice.bake.empty()) {
-    served.scene.mesh = scene::read_plain_scene(choice.scene);
-  } else {
+  if (choice.has_lists()) {
     served.scene = scene::read_scene(choice.scene);
+  } else {
+    served.scene.mesh = scene::read_plain_scene(choice.scene);
   }
   served.header.scene_sha256 = scene::sha256_of_file(choice.scene);
   served.header.scene_triangles = served.scene.mesh.triangles.size();
-  if (choice.bake.empty()) {
+  if (choice.has_lists()) {
+    if (choice.lists.empty()) {
+      add_cells_of_bake(choice, served);
+    } else {
+      add_cells_of_lists(choice, served);
+    }
+    std::vector<exact::ConvexCell> hulls;
+    for (const auto& cell : served.cells) hulls.push_back(exact::ConvexCell::from_doubles(cell.points));
+    served.neighbours = exact::touching_cells(hulls);
+  } else {
     served.header.cells = choice.cells;
     served.cells = scene::parse_cells(choice.cells);
     served.neighbours = scene::neighbours_of(served.cells);
-  } else {
-    add_cells_of_bake(choice, served);
   }
-  if (served.cells.empty()) throw Error(ErrorCode::bad_argument, choice.bake + ": has no cells");
+  if (served.cells.empty()) throw Error(ErrorCode::bad_argument, choice.bake + choice.lists + ": has no cells");
   served.header.cell_count = served.cells.size();
   return served;
 }
@@ -137,14 +165,16 @@ SentLists lists_of(const ServedCells& served, const reference::Options& options,
   return {grown.lists, words_of(worth, served, lists, grown)};
 }
 
+reference::CellTree tree_of(const ServedCells& served, std::size_t levels) {
+  std::vector<std::vector<scene::Point>> corners;
+  for (const auto& cell : served.cells) corners.push_back(cell.points);
+  return reference::cell_tree(corners, levels);
+}
+
 reference::StreamStore store_of(const ServedCells& served, std::vector<std::vector<std::uint32_t>> lists,
                                 const SendChoice& send) {
   reference::CellTree tree;
-  if (send.levels > 0) {
-    std::vector<std::vector<scene::Point>> corners;
-    for (const auto& cell : served.cells) corners.push_back(cell.points);
-    tree = reference::cell_tree(corners, static_cast<std::size_t>(send.levels));
-  }
+  if (send.levels > 0) tree = tree_of(served, static_cast<std::size_t>(send.levels));
   reference::StreamStore store(served.scene.mesh, std::move(lists), served.neighbours, send.horizon, std::move(tree));
   if (send.contours) store.add_contours();
   return store;

@@ -1,5 +1,5 @@
-// What a stream is about, for `clues walk`, `clues serve` and `clues conform --stream`: a scene, cells of a grid or of
-// a bake, which of them a viewer can go to from which, and their lists.
+// What a stream is about, for `clues walk`, `clues serve` and `clues conform --stream`: a scene, cells of a grid, of
+// a bake or of a file of lists, which of them a viewer can go to from which, and their lists.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,18 +17,19 @@
 namespace clues::app {
 
 struct CellsChoice {
-  std::string scene, cells, bake;  // one of the two last
+  std::string scene, cells, bake, lists;  // one of the three last
 
-  void add_to(CLI::App& command);  // SCENE, --cells, --bake
+  void add_to(CLI::App& command);  // SCENE, --cells, --bake, --lists
+  bool has_lists() const { return cells.empty(); }
 };
 
 struct ServedCells {
   scene::FlaggedMesh scene;
   scene::StreamHeader header;
   std::vector<scene::CellSpec> cells;
-  std::vector<std::vector<scene::Point>> inner;  // of a bake, W_in (D23) of each cell
+  std::vector<std::vector<scene::Point>> inner;  // of a bake or a file of lists, W_in (D23) of each cell
   std::vector<std::vector<std::uint32_t>> neighbours;
-  std::vector<std::vector<std::uint32_t>> lists;  // of a bake
+  std::vector<std::vector<std::uint32_t>> lists;  // of a bake or a file of lists
 };
 
 // What is sent of them: for `clues walk` and `clues serve`.
@@ -51,10 +52,12 @@ struct SentLists {
 // Throws Error: bad_argument, bad_cell, malformed, and file errors. A scene of --cells is opaque.
 ServedCells served_cells(const CellsChoice& choice);
 
-// The lists of all cells: of the bake, or mapped now; grown until no step sends what is not worth it (worth.h). `who`:
+// The lists of all cells: those that are there, or mapped now; grown until no step sends what is not worth it (worth.h). `who`:
 // in front of the progress.
 SentLists lists_of(const ServedCells& served, const reference::Options& options, const SendChoice& send,
                    const char* who);
+
+reference::CellTree tree_of(const ServedCells& served, std::size_t levels);
 
 // Of these lists. Keeps a reference to `served`.
 reference::StreamStore store_of(const ServedCells& served, std::vector<std::vector<std::uint32_t>> lists,

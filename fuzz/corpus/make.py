@@ -343,5 +343,33 @@ def maps():
     put("maps", "plain_map_of_one_coordinate", "0 1 0\n3 0.25\n4 -1 2\n")
 
 
-for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, motion, maps, contours, stream, report, scene_to_verdict):
+def lists():
+    # Two cells with one corner each, in the small scene of the target (5 triangles): records by level.
+    def file(levels, cells=2, version=1, triangles=5, coordinates=(0.0, 2.0)):
+        out = b"CLUESLST" + struct.pack("<I", version) + bytes(32) + bytes([triangles, 1]) + b"q"
+        out += bytes([len(coordinates)]) + b"".join(struct.pack("<d", x) for x in coordinates)
+        out += bytes([cells]) + b"".join(bytes([1, 48 + c, 1, 0, min(1, len(coordinates) - 1), 0, 0]) for c in range(cells))
+        out += bytes([len(levels)])
+        for i, level in enumerate(levels):
+            if i + 1 < len(levels):
+                out += bytes([len(level)])
+            for record in level:
+                out += (bytes([0]) if i > 0 else b"") + bytes(record)
+        return out
+
+    node = [(0, 3, 0, 0, 1)]  # triangles 0, 1, 3
+    put("lists", "plain", file([[(0, 2, 0, 1), (0, 0)]]))
+    put("lists", "all_and_goes", file([node, [(1,), (2, 1, 1)]]))
+    put("lists", "contour_and_same", file([node, [(3, 1, 0, 0), (4, 0)]]))
+    put("lists", "contour_and_changed", file([node, [(3, 1, 0, 1, 2), (5, 0, 1, 3, 0)]]))
+    put("lists", "delta", file([[(0, 1, 4), (6, 0, 1, 0, 1, 4)]]))
+    put("lists", "more_than_around", file([node, [(0, 1, 4), (1,)]]))
+    put("lists", "edge_that_there_is_not", file([node, [(3, 1, 0, 1, 14), (1,)]]))
+    put("lists", "of_itself", file([[(4, 0), (0, 0)]]))
+    put("lists", "no_cells", file([[]], cells=0))
+    put("lists", "another_version", file([[(0, 0), (0, 0)]], version=2))
+    put("lists", "coordinate_not_used", file([[(0, 0), (0, 0)]], coordinates=(0.0, 2.0, 3.0)))
+
+
+for make in (obj, off, ply, stl, json_texts, cell_and_pvs, vectors, protocol, result, finding, store, bake, motion, maps, contours, lists, stream, report, scene_to_verdict):
     make()

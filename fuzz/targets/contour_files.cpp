@@ -1,11 +1,13 @@
-// Files of contours (D26), without the hash in their end. What is accepted is decoded in a small scene, exactly and in doubles: a label that
+// Files of contours and of lists (D26), without the hash in their end. What is accepted is decoded in a small scene, contours exactly and in doubles: a label that
 // makes no point there is refused, and anything else is decoded to something.
 #include <array>
 
 #include "fastpath/contours/contour_decoder.h"
 #include "fuzz/targets/promises.h"
 #include "reference/contours/contour_code.h"
+#include "reference/streams/list_store.h"
 #include "scene/stream/contour_file.h"
+#include "scene/stream/list_file.h"
 
 namespace clues::fuzz {
 namespace {
@@ -63,6 +65,19 @@ bool contour_files(std::string_view bytes) {
     require(sealed.starts_with(bytes), "a file has one form");
     require(scene::parse_contours(sealed, "again") == file, "a file survives being written");
     if (file.scene_points == 13 && file.scene_triangles == 5 && is_small(file)) decode(file);
+  });
+}
+
+bool list_files(std::string_view bytes) {
+  return accepted([&] {
+    const auto file = scene::parse_unsealed_lists(bytes, "file");
+    const std::string sealed = scene::to_bytes(file);
+    require(sealed.starts_with(bytes), "a file has one form");
+    require(scene::parse_lists(sealed, "again") == file, "a file survives being written");
+    const auto mesh = town();
+    const auto decoded = reference::decoded_levels(reference::EdgeUsers(mesh), file.levels);
+    for (const auto& list : decoded.back())
+      require(list.empty() || list.back() < mesh.triangles.size(), "every id is a triangle");
   });
 }
 

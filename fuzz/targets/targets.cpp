@@ -368,6 +368,7 @@ const std::vector<Target>& all_targets() {
       {"motion", "depth meshes, motion bounds, walks and ways of viewpoints", motion_files},
       {"maps", "hierarchies of surfaces, judged, proofs of remeshes, features and maps of other programs", map_files},
       {"contours", "files of contours, decoded exactly and in doubles", contour_files},
+      {"lists", "files of lists, decoded", list_files},
       {"stream", "streams in binary, and what clients ask", stream},
       {"report", "what clues report finds in a folder", report},
       {"scene_to_verdict", "a small scene, mapped by the reference and judged by oracles of the fuzzer",

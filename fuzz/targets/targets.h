@@ -29,5 +29,6 @@ bool scene_to_verdict(std::string_view bytes);  // scene_to_verdict.cpp
 bool motion_files(std::string_view bytes);      // motion_files.cpp
 bool map_files(std::string_view bytes);         // map_files.cpp
 bool contour_files(std::string_view bytes);     // contour_files.cpp
+bool list_files(std::string_view bytes);        // contour_files.cpp
 
 }  // namespace clues::fuzz

@@ -8,7 +8,7 @@
 
 #include "scene/formats/file_bytes.h"
 #include "scene/messages/error.h"
-#include "scene/result.h"
+#include "scene/stream/sealed_bytes.h"
 #include "scene/stream/varints.h"
 
 namespace clues::scene {
@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint64_t all_numbers = std::uint64_t{1} << 32;
 constexpr std::uint64_t plane_kinds = 4, point_kinds = 5;
 constexpr std::uint32_t most_bits = 52;
-constexpr std::size_t hash_bytes = 32;
 
 // How many of `points`, and of `cell`, a plane has.
 std::size_t points_of(ContourPlane::Kind kind) {
@@ -336,7 +335,7 @@ std::string unsealed_bytes(const ContourFile& file) {
   VarintWriter out;
   out.bytes = contours_magic;
   out.raw(contours_version, 4);
-  for (std::size_t i = 0; i < hash_bytes; ++i) out.raw(std::stoul(file.scene_sha256.substr(2 * i, 2), nullptr, 16), 1);
+  out.bytes += bytes_of_hash(file.scene_sha256);
   out.number(file.scene_points);
   out.number(file.scene_triangles);
   out.number(file.mode == "solid" ? 1 : 0);
@@ -357,14 +356,6 @@ std::string unsealed_bytes(const ContourFile& file) {
     write_contours(cell, sizes_around(file.cells, cell.within), out);
   }
   return out.bytes;
-}
-
-std::string hash_of(std::string_view bytes) {
-  const std::string digits = sha256_of(bytes);
-  std::string hash;
-  for (std::size_t i = 0; i < hash_bytes; ++i)
-    hash += static_cast<char>(std::stoul(digits.substr(2 * i, 2), nullptr, 16));
-  return hash;
 }
 
 void require_contours(std::string_view bytes, const std::string& where) {
@@ -414,11 +405,7 @@ std::string contour_bytes(const std::vector<ContourCell>& cells, std::uint32_t c
   return out.bytes;
 }
 
-std::string to_bytes(const ContourFile& file) {
-  std::string bytes = unsealed_bytes(file);
-  bytes += hash_of(bytes);
-  return bytes;
-}
+std::string to_bytes(const ContourFile& file) { return sealed_bytes(unsealed_bytes(file)); }
 
 ContourFile parse_unsealed_contours(std::string_view bytes, const std::string& where) {
   require_contours(bytes, where);
@@ -427,7 +414,7 @@ ContourFile parse_unsealed_contours(std::string_view bytes, const std::string& w
     throw Error(ErrorCode::unsupported, fmt::format("{}: contours of version {}; this program reads version {}", where,
                                                     version, contours_version));
   ContourFile file;
-  for (std::size_t i = 0; i < hash_bytes; ++i) file.scene_sha256 += fmt::format("{:02x}", in.raw(1));
+  file.scene_sha256 = digits_of_hash(in.bytes(hash_bytes));
   file.scene_points = in.number(all_numbers);
   file.scene_triangles = in.number(all_numbers / 2);
   file.mode = in.number(2) == 1 ? "solid" : "sheet";
@@ -443,10 +430,7 @@ ContourFile parse_unsealed_contours(std::string_view bytes, const std::string& w
 
 ContourFile parse_contours(std::string_view bytes, const std::string& where) {
   require_contours(bytes, where);
-  const std::size_t size = std::max(bytes.size(), hash_bytes) - hash_bytes;
-  if (hash_of(bytes.substr(0, size)) != bytes.substr(size))
-    throw Error(ErrorCode::malformed, where + ": is cut short or was changed: its SHA-256 is not the one in its end");
-  return parse_unsealed_contours(bytes.substr(0, size), where);
+  return parse_unsealed_contours(opened_bytes(bytes, where), where);
 }
 
 ContourFile read_contours(const std::filesystem::path& path) {

@@ -149,26 +149,6 @@ StreamMessage minus_of(PacketBody& body, const StreamHeader& about) {
   return message;
 }
 
-// Numbers that ascend, as differences, less 1 behind the first.
-template <class Number>
-void put_ascending(const std::vector<Number>& numbers, VarintWriter& out) {
-  out.number(numbers.size());
-  std::uint64_t least = 0;
-  for (const std::uint64_t x : numbers) {
-    out.number(x - least);
-    least = x + 1;
-  }
-}
-
-template <class Number>
-void take_ascending(VarintReader& in, std::uint64_t below, std::vector<Number>& numbers) {
-  std::uint64_t least = 0;
-  for (std::uint64_t n = in.count(); n > 0; --n) {
-    numbers.push_back(static_cast<Number>(least + in.number(below - least)));
-    least = numbers.back() + std::uint64_t{1};
-  }
-}
-
 StreamMessage contours_of(PacketBody& body, const StreamHeader& about, const std::string& where) {
   StreamMessage message;
   message.kind = StreamMessage::Kind::contours;
@@ -178,8 +158,8 @@ StreamMessage contours_of(PacketBody& body, const StreamHeader& about, const std
     from = contour.cell + std::uint64_t{1};
     const std::string bytes = body.text();
     VarintReader in(bytes, where);
-    take_ascending(in, edges_of(about) / 3, contour.seeds);
-    take_ascending(in, edges_of(about), contour.boundary);
+    read_ascending(in, edges_of(about) / 3, contour.seeds);
+    read_ascending(in, edges_of(about), contour.boundary);
     if (!in.done()) in.fail("a contour has bytes too many");
     message.contours.push_back(std::move(contour));
   }
@@ -254,8 +234,8 @@ std::string to_packet(const StreamMessage& message) {
     for (const CellContour& contour : message.contours) {
       out.u32(contour.cell);
       VarintWriter packed;
-      put_ascending(contour.seeds, packed);
-      put_ascending(contour.boundary, packed);
+      write_ascending(contour.seeds, packed);
+      write_ascending(contour.boundary, packed);
       out.text(packed.bytes);
     }
     return out.done();

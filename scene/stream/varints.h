@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "scene/messages/error.h"
 
@@ -75,5 +77,25 @@ class VarintReader {
   std::string_view rest_;
   std::string where_;
 };
+
+// Numbers that ascend: how many, the first, and then differences less 1.
+template <class Number>
+void write_ascending(const std::vector<Number>& numbers, VarintWriter& out) {
+  out.number(numbers.size());
+  std::uint64_t least = 0;
+  for (const std::uint64_t x : numbers) {
+    out.number(x - least);
+    least = x + 1;
+  }
+}
+
+template <class Number>
+void read_ascending(VarintReader& in, std::uint64_t below, std::vector<Number>& numbers) {
+  std::uint64_t least = 0;
+  for (std::uint64_t n = in.count(); n > 0; --n) {
+    numbers.push_back(static_cast<Number>(least + in.number(below - least)));
+    least = numbers.back() + std::uint64_t{1};
+  }
+}
 
 }  // namespace clues::scene
