@@ -19,6 +19,7 @@
 #include "scene/bakes/packed_list.h"
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
+#include "scene/scenes/scene_io.h"
 #include "scene/stream/list_file.h"
 
 namespace clues::app {

@@ -37,7 +37,7 @@ struct WalkRequest {
   RouteChoice route;
   std::string connect, link, out;
   std::uint64_t routes = 1;
-  bool binary = false, in_time = false;
+  bool binary = false, in_time = false, regulate = false;
   SendChoice send;
   double pace = 1, ahead = 0;  // seconds
   MethodOptions method;
@@ -184,7 +184,8 @@ class Walk {
           {static_cast<std::uint64_t>(second * request_.pace * static_cast<double>(steps.size() + 1)), cell, stays});
     return reference::walk_over(store_, steps, parse_link(request_.link, request_.route.seed),
                                 static_cast<std::uint64_t>(second * request_.ahead),
-                                request_.in_time ? reference::NodeChoice::in_time : reference::NodeChoice::coarsest);
+                                request_.in_time ? reference::NodeChoice::in_time : reference::NodeChoice::coarsest,
+                                request_.regulate ? reference::Pace::regulated : reference::Pace::steady);
   }
   const WalkFigures& figures() const { return figures_; }
   const std::string& dropped() const { return sent_.dropped; }
@@ -236,6 +237,8 @@ int run_walk(const WalkRequest& request) {
                 "--ahead: at most --pace times --horizon; from farther behind, what he still sees would go");
   if (request.in_time && request.send.levels == 0)
     throw Error(ErrorCode::bad_argument, "--in-time needs a --hierarchy of 1 or more: it chooses among its nodes");
+  if (request.regulate && request.ahead == 0)
+    throw Error(ErrorCode::bad_argument, "--regulate needs --ahead: at the face there is no way left to go slower on");
   if (!request.connect.empty() && (!request.link.empty() || !request.send.is_default()))
     throw Error(ErrorCode::bad_argument,
                 "--connect: the link is a real one, and the server decides what it sends; leave out --link, --horizon, "
@@ -281,6 +284,9 @@ int run_walk(const WalkRequest& request) {
     print(fmt::format("over the link: {} packets, {} bytes, {} losses; {} stalls, {:.3f} s in all, {:.3f} s at most\n",
                       over.packets, over.bytes, over.losses, over.stalls, static_cast<double>(over.stalled_us) / second,
                       static_cast<double>(over.longest_us) / second));
+    if (request.regulate)
+      print(fmt::format("regulated: {} steps slower, at {:.3f} of his speed at the least, {:.3f} s longer in all\n",
+                        over.slowed, CGAL::to_double(over.least_speed), static_cast<double>(over.slowed_us) / second));
     if (over.slowest < 1)
       print(fmt::format("at {:.3f} of his speed from where he asks on he would not stand still behind the first cell\n",
                         CGAL::to_double(over.slowest)));
@@ -327,6 +333,10 @@ void add_walk_command(CLI::App& program, int& status) {
       ->add_flag("--in-time", request->in_time,
                  "With --hierarchy and --link: of the nodes of a cell the coarsest that is sent in time")
       ->needs(link);
+  command
+      ->add_flag("--regulate", request->regulate,
+                 "With --link and --ahead: the viewer goes slower where data would be late, so that he need not stand")
+      ->needs(link);
   command->add_flag("--binary", request->binary, "Packets in place of lines, in the file and in the figures");
   request->method.add_to(*command);
   command->add_option("-o,--out", request->out, "The messages (docs/delta.md)")->type_name("FILE");
@@ -349,6 +359,8 @@ void add_walk_command(CLI::App& program, int& status) {
       "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --steps 10 --horizon 1 --link 100000:50:10000:500 "
       "--ahead 0.2\n"
       "  clues walk town.obj --cells grid:4x4x1:box:0,0,1,4,4,2 --steps 10 --hierarchy 2 --link 20000:50 --in-time\n"
+      "  clues walk town.obj --cells grid:2x2x1:box:0,0,1,4,4,2 --steps 10 --horizon 1 --link 2000:50 --ahead 0.2 "
+      "--regulate\n"
       "  clues walk town.obj --cells grid:4x4x1:box:0,0,1,4,4,2 --steps 10 --hierarchy 2 --contours -o "
       "drawn.stream.jsonl\n"
       "  clues conform --stream walk.stream.jsonl --scene town.obj --cells grid:2x2x1:box:0,0,1,4,4,2\n\n"

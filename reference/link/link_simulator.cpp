@@ -62,10 +62,35 @@ std::size_t level_in_time(const StreamServer& server, std::uint32_t cell, std::s
   return coarsest - detail_in_time(sizes, waiting, link.bytes_per_second, exact::FT(0), microseconds(time_us), late);
 }
 
+// When the viewer may enter the cell if no packet is lost. `clock` as it is when these messages are to be sent.
+std::uint64_t predicted_entry(LinkClock clock, const std::vector<StreamMessage>& due, std::uint64_t now_us) {
+  std::uint64_t at_us = now_us;
+  for (const StreamMessage& message : due) {
+    at_us = clock.send(now_us, scene::to_packet(message).size()).at_us;
+    if (message.kind == StreamMessage::Kind::cell) break;
+  }
+  return at_us;
+}
+
+// FIG. 48B: he is at the face at `face_us`, and hears at `told_us` that data come at `data_us` only. When he gets there.
+std::uint64_t regulated_face(std::uint64_t face_us, std::uint64_t told_us, std::uint64_t data_us, LinkReport& report) {
+  if (data_us <= face_us || told_us >= face_us) return face_us;
+  const std::uint64_t way = face_us - told_us;
+  constexpr std::uint64_t parts = 1024;
+  const std::uint64_t speed = parts * way / (data_us - told_us);
+  if (speed == 0) return face_us;  // he stands as well
+  const std::uint64_t later_us = told_us + (parts * way + speed - 1) / speed;
+  ++report.slowed;
+  report.slowed_us += later_us - face_us;
+  report.least_speed =
+      std::min(report.least_speed, exact::FT(static_cast<double>(speed)) / exact::FT(static_cast<double>(parts)));
+  return later_us;
+}
+
 }  // namespace
 
 LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& steps, const Link& link,
-                     std::uint64_t ahead_us, NodeChoice choice) {
+                     std::uint64_t ahead_us, NodeChoice choice, Pace pace) {
   LinkReport report;
   report.steps_on_level.resize(store.coarsest() + 1);
   LinkClock clock(link);
@@ -74,7 +99,7 @@ LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& ste
   std::vector<std::size_t> levels;
   std::uint64_t delay_us = 0, asked_us = 0;
   for (const TimedStep& step : steps) {
-    const std::uint64_t face_us = step.reached_us + delay_us;
+    std::uint64_t face_us = step.reached_us + delay_us;
     asked_us = std::max(asked_us, face_us - std::min(face_us, ahead_us));
     route.push_back(step.cell);
     std::uint64_t at_server_us = asked_us + link.latency_us, entered_us = 0;
@@ -88,6 +113,12 @@ LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& ste
     }
     ++report.steps_on_level[levels.back()];
     std::vector<StreamMessage> due = server.enter(step.cell, levels.back());
+    if (pace == Pace::regulated) {
+      const std::uint64_t slower_us =
+          regulated_face(face_us, at_server_us + link.latency_us, predicted_entry(clock, due, at_server_us), report);
+      delay_us += slower_us - face_us;
+      face_us = slower_us;
+    }
     for (std::size_t i = 0; i < due.size();) {
       const std::uint64_t bytes = scene::to_packet(due[i]).size();
       const auto arrival = clock.send(at_server_us, bytes);

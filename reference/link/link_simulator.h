@@ -34,12 +34,21 @@ struct LinkReport {
   // FIG. 48B: had he walked at this part of his speed from where he asked on, he would not have stood still on any face
   // but the first. In 1024ths, rounded down. 0: he asks on the face, where there is no way left to go slower on.
   exact::FT slowest{1};
+  // With Pace::regulated: steps on which he was slowed down, the least part of his speed, and how much longer it took.
+  std::uint64_t slowed = 0, slowed_us = 0;
+  exact::FT least_speed{1};
   std::vector<std::uint64_t> steps_on_level;  // of the tree of cells
   std::uint64_t held = 0, seen = 0;           // triangles after each step, and of them those that the cell lists
 };
 
 // How much a server with a tree of cells sends in advance.
 enum class NodeChoice : std::uint8_t { coarsest, in_time };
+
+// FIG. 48B. When he asks for a cell the server knows when its data will be there if no packet is lost. Where that is after
+// he would get to the face, it tells him, and from when he hears of it he walks at the 1024th part of his speed, rounded
+// down, at which he gets there with them. So he stands still only where packets are lost, or where he hears of it at the
+// face or later.
+enum class Pace : std::uint8_t { steady, regulated };
 
 // He asks for a cell `ahead_us` before he gets there. That is sound where he is then no more steps behind than the
 // horizon of the store has: what he sees from the cell that he is still in stays. Between two connections the server
@@ -49,6 +58,6 @@ enum class NodeChoice : std::uint8_t { coarsest, in_time };
 // coarsest first, the first whose data are sent before the viewer can ask for another cell; else the cell with what its
 // horizon needs, which may be late.
 LinkReport walk_over(const StreamStore& store, const std::vector<TimedStep>& steps, const Link& link,
-                     std::uint64_t ahead_us, NodeChoice choice = NodeChoice::coarsest);
+                     std::uint64_t ahead_us, NodeChoice choice = NodeChoice::coarsest, Pace pace = Pace::steady);
 
 }  // namespace clues::reference

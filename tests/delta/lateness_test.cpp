@@ -7,9 +7,9 @@
 #include <iterator>
 #include <random>
 
-#include "reference/streams/worth.h"
 #include "reference/link/link_simulator.h"
 #include "reference/link/penetration.h"
+#include "reference/streams/worth.h"
 #include "scene/stream/route.h"
 #include "tests/delta/town.h"
 #include "tests/reference/support.h"
@@ -113,6 +113,38 @@ TEST(LinkSimulator, ASlowAndBrokenLinkStallsAndLeavesNoHole) {
       EXPECT_EQ(again.bytes, report.bytes);
     }
   }
+}
+
+// FIG. 48B. The link loses nothing: he stands still before the first cell only, and is where he would be had he stood.
+TEST(LinkSimulator, WhoIsRegulatedGoesSlowerAndStandsNoMore) {
+  const auto route = scene::random_route(town().neighbours(), 20, kSeed);
+  constexpr std::uint64_t ahead_us = 500000;
+  Link link{4000, 20000, 0, 0, 1};
+  std::uint64_t slowed = 0;
+  for (const std::uint64_t rate : {200U, 2000U, 4000U, 100000000U}) {
+    link.bytes_per_second = rate;
+    const auto steady = reference::walk_over(town().store(1), steps_of(route), link, ahead_us);
+    const auto regulated = reference::walk_over(town().store(1), steps_of(route), link, ahead_us,
+                                                reference::NodeChoice::coarsest, reference::Pace::regulated);
+    EXPECT_EQ(text_of(regulated.messages), text_of(steady.messages));
+    EXPECT_EQ(regulated.stalls, 0U) << rate;
+    EXPECT_EQ(regulated.slowed, steady.stalls);
+    EXPECT_GE(regulated.slowed_us, steady.stalled_us);
+    EXPECT_EQ(regulated.least_speed<1, regulated.slowed> 0);
+    slowed += regulated.slowed;
+  }
+  EXPECT_GT(slowed, 1U);
+  // Packets that are lost are not foreseen, and who hears of it at the face has no way left.
+  link = {2000, 20000, 300000, 700000, 7};
+  const auto lossy = reference::walk_over(town().store(1), steps_of(route), link, ahead_us,
+                                          reference::NodeChoice::coarsest, reference::Pace::regulated);
+  EXPECT_GT(lossy.stalls, 0U);
+  EXPECT_TRUE(town().judge(lossy.messages).findings.empty());
+  link = {2000, 600000, 0, 0, 1};
+  const auto far = reference::walk_over(town().store(1), steps_of(route), link, ahead_us,
+                                        reference::NodeChoice::coarsest, reference::Pace::regulated);
+  EXPECT_EQ(far.slowed, 0U);
+  EXPECT_GT(far.stalls, 0U);
 }
 
 using Lists = std::vector<std::vector<std::uint32_t>>;
