@@ -173,8 +173,9 @@ int run_map(MapRequest request) {
   if (!request.fragments.empty()) {
     if (many) throw Error(ErrorCode::bad_argument, "--fragments is for one cell: use --cell, not --cells");
     const auto extension = fs::path(request.fragments).extension();
-    if (extension != ".json" && extension != ".obj" && extension != ".ply")
-      throw Error(ErrorCode::bad_argument, request.fragments + ": fragments are written as *.json, *.obj or *.ply");
+    if (extension != ".json" && extension != ".obj" && extension != ".ply" && extension != ".glb")
+      throw Error(ErrorCode::bad_argument,
+                  request.fragments + ": fragments are written as *.json, *.obj, *.ply or *.glb");
     require_writable_parent(request.fragments);
   }
   if (!(many && fs::is_directory(request.out))) require_writable_parent(request.out);
@@ -265,7 +266,7 @@ void add_map_command(CLI::App& program, int& status) {
   command
       ->add_option("--fragments", request->fragments,
                    "With --cell: write the visible regions as triangles that share their corners: *.json (exact),\n"
-                   "*.obj or *.ply (rounded)")
+                   "*.obj, *.ply or *.glb (rounded)")
       ->type_name("FILE");
   command->add_flag("--resume", request->resume,
                     "With --cells and -o: go on with a run that was stopped; cells whose files are there are not made "

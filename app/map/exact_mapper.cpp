@@ -76,10 +76,7 @@ class ExactMapper : public CellMapper {
     auto record = validate::fragments_of(map);
     record.scene_file = std::filesystem::path(request_.scene).filename().string();
     record.scene_sha256 = sha256_;
-    const auto extension = std::filesystem::path(request_.fragments).extension();
-    out.fragments_bytes = extension == ".obj"   ? validate::to_obj_text(record)
-                          : extension == ".ply" ? validate::to_ply_text(record)
-                                                : validate::to_json_text(record);
+    out.fragments_bytes = validate::to_bytes_of(record, request_.fragments);
     out.fragments_summary =
         fmt::format("fragments: {} triangles, {} corners\n", record.fragments.size(), record.exact.size());
   }

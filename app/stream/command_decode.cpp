@@ -69,14 +69,11 @@ std::string result_text(const DecodeRequest& request, const scene::ContourFile& 
   return scene::to_json_text(result);
 }
 
-std::string fragments_text(const DecodeRequest& request, validate::FragmentsRecord record,
-                           const scene::ContourFile& file) {
+std::string fragments_bytes(const DecodeRequest& request, validate::FragmentsRecord record,
+                            const scene::ContourFile& file) {
   record.scene_file = std::filesystem::path(request.scene).filename().string();
   record.scene_sha256 = file.scene_sha256;
-  const auto extension = std::filesystem::path(request.fragments).extension();
-  return extension == ".obj"   ? validate::to_obj_text(record)
-         : extension == ".ply" ? validate::to_ply_text(record)
-                               : validate::to_json_text(record);
+  return validate::to_bytes_of(record, request.fragments);
 }
 
 std::string comparison_text(const validate::ContourComparison& compared, const fastpath::ContourDecoding& decoding) {
@@ -136,7 +133,7 @@ int run_decode(const DecodeRequest& request) {
   }
   if (!request.fragments.empty())
     scene::write_file_atomically(request.fragments,
-                                 fragments_text(request, validate::fragments_of(mesh, sides, sets), file));
+                                 fragments_bytes(request, validate::fragments_of(mesh, sides, sets), file));
   if (!request.out.empty()) scene::write_file_atomically(request.out, result_text(request, file, std::move(visible)));
   print(text);
   return fine;
@@ -162,7 +159,7 @@ void add_delta_decode(CLI::App& delta, int& status) {
   command->add_flag("--check", request->check, "Decode in both ways, and compare: doubles have to hold what is exact");
   command
       ->add_option("--fragments", request->fragments,
-                   "The visible regions as a mesh: *.obj, *.ply (rounded), else JSON (exact)")
+                   "The visible regions as a mesh: *.obj, *.ply, *.glb (rounded), else JSON (exact)")
       ->type_name("FILE");
   command->add_option("-o,--out", request->out, "The list: *.pvs, *.txt, else a result as of `clues map`")
       ->type_name("FILE");

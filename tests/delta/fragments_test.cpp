@@ -6,9 +6,13 @@
 
 #include "fuzz/generators/random_scenes.h"
 #include "reference/delta/fragments.h"
+#include "scene/messages/error.h"
+#include "scene/scenes/scene_io.h"
 #include "sewn_checks.h"
+#include "tests/app/program.h"
 #include "tests/reference/support.h"
 #include "tests/seed.h"
+#include "validate/stream/fragments_file.h"
 
 namespace clues::test {
 namespace {
@@ -126,6 +130,30 @@ TEST(Fragments, HaveNoCrackAlongTheEdgesOfTheInput) {
     }
   }
   EXPECT_FALSE(rings.empty());
+}
+
+// Far from the origin, where floats alone would not do.
+TEST(Fragments, InBinaryGltfComeBackFromOurReader) {
+  SceneBuilder scene;
+  constexpr double far = 1 << 24;
+  scene.plate(far - 1, -1, far + 1, 1, 4);
+  scene.plate(far - 20, -20, far + 20, 20, 8);
+  auto record = validate::fragments_of(map_of(scene.mesh(), box_cell(far - 2, -1, -1, far, 1, 0)));
+  const tests::TestFolder folder;
+  const auto read = scene::read_scene(folder.write("f.glb", validate::to_bytes_of(record, "f.glb"))).mesh;
+  ASSERT_EQ(read.triangles.size(), record.fragments.size());
+  EXPECT_EQ(read.points.size(), record.rounded.size());
+  for (std::size_t t = 0; t < read.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const scene::Point &got = read.points[read.triangles[t][k]],
+                         &wanted = record.rounded[record.fragments[t].corners[k]];
+      for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], 1e-5);
+    }
+  }
+  record.rounded[0] = {1e39, 0, 0};
+  EXPECT_THROW(validate::to_glb_bytes(record), scene::Error);
+  record.fragments.clear();
+  EXPECT_TRUE(validate::to_glb_bytes(record).starts_with("glTF"));
 }
 
 void expect_sewn(std::uint64_t per_kind) {

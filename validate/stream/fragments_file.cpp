@@ -115,4 +115,12 @@ std::string to_json_text(const FragmentsRecord& mesh) {
   return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
 }
 
+std::string to_bytes_of(const FragmentsRecord& record, const std::filesystem::path& file) {
+  const auto extension = file.extension();
+  return extension == ".obj"   ? to_obj_text(record)
+         : extension == ".ply" ? to_ply_text(record)
+         : extension == ".glb" ? to_glb_bytes(record)
+                               : to_json_text(record);
+}
+
 }  // namespace clues::validate

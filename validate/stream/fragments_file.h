@@ -1,9 +1,10 @@
 // The visible regions of a map as a sewn mesh (reference/delta/fragments.h), as files: exact (*.json,
-// "clues-fragments/1") or with coordinates rounded to doubles (*.obj, *.ply).
+// "clues-fragments/1") or with coordinates rounded to doubles (*.obj, *.ply) or to floats about a double (*.glb).
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -37,5 +38,10 @@ FragmentsRecord fragments_of(const scene::TriangleMesh& mesh, const std::vector<
 std::string to_obj_text(const FragmentsRecord& record);  // a group for each side of each triangle
 std::string to_ply_text(const FragmentsRecord& record);  // faces have "triangle", and "back": 0 or 1
 std::string to_json_text(const FragmentsRecord& record);
+// Throws Error unsupported where single floats are too small for the scene, or 4 GiB for the file.
+std::string to_glb_bytes(const FragmentsRecord& record);
+
+// As the file is called: *.obj, *.ply, *.glb, and JSON otherwise.
+std::string to_bytes_of(const FragmentsRecord& record, const std::filesystem::path& file);
 
 }  // namespace clues::validate
