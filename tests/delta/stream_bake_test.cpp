@@ -94,9 +94,10 @@ TEST(BakedStreamsLong, AThousandRoutesThroughALevel) {
   }
   const auto neighbours = exact::touching_cells(hulls);
   std::uint64_t entered = 0;
-  // The last with a hierarchy, and a level of it at random at each step.
+  // The last with a hierarchy and contours, and a level of it at random at each step.
   for (const auto& [horizon, tree_levels] : {std::pair(0, 0U), {1, 0U}, {0, 3U}}) {
-    const reference::StreamStore shared(mesh, lists, neighbours, horizon, reference::cell_tree(corners, tree_levels));
+    reference::StreamStore shared(mesh, lists, neighbours, horizon, reference::cell_tree(corners, tree_levels));
+    if (tree_levels > 0) shared.add_contours();
     for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
       reference::StreamServer server(shared);
       validate::StreamClient client(mesh);
