@@ -7,8 +7,8 @@
 #include <map>
 #include <random>
 
-#include "reference/streams/cell_tree.h"
 #include "reference/link/link_simulator.h"
+#include "reference/streams/cell_tree.h"
 #include "scene/stream/route.h"
 #include "tests/app/program.h"
 #include "tests/delta/town.h"
