@@ -104,7 +104,7 @@ std::unique_ptr<Subject> refined_subject(const std::string& name, validate::Refi
   return engine(name, [name, by](const Case& scene) {
     reference::Bounds bounds(scene.mesh, exact::ConvexCell::from_doubles(scene.cell), reference_options(scene));
     validate::refine(bounds, by, {refinement_depth(scene.dials, kDepth), 0});
-    return answer_of(bounds.refined_map(name));
+    return answer_of(reference::moved_back(bounds.refined_map(name)));
   });
 }
 

@@ -69,7 +69,7 @@ class Kernels {
       } else {
         refine_by_cells(bounds, {2, 0});
       }
-      return from_map(bounds.refined_map("refined"), false);
+      return from_map(reference::moved_back(bounds.refined_map("refined")), false);
     });
     ask_kernel(by_planes ? "backprojected fast path" : "subdivided fast path", [&] {
       fastpath::RefinementOptions refinement;
