@@ -208,6 +208,29 @@ TEST(Found, TheExactKernelCountsTheSameFallbacksTwice) {
   EXPECT_EQ(fallbacks(), first);
 }
 
+// Scaled scenes, points_at_cell 17 of seed 20261127 among them: the refined map stayed in the standard range, and what lies
+// in the plane of the cell was said to be visible from elsewhere.
+TEST(Found, RefinedMapsAreJudgedInTheCoordinatesOfTheScene) {
+  constexpr double unit = 0x1p-100;
+  Case scene{"found",
+             0,
+             0,
+             mesh_of({{0, 8 * unit, unit}, {0, 5 * unit, unit}, {3 * unit, 5 * unit, 4 * unit}}, {{0, 1, 2}}),
+             {{0, -unit, unit}, {0, 2 * unit, unit}}};
+  for (const char* name : {"subdivided", "backprojected"}) {
+    const auto subject = make_subject(name);
+    const auto answer = subject->answer(scene);
+    ASSERT_TRUE(answer.map);
+    for (const auto& corner : scene.cell)
+      EXPECT_EQ(
+          std::count(answer.map->cell.vertices().begin(), answer.map->cell.vertices().end(), exact::to_exact(corner)),
+          1)
+          << name;
+    for (const Finding& f : judge_case(scene, *subject, oracles_named({})).findings)
+      ADD_FAILURE() << name << ": " << f.signature() << ": " << f.explanation;
+  }
+}
+
 void campaign_finds_nothing(const char* name, std::uint64_t cases = 320, const std::string& left_out = "") {
   if (!std::getenv("CLUES_LONG")) GTEST_SKIP() << "long: ./run test --long";
   const scene::TemporaryFolder folder;
