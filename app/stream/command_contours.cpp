@@ -126,6 +126,7 @@ std::string line_of(const scene::ContourFile& file, const reference::MadeContour
 int run_list_contours(const ContoursRequest& request) {
   const ServedCells served = served_cells({request.scene, {}, request.bake, {}});
   const reference::EdgeUsers edges(served.scene.mesh);
+  reference::ListFloods floods(edges);
   const auto triangles = static_cast<std::uint32_t>(served.scene.mesh.triangles.size());
   std::uint64_t transitions = 0, whole = 0, plus = 0, minus = 0, contours = 0, packed = 0, listed = 0, seeds = 0,
                 boundary = 0;
@@ -135,9 +136,9 @@ int run_list_contours(const ContoursRequest& request) {
       const auto packets = reference::packets_of(from, to);
       std::vector<std::uint32_t> stays;
       std::set_intersection(from.begin(), from.end(), to.begin(), to.end(), std::back_inserter(stays));
-      const auto contour = reference::list_contour(edges, from, stays);
+      const auto contour = floods.contour(from, stays);
       const std::string bytes = reference::to_bytes(contour);
-      if (reference::flooded_list(edges, from, reference::parse_list_contour(bytes, edges)) != stays)
+      if (floods.list(from, reference::parse_list_contour(bytes, edges)) != stays)
         throw Error(ErrorCode::internal, fmt::format("cells {} to {}: decoding gave another list", a, b));
       ++transitions;
       whole += scene::packed_list(to, triangles).size();

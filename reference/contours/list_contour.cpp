@@ -5,41 +5,6 @@
 #include "scene/stream/varints.h"
 
 namespace clues::reference {
-namespace {
-
-enum class Place : std::uint8_t { outside, known, wanted };
-
-std::vector<Place> places(const EdgeUsers& edges, const std::vector<std::uint32_t>& known,
-                          const std::vector<std::uint32_t>& wanted) {
-  std::vector<Place> out(edges.triangle_count(), Place::outside);
-  for (const std::uint32_t t : known) out[t] = Place::known;
-  for (const std::uint32_t t : wanted) out[t] = Place::wanted;
-  return out;
-}
-
-// Marks what can be reached from the triangle among those that are not outside; they are outside afterwards.
-void flood(const EdgeUsers& edges, const std::vector<bool>& blocked, std::uint32_t from, std::vector<Place>& place,
-           std::vector<std::uint32_t>& reached) {
-  if (place[from] == Place::outside) return;
-  place[from] = Place::outside;
-  std::vector<std::uint32_t> queue{from};
-  while (!queue.empty()) {
-    const std::uint32_t t = queue.back();
-    queue.pop_back();
-    reached.push_back(t);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t e = edges.edge(t, k);
-      if (blocked[e]) continue;
-      for (const std::uint32_t next : edges.at(e)) {
-        if (place[next] == Place::outside) continue;
-        place[next] = Place::outside;
-        queue.push_back(next);
-      }
-    }
-  }
-}
-
-}  // namespace
 
 EdgeUsers::EdgeUsers(const scene::TriangleMesh& mesh) : edges_(mesh), users_(edges_.count()) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -50,40 +15,86 @@ EdgeUsers::EdgeUsers(const scene::TriangleMesh& mesh) : edges_(mesh), users_(edg
   }
 }
 
-ListContour list_contour(const EdgeUsers& edges, const std::vector<std::uint32_t>& known,
-                         const std::vector<std::uint32_t>& wanted) {
-  std::vector<Place> place = places(edges, known, wanted);
+ListFloods::ListFloods(const EdgeUsers& edges)
+    : edges_(&edges), place_(edges.triangle_count(), Place::outside), blocked_(edges.edge_count(), false) {}
+
+void ListFloods::mark(const std::vector<std::uint32_t>& triangles, Place place) {
+  for (const std::uint32_t t : triangles) place_[t] = place;
+}
+
+void ListFloods::block(const std::vector<std::uint32_t>& boundary, bool blocked) {
+  for (const std::uint32_t e : boundary) blocked_[e] = blocked;
+}
+
+bool ListFloods::is_boundary(std::uint32_t edge) const {
+  const auto& users = edges_->at(edge);
+  return std::any_of(users.begin(), users.end(), [this](auto t) { return place_[t] == Place::known; });
+}
+
+// Marks what can be reached from the triangle among those that are not outside; they are outside afterwards.
+void ListFloods::flood(std::uint32_t from, std::vector<std::uint32_t>& reached) {
+  if (place_[from] == Place::outside) return;
+  place_[from] = Place::outside;
+  std::vector<std::uint32_t> queue{from};
+  while (!queue.empty()) {
+    const std::uint32_t t = queue.back();
+    queue.pop_back();
+    reached.push_back(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t e = edges_->edge(t, k);
+      if (blocked_[e]) continue;
+      for (const std::uint32_t next : edges_->at(e)) {
+        if (place_[next] == Place::outside) continue;
+        place_[next] = Place::outside;
+        queue.push_back(next);
+      }
+    }
+  }
+}
+
+ListContour ListFloods::contour(const std::vector<std::uint32_t>& known, const std::vector<std::uint32_t>& wanted) {
+  mark(known, Place::known);
+  mark(wanted, Place::wanted);
   ListContour contour;
-  std::vector<bool> blocked(edges.edge_count(), false);
   for (const std::uint32_t t : wanted) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t e = edges.edge(t, k);
-      const auto& users = edges.at(e);
-      if (blocked[e] || std::none_of(users.begin(), users.end(), [&](auto u) { return place[u] == Place::known; }))
-        continue;
-      blocked[e] = true;
+      const std::uint32_t e = edges_->edge(t, k);
+      if (blocked_[e] || !is_boundary(e)) continue;
+      blocked_[e] = true;
       contour.boundary.push_back(e);
     }
   }
   std::sort(contour.boundary.begin(), contour.boundary.end());
   std::vector<std::uint32_t> reached;
   for (const std::uint32_t t : wanted) {
-    if (place[t] == Place::outside) continue;
+    if (place_[t] == Place::outside) continue;
     contour.seeds.push_back(t);
-    flood(edges, blocked, t, place, reached);
+    flood(t, reached);
   }
+  mark(known, Place::outside);
+  block(contour.boundary, false);
   return contour;
+}
+
+std::vector<std::uint32_t> ListFloods::list(const std::vector<std::uint32_t>& known, const ListContour& contour) {
+  mark(known, Place::known);
+  block(contour.boundary, true);
+  std::vector<std::uint32_t> reached;
+  for (const std::uint32_t t : contour.seeds) flood(t, reached);
+  mark(known, Place::outside);
+  block(contour.boundary, false);
+  std::sort(reached.begin(), reached.end());
+  return reached;
+}
+
+ListContour list_contour(const EdgeUsers& edges, const std::vector<std::uint32_t>& known,
+                         const std::vector<std::uint32_t>& wanted) {
+  return ListFloods(edges).contour(known, wanted);
 }
 
 std::vector<std::uint32_t> flooded_list(const EdgeUsers& edges, const std::vector<std::uint32_t>& known,
                                         const ListContour& contour) {
-  std::vector<Place> place = places(edges, known, {});
-  std::vector<bool> blocked(edges.edge_count(), false);
-  for (const std::uint32_t e : contour.boundary) blocked[e] = true;
-  std::vector<std::uint32_t> reached;
-  for (const std::uint32_t t : contour.seeds) flood(edges, blocked, t, place, reached);
-  std::sort(reached.begin(), reached.end());
-  return reached;
+  return ListFloods(edges).list(known, contour);
 }
 
 std::string to_bytes(const ListContour& contour) {

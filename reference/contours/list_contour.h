@@ -33,10 +33,33 @@ struct ListContour {
   std::vector<std::uint32_t> boundary;  // edges, ascending
 };
 
-// Lists ascending, `wanted` a part of `known`. O(known log n).
+// For many lists of one scene: what is marked is taken back, so that a list costs what it has, and not what the scene has.
+// Keeps a reference.
+class ListFloods {
+ public:
+  explicit ListFloods(const EdgeUsers& edges);  // O(n)
+
+  // Lists ascending, `wanted` a part of `known`. O(known + wanted log wanted), where edges have few triangles.
+  ListContour contour(const std::vector<std::uint32_t>& known, const std::vector<std::uint32_t>& wanted);
+  // With all seeds and edges `wanted`; with fewer edges more, with fewer seeds less. Ascending.
+  std::vector<std::uint32_t> list(const std::vector<std::uint32_t>& known, const ListContour& contour);
+
+ private:
+  enum class Place : std::uint8_t { outside, known, wanted };
+
+  void mark(const std::vector<std::uint32_t>& triangles, Place place);
+  void block(const std::vector<std::uint32_t>& boundary, bool blocked);
+  bool is_boundary(std::uint32_t edge) const;
+  void flood(std::uint32_t from, std::vector<std::uint32_t>& reached);
+
+  const EdgeUsers* edges_;
+  std::vector<Place> place_;   // between two calls: outside,
+  std::vector<bool> blocked_;  // and no edge
+};
+
+// For one list: O(n) more.
 ListContour list_contour(const EdgeUsers& edges, const std::vector<std::uint32_t>& known,
                          const std::vector<std::uint32_t>& wanted);
-// With all seeds and edges `wanted`; with fewer edges more, with fewer seeds less. Ascending.
 std::vector<std::uint32_t> flooded_list(const EdgeUsers& edges, const std::vector<std::uint32_t>& known,
                                         const ListContour& contour);
 

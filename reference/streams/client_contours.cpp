@@ -4,9 +4,9 @@
 
 namespace clues::reference {
 
-scene::CellContour client_contour(const EdgeUsers& edges, std::uint32_t cell, const std::vector<std::uint32_t>& known,
-                                  const std::vector<std::uint32_t>& wanted) {
-  const ListContour contour = list_contour(edges, known, wanted);
+scene::CellContour client_contour(const EdgeUsers& edges, ListFloods& floods, std::uint32_t cell,
+                                  const std::vector<std::uint32_t>& known, const std::vector<std::uint32_t>& wanted) {
+  const ListContour contour = floods.contour(known, wanted);
   scene::CellContour out{cell, contour.seeds, {}};
   for (const std::uint32_t e : contour.boundary) {
     // Named by the first wanted triangle at it, which the client holds.

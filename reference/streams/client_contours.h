@@ -18,8 +18,8 @@
 
 namespace clues::reference {
 
-// Lists ascending, `wanted` a part of `known`. O(known log n).
-scene::CellContour client_contour(const EdgeUsers& edges, std::uint32_t cell, const std::vector<std::uint32_t>& known,
-                                  const std::vector<std::uint32_t>& wanted);
+// Lists ascending, `wanted` a part of `known`; `floods` is of these edges. O(known log n).
+scene::CellContour client_contour(const EdgeUsers& edges, ListFloods& floods, std::uint32_t cell,
+                                  const std::vector<std::uint32_t>& known, const std::vector<std::uint32_t>& wanted);
 
 }  // namespace clues::reference

@@ -55,7 +55,7 @@ class LevelMaker {
   // `around`: the lists of the level above, as they are decoded; none above the first.
   LevelMaker(const EdgeUsers& edges, const AreaWorth& worth, const exact::FT& area_of_a_byte,
              const std::vector<Ids>& around)
-      : edges_(edges), worth_(worth), area_of_a_byte_(area_of_a_byte), around_(around) {}
+      : floods_(edges), worth_(worth), area_of_a_byte_(area_of_a_byte), around_(around) {}
 
   void add(std::uint32_t within, const Ids& wanted) {
     place_ = static_cast<std::uint32_t>(places_.size());
@@ -67,7 +67,10 @@ class LevelMaker {
     for (std::uint32_t j = place_ - std::min(place_, siblings_tried); j < place_; ++j) consider_sibling(j, within);
     take_loose();
     places_.push_back({within, best_->record});
-    contours_.push_back(around_.empty() ? ListContour{} : list_contour(edges_, around_[within], best_->list));
+    if (!around_.empty()) {
+      const bool is_exact = best_->list.size() == wanted.size();
+      contours_.push_back(is_exact ? contour_ : floods_.contour(around_[within], best_->list));
+    }
     lists_.push_back(std::move(best_->list));
   }
 
@@ -86,7 +89,7 @@ class LevelMaker {
   void consider_within(const Ids& known) {
     consider({Kind::all, 0, {}, {}}, known);
     consider({Kind::goes, 0, without(known, *wanted_), {}}, *wanted_);
-    contour_ = list_contour(edges_, known, *wanted_);
+    contour_ = floods_.contour(known, *wanted_);
     consider({Kind::contour, 0, contour_.seeds, contour_.boundary}, *wanted_);
   }
   void consider_sibling(std::uint32_t j, std::uint32_t within) {
@@ -113,7 +116,7 @@ class LevelMaker {
     }
   }
 
-  const EdgeUsers& edges_;
+  ListFloods floods_;
   const AreaWorth& worth_;
   const exact::FT& area_of_a_byte_;
   const std::vector<Ids>& around_;
@@ -128,8 +131,9 @@ class LevelMaker {
 
 class LevelReader {
  public:
-  LevelReader(const EdgeUsers& edges, const std::vector<Ids>& around, std::uint64_t& triangles)
-      : edges_(edges), around_(around), triangles_(triangles) {}
+  // `floods`, of these edges, and `triangles` are those of all levels.
+  LevelReader(const EdgeUsers& edges, ListFloods& floods, const std::vector<Ids>& around, std::uint64_t& triangles)
+      : edges_(edges), floods_(floods), around_(around), triangles_(triangles) {}
 
   std::vector<Ids> read(const std::vector<ListPlace>& places) {
     for (const ListPlace& place : places) {
@@ -151,7 +155,7 @@ class LevelReader {
     if (!fits) fail(what);
   }
 
-  Ids list_of(const ListPlace& place) const {
+  Ids list_of(const ListPlace& place) {
     const ListRecord& r = place.record;
     if (r.kind == Kind::list) return inside(r.first, place);
     if (r.kind == Kind::delta) {
@@ -171,11 +175,11 @@ class LevelReader {
     ListContour contour{r.first, r.second};
     require(r.second.empty() || r.second.back() < edges_.edge_count(), "names an edge that the scene does not have");
     if (r.kind == Kind::changed) {
-      const ListContour other = list_contour(edges_, known, inside(lists_[r.of], place));
+      const ListContour other = floods_.contour(known, inside(lists_[r.of], place));
       contour = {either(other.seeds, r.first), either(other.boundary, r.second)};
     }
     require(holds(known, contour.seeds), "begins outside of what is known");
-    return flooded_list(edges_, known, contour);
+    return floods_.list(known, contour);
   }
   // A list lies in that around it: what follows for cells below rests on it.
   Ids inside(Ids list, const ListPlace& place) const {
@@ -185,6 +189,7 @@ class LevelReader {
   }
 
   const EdgeUsers& edges_;
+  ListFloods& floods_;
   const std::vector<Ids>& around_;
   std::uint64_t& triangles_;
   std::vector<Ids> lists_;
@@ -218,10 +223,11 @@ std::vector<std::vector<ListPlace>> made_levels(const EdgeUsers& edges, const Ar
 std::vector<std::vector<Ids>> decoded_levels(const EdgeUsers& edges,
                                              const std::vector<std::vector<ListPlace>>& levels) {
   std::vector<std::vector<Ids>> out;
+  ListFloods floods(edges);
   std::uint64_t triangles = 0;
   for (const auto& places : levels) {
     const std::vector<Ids> none;
-    LevelReader reader(edges, out.empty() ? none : out.back(), triangles);
+    LevelReader reader(edges, floods, out.empty() ? none : out.back(), triangles);
     out.push_back(reader.read(places));
   }
   return out;

@@ -123,9 +123,10 @@ std::vector<std::uint32_t> StreamStore::wanted_in(std::uint32_t cell, std::size_
 
 void StreamStore::add_contours() {
   const EdgeUsers edges(*mesh_);
+  ListFloods floods(edges);
   contours_.clear();
   for (std::uint32_t cell = 0; cell < lists_.size(); ++cell)
-    contours_.push_back(client_contour(edges, cell, wanted_in(cell, coarsest()), lists_[cell]));
+    contours_.push_back(client_contour(edges, floods, cell, wanted_in(cell, coarsest()), lists_[cell]));
 }
 
 std::uint32_t StreamStore::coarsest_node(std::uint32_t cell) const {

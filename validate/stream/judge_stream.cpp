@@ -36,7 +36,7 @@ class StreamJudge {
         enter(message.cell);
       } else if (cell_ && message.kind == StreamMessage::Kind::minus) {
         require_visible(*cell_, "is taken away");
-      } else if (cell_ && client_.drawn_in(*cell_)) {
+      } else if (cell_ && client_.has_contour(*cell_)) {
         require_visible(*cell_, "is not there");  // a contour may be new, or what is sent be at its boundary
       }
       if (verdict_.findings.size() >= most_) break;

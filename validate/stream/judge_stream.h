@@ -38,6 +38,7 @@ class StreamClient {
 
   std::size_t size() const { return triangles_.size(); }
   bool holds(std::uint32_t triangle) const { return triangles_.contains(triangle); }
+  bool has_contour(std::uint32_t cell) const { return contours_.contains(cell); }
   // D26, FIG. 54: what is drawn in the cell; none: there is no contour for it, and so all is drawn. O(n log n).
   std::optional<std::set<std::uint32_t>> drawn_in(std::uint32_t cell) const;
   std::string bytes() const;  // as DisplayList::bytes
@@ -86,7 +87,8 @@ struct StreamVerdict {
 // What is visible from a cell: the judgement of an empty list (judge.h).
 using CellTruth = std::function<const Judgement&(std::uint32_t cell)>;
 
-// At most `most_findings`. `neighbours`: of each cell, ascending. O(messages + triangles of a cell at each step, and of all that is held where there are contours).
+// At most `most_findings`. `neighbours`: of each cell, ascending. O(messages + triangles of a cell at each step); and where
+// it has a contour, all that is held at each message.
 StreamVerdict judge_stream(const scene::TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& neighbours,
                            const std::vector<scene::StreamMessage>& messages, const CellTruth& truth,
                            std::size_t most_findings = 20);
