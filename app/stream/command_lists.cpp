@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -87,7 +86,8 @@ int run_lists(const ListsRequest& request) {
   const reference::EdgeUsers edges(served.scene.mesh);
   const reference::AreaWorth worth(served.scene.mesh);
   const auto options = options_of(request);
-  const auto tree = options.levels.empty() ? reference::CellTree{} : tree_of(served, options.levels.front());
+  const auto tree =
+      options.levels.empty() ? reference::CellTree{} : reference::cell_tree(served.cells, options.levels.front());
   scene::ListFile file = file_of(served);
   file.levels = reference::made_levels(edges, worth, served.lists, tree, options);
   const std::string bytes = scene::to_bytes(file);
@@ -95,7 +95,6 @@ int run_lists(const ListsRequest& request) {
 
   const auto triangles = static_cast<std::uint32_t>(served.scene.mesh.triangles.size());
   std::uint64_t packed = 0, differences = 0, given_up = 0;
-  double area = 0;
   for (std::size_t c = 0; c < decoded.size(); ++c) {
     const auto packets = reference::packets_of(served.lists[c], decoded[c]);
     if (!packets.minus.empty() || (request.give_up == 0 && !packets.plus.empty()))
@@ -103,15 +102,14 @@ int run_lists(const ListsRequest& request) {
     packed += scene::packed_list(served.lists[c], triangles).size();
     differences += scene::record_bytes({ListRecord::Kind::list, 0, served.lists[c], {}}, 0).size();
     given_up += packets.plus.size();
-    const auto more = worth.area_of(packets.plus);
-    area += more ? CGAL::to_double(*more) : std::numeric_limits<double>::infinity();
   }
   std::string text = table_of(file, options.levels);
   scene::write_file_atomically(request.out, bytes);
   text += fmt::format("{}: {} cells in {} bytes; their lists alone take {} packed by zstd, {} as differences of ids\n",
                       request.out, file.cells.size(), bytes.size(), packed, differences);
   if (request.give_up > 0)
-    text += fmt::format("given up: lists have {} triangles more, of an area of {:.6g}\n", given_up, area);
+    text += fmt::format("given up: lists have {} triangles more, of an area of {:.6g}\n", given_up,
+                        area_given_up(worth, served.lists, decoded));
   print(text);
   return fine;
 }

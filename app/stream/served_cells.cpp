@@ -60,18 +60,24 @@ std::string words_of(const reference::AreaWorth& worth, const ServedCells& serve
                      const std::vector<std::vector<std::uint32_t>>& lists, const reference::Dropping& grown) {
   const auto before = reference::plus_totals(worth, lists, served.neighbours);
   const auto after = reference::plus_totals(worth, grown.lists, served.neighbours);
-  double area = 0;
-  for (std::size_t c = 0; c < lists.size(); ++c) {
-    const auto more = worth.area_of(reference::packets_of(lists[c], grown.lists[c]).plus);
-    area += more ? CGAL::to_double(*more) : std::numeric_limits<double>::infinity();
-  }
   return fmt::format(
       "dropped: over all transitions {} packets + of {} are left, of {} bytes {}; lists have {} triangles more, of an "
       "area of {:.6g}\n",
-      after.packets, before.packets, before.bytes, after.bytes, grown.given_up, area);
+      after.packets, before.packets, before.bytes, after.bytes, grown.given_up,
+      area_given_up(worth, lists, grown.lists));
 }
 
 }  // namespace
+
+double area_given_up(const reference::AreaWorth& worth, const std::vector<std::vector<std::uint32_t>>& lists,
+                     const std::vector<std::vector<std::uint32_t>>& grown) {
+  double area = 0;
+  for (std::size_t c = 0; c < lists.size(); ++c) {
+    const auto more = worth.area_of(reference::packets_of(lists[c], grown[c]).plus);
+    area += more ? CGAL::to_double(*more) : std::numeric_limits<double>::infinity();
+  }
+  return area;
+}
 
 void CellsChoice::add_to(CLI::App& command) {
   command.add_option("SCENE", scene, std::string("The scene: ") + scene::scene_formats)->required();
@@ -165,16 +171,10 @@ SentLists lists_of(const ServedCells& served, const reference::Options& options,
   return {grown.lists, words_of(worth, served, lists, grown)};
 }
 
-reference::CellTree tree_of(const ServedCells& served, std::size_t levels) {
-  std::vector<std::vector<scene::Point>> corners;
-  for (const auto& cell : served.cells) corners.push_back(cell.points);
-  return reference::cell_tree(corners, levels);
-}
-
 reference::StreamStore store_of(const ServedCells& served, std::vector<std::vector<std::uint32_t>> lists,
                                 const SendChoice& send) {
   reference::CellTree tree;
-  if (send.levels > 0) tree = tree_of(served, static_cast<std::size_t>(send.levels));
+  if (send.levels > 0) tree = reference::cell_tree(served.cells, static_cast<std::size_t>(send.levels));
   reference::StreamStore store(served.scene.mesh, std::move(lists), served.neighbours, send.horizon, std::move(tree));
   if (send.contours) store.add_contours();
   return store;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/common.h"
+#include "reference/streams/area_worth.h"
 #include "reference/streams/stream_server.h"
 #include "reference/visibility/search/options.h"
 #include "scene/cell_spec.h"
@@ -52,12 +53,14 @@ struct SentLists {
 // Throws Error: bad_argument, bad_cell, malformed, and file errors. A scene of --cells is opaque.
 ServedCells served_cells(const CellsChoice& choice);
 
-// The lists of all cells: those that are there, or mapped now; grown until no step sends what is not worth it (worth.h). `who`:
-// in front of the progress.
+// The lists of all cells: those that are there, or mapped now; grown until no step sends what is not worth it (worth.h).
+// `who`: in front of the progress.
 SentLists lists_of(const ServedCells& served, const reference::Options& options, const SendChoice& send,
                    const char* who);
 
-reference::CellTree tree_of(const ServedCells& served, std::size_t levels);
+// What grown lists have more, over all cells: an estimate, infinite where no double holds it.
+double area_given_up(const reference::AreaWorth& worth, const std::vector<std::vector<std::uint32_t>>& lists,
+                     const std::vector<std::vector<std::uint32_t>>& grown);
 
 // Of these lists. Keeps a reference to `served`.
 reference::StreamStore store_of(const ServedCells& served, std::vector<std::vector<std::uint32_t>> lists,

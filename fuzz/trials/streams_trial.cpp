@@ -170,9 +170,8 @@ class StreamsTrial : public Trial {
       outcome.counters["triangles held for dropped packets"] += grown.given_up;
       lists = std::move(grown.lists);
     }
-    std::vector<std::vector<Point>> corners;
-    for (const auto& cell : places.cells) corners.push_back(cell.points);
-    reference::StreamStore store(scene.mesh, lists, places.neighbours, horizon, reference::cell_tree(corners, levels));
+    reference::StreamStore store(scene.mesh, lists, places.neighbours, horizon,
+                                 reference::cell_tree(places.cells, levels));
     if (contours) store.add_contours();
     const auto said = makers_.walk(store, route);
     std::vector<StreamMessage> all;

@@ -48,6 +48,12 @@ CellTree cell_tree(const std::vector<std::vector<scene::Point>>& cells, std::siz
   return TreeBuilder(cells, levels).build();
 }
 
+CellTree cell_tree(const std::vector<scene::CellSpec>& cells, std::size_t levels) {
+  std::vector<std::vector<scene::Point>> corners;
+  for (const auto& cell : cells) corners.push_back(cell.points);
+  return cell_tree(corners, levels);
+}
+
 std::vector<std::vector<std::uint32_t>> lists_of_nodes(const std::vector<std::uint32_t>& node_of,
                                                        const std::vector<std::vector<std::uint32_t>>& lists) {
   std::vector<std::vector<std::uint32_t>> out;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "scene/cell_spec.h"
 #include "scene/mesh/mesh.h"
 
 namespace clues::reference {
@@ -20,6 +21,7 @@ struct CellTree {
 
 // `cells`: the corners of each. Levels 0 to `levels`. O(n log^2 n), the same in every run.
 CellTree cell_tree(const std::vector<std::vector<scene::Point>>& cells, std::size_t levels);
+CellTree cell_tree(const std::vector<scene::CellSpec>& cells, std::size_t levels);
 
 // What the cells of each node list together, ascending. O(size of the lists * log).
 std::vector<std::vector<std::uint32_t>> lists_of_nodes(const std::vector<std::uint32_t>& node_of,

@@ -14,6 +14,7 @@
 namespace clues::scene {
 namespace {
 
+constexpr SealedKind contours_kind{"contours", "CLUESCON", 1};
 constexpr std::uint64_t all_numbers = std::uint64_t{1} << 32;
 constexpr std::uint64_t plane_kinds = 4, point_kinds = 5;
 constexpr std::uint32_t most_bits = 52;
@@ -306,8 +307,7 @@ void read_cell(VarintReader& in, ContourFile& file) {
     for (double& x : cell.points.emplace_back()) x = in.real();
   }
   if (cell.points.empty()) in.fail("a cell without points");
-  Ascending besides(file.scene_triangles, 1);
-  for (std::uint64_t n = in.count(); n > 0; --n) cell.besides.push_back(besides.next(in));
+  read_ascending(in, file.scene_triangles, cell.besides);
   cell.planes = read_planes(in, file.scene_points, cell.points.size());
   const DrawingSizes around = sizes_around(file.cells, cell.within);
   Ascending sides(2 * file.scene_triangles, 1);
@@ -332,9 +332,7 @@ void read_cell(VarintReader& in, ContourFile& file) {
 }
 
 std::string unsealed_bytes(const ContourFile& file) {
-  VarintWriter out;
-  out.bytes = contours_magic;
-  out.raw(contours_version, 4);
+  VarintWriter out = begun(contours_kind);
   out.bytes += bytes_of_hash(file.scene_sha256);
   out.number(file.scene_points);
   out.number(file.scene_triangles);
@@ -350,17 +348,10 @@ std::string unsealed_bytes(const ContourFile& file) {
     for (const Point& p : cell.points) {
       for (const double x : p) out.real(x);
     }
-    out.number(cell.besides.size());
-    Ascending besides(all_numbers, 1);
-    for (const std::uint32_t t : cell.besides) besides.write(t, out);
+    write_ascending(cell.besides, out);
     write_contours(cell, sizes_around(file.cells, cell.within), out);
   }
   return out.bytes;
-}
-
-void require_contours(std::string_view bytes, const std::string& where) {
-  if (!bytes.starts_with(contours_magic))
-    throw Error(ErrorCode::malformed, where + ": is no file of contours, which begins with CLUESCON");
 }
 
 }  // namespace
@@ -408,11 +399,7 @@ std::string contour_bytes(const std::vector<ContourCell>& cells, std::uint32_t c
 std::string to_bytes(const ContourFile& file) { return sealed_bytes(unsealed_bytes(file)); }
 
 ContourFile parse_unsealed_contours(std::string_view bytes, const std::string& where) {
-  require_contours(bytes, where);
-  VarintReader in(bytes.substr(contours_magic.size()), where);
-  if (const std::uint64_t version = in.raw(4); version != contours_version)
-    throw Error(ErrorCode::unsupported, fmt::format("{}: contours of version {}; this program reads version {}", where,
-                                                    version, contours_version));
+  VarintReader in = begin_reading(contours_kind, bytes, where);
   ContourFile file;
   file.scene_sha256 = digits_of_hash(in.bytes(hash_bytes));
   file.scene_points = in.number(all_numbers);
@@ -429,8 +416,7 @@ ContourFile parse_unsealed_contours(std::string_view bytes, const std::string& w
 }
 
 ContourFile parse_contours(std::string_view bytes, const std::string& where) {
-  require_contours(bytes, where);
-  return parse_unsealed_contours(opened_bytes(bytes, where), where);
+  return parse_unsealed_contours(opened_bytes(contours_kind, bytes, where), where);
 }
 
 ContourFile read_contours(const std::filesystem::path& path) {

@@ -23,9 +23,6 @@
 
 namespace clues::scene {
 
-inline constexpr std::string_view contours_magic = "CLUESCON";
-inline constexpr std::uint32_t contours_version = 1;
-
 // FIGS. 31, 32: the plane of a wedge, from the scene, the cell and a few numbers.
 struct ContourPlane {
   enum class Kind : std::uint8_t {

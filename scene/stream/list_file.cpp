@@ -15,6 +15,7 @@ namespace {
 
 using Kind = ListRecord::Kind;
 
+constexpr SealedKind lists_kind{"lists", "CLUESLST", 1};
 constexpr std::uint64_t most_listed = std::uint64_t{1} << 32;
 
 void write_record(const ListRecord& record, std::uint32_t place, VarintWriter& out) {
@@ -70,9 +71,7 @@ std::vector<Point> read_corners(VarintReader& in, const std::vector<double>& coo
 }
 
 std::string unsealed(const ListFile& file) {
-  VarintWriter out;
-  out.bytes = lists_magic;
-  out.raw(lists_version, 4);
+  VarintWriter out = begun(lists_kind);
   out.bytes += bytes_of_hash(file.scene_sha256);
   out.number(file.scene_triangles);
   out.text(file.question);
@@ -97,11 +96,6 @@ std::string unsealed(const ListFile& file) {
   return out.bytes;
 }
 
-void require_lists(std::string_view bytes, const std::string& where) {
-  if (!bytes.starts_with(lists_magic))
-    throw Error(ErrorCode::malformed, where + ": is no file of lists, which begins with CLUESLST");
-}
-
 }  // namespace
 
 bool has_of(Kind kind) { return kind == Kind::same || kind == Kind::changed || kind == Kind::delta; }
@@ -117,11 +111,7 @@ std::string record_bytes(const ListRecord& record, std::uint32_t place) {
 std::string to_bytes(const ListFile& file) { return sealed_bytes(unsealed(file)); }
 
 ListFile parse_unsealed_lists(std::string_view bytes, const std::string& where) {
-  require_lists(bytes, where);
-  VarintReader in(bytes.substr(lists_magic.size()), where);
-  if (const std::uint64_t version = in.raw(4); version != lists_version)
-    throw Error(ErrorCode::unsupported,
-                fmt::format("{}: lists of version {}; this program reads version {}", where, version, lists_version));
+  VarintReader in = begin_reading(lists_kind, bytes, where);
   ListFile file;
   file.scene_sha256 = digits_of_hash(in.bytes(hash_bytes));
   file.scene_triangles = in.number(most_listed);
@@ -155,8 +145,7 @@ ListFile parse_unsealed_lists(std::string_view bytes, const std::string& where) 
 }
 
 ListFile parse_lists(std::string_view bytes, const std::string& where) {
-  require_lists(bytes, where);
-  return parse_unsealed_lists(opened_bytes(bytes, where), where);
+  return parse_unsealed_lists(opened_bytes(lists_kind, bytes, where), where);
 }
 
 ListFile read_lists(const std::filesystem::path& path) { return parse_lists(read_file_bytes(path), path.string()); }

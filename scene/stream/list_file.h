@@ -13,9 +13,6 @@
 
 namespace clues::scene {
 
-inline constexpr std::string_view lists_magic = "CLUESLST";
-inline constexpr std::uint32_t lists_version = 1;
-
 // How a list is said. `known` is the list of the place around it, all triangles of the scene where there is none.
 struct ListRecord {
   enum class Kind : std::uint8_t {

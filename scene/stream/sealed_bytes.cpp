@@ -8,6 +8,15 @@
 #include "scene/result.h"
 
 namespace clues::scene {
+namespace {
+
+void require_magic(const SealedKind& kind, std::string_view bytes, const std::string& where) {
+  if (!bytes.starts_with(kind.magic))
+    throw Error(ErrorCode::malformed,
+                fmt::format("{}: is no file of {}, which begins with {}", where, kind.what, kind.magic));
+}
+
+}  // namespace
 
 std::string bytes_of_hash(std::string_view digits) {
   std::string bytes;
@@ -22,16 +31,33 @@ std::string digits_of_hash(std::string_view bytes) {
   return digits;
 }
 
+VarintWriter begun(const SealedKind& kind) {
+  VarintWriter out;
+  out.bytes = kind.magic;
+  out.raw(kind.version, 4);
+  return out;
+}
+
 std::string sealed_bytes(std::string bytes) {
   bytes += bytes_of_hash(sha256_of(bytes));
   return bytes;
 }
 
-std::string_view opened_bytes(std::string_view bytes, const std::string& where) {
+std::string_view opened_bytes(const SealedKind& kind, std::string_view bytes, const std::string& where) {
+  require_magic(kind, bytes, where);
   const std::size_t size = std::max(bytes.size(), hash_bytes) - hash_bytes;
   if (bytes_of_hash(sha256_of(bytes.substr(0, size))) != bytes.substr(size))
     throw Error(ErrorCode::malformed, where + ": is cut short or was changed: its SHA-256 is not the one in its end");
   return bytes.substr(0, size);
+}
+
+VarintReader begin_reading(const SealedKind& kind, std::string_view bytes, const std::string& where) {
+  require_magic(kind, bytes, where);
+  VarintReader in(bytes.substr(kind.magic.size()), where);
+  if (const std::uint64_t version = in.raw(4); version != kind.version)
+    throw Error(ErrorCode::unsupported, fmt::format("{}: {} of version {}; this program reads version {}", where,
+                                                    kind.what, version, kind.version));
+  return in;
 }
 
 }  // namespace clues::scene

@@ -83,20 +83,24 @@ StreamHeader header_of(const StreamLine& line) {
   return header;
 }
 
+template <class Number>
+std::vector<Number> ascending(const StreamLine& line, const StreamJson& items, std::uint64_t below, const char* what) {
+  std::vector<Number> numbers;
+  std::uint64_t least = 0;
+  for (const auto& item : items) {
+    numbers.push_back(static_cast<Number>(line.number(item, least, below, what)));
+    least = numbers.back() + std::uint64_t{1};
+  }
+  return numbers;
+}
+
 // Of a cell from `from` on.
 CellContour contour_of(const StreamLine& line, const StreamJson& item, std::uint64_t from, const StreamHeader& header) {
   if (!item.is_array() || item.size() != 3 || !item[1].is_array() || !item[2].is_array())
     line.fail(json_excerpt(item) + " is no contour [CELL, [ID, ...], [EDGE, ...]]");
-  CellContour contour{line.number32(item[0], from, header.cell_count, "the cell of a contour"), {}, {}};
-  for (const auto& seed : item[1]) {
-    const std::uint64_t least = contour.seeds.empty() ? 0 : contour.seeds.back() + std::uint64_t{1};
-    contour.seeds.push_back(line.number32(seed, least, header.scene_triangles, "the seed of a contour"));
-  }
-  for (const auto& edge : item[2]) {
-    const std::uint64_t least = contour.boundary.empty() ? 0 : contour.boundary.back() + 1;
-    contour.boundary.push_back(line.number(edge, least, edges_of(header), "the edge of a contour"));
-  }
-  return contour;
+  return {line.number32(item[0], from, header.cell_count, "the cell of a contour"),
+          ascending<std::uint32_t>(line, item[1], header.scene_triangles, "the seed of a contour"),
+          ascending<std::uint64_t>(line, item[2], edges_of(header), "the edge of a contour")};
 }
 
 StreamMessage message_of(const StreamLine& line, const StreamHeader& header) {

@@ -20,13 +20,9 @@ namespace {
 using Kind = scene::StreamMessage::Kind;
 using Said = std::vector<scene::StreamMessage>;
 
-constexpr const char* cells_of_town = "grid:3x3x2:box:-2.5,-2.5,0,2.5,2.5,2";
-
 reference::StreamStore contour_store(std::size_t levels, int horizon) {
-  std::vector<std::vector<scene::Point>> corners;
-  for (const auto& cell : scene::parse_cells(cells_of_town)) corners.push_back(cell.points);
   reference::StreamStore store(town().mesh(), town().lists(), town().neighbours(), horizon,
-                               reference::cell_tree(corners, levels));
+                               reference::cell_tree(town().cells(), levels));
   store.add_contours();
   return store;
 }
@@ -200,19 +196,25 @@ class PlantedContours : public ::testing::Test {
     }
     return {};
   }
+  // The contours of all cells, without one of these.
+  template <class Number>
+  std::vector<scene::CellContour> each_less(std::vector<Number> scene::CellContour::*numbers) const {
+    std::vector<scene::CellContour> wrong;
+    for (std::uint32_t cell = 0; cell < town().lists().size(); ++cell) {
+      const auto right = contour_of(cell);
+      for (std::size_t i = 0; i < (right.*numbers).size(); ++i) {
+        auto& less = wrong.emplace_back(right).*numbers;
+        less.erase(less.begin() + static_cast<std::ptrdiff_t>(i));
+      }
+    }
+    return wrong;
+  }
 
   reference::StreamStore store_;
 };
 
 TEST_F(PlantedContours, ASeedLess) {
-  std::vector<scene::CellContour> wrong;
-  for (std::uint32_t cell = 0; cell < town().lists().size(); ++cell) {
-    const auto right = contour_of(cell);
-    for (std::size_t i = 0; i < right.seeds.size(); ++i) {
-      wrong.push_back(right);
-      wrong.back().seeds.erase(wrong.back().seeds.begin() + static_cast<std::ptrdiff_t>(i));
-    }
-  }
+  const auto wrong = each_less(&scene::CellContour::seeds);
   ASSERT_GT(wrong.size(), 20U);
   const auto [found, shown] = caught(wrong);
   EXPECT_EQ(found, wrong.size());  // each component has something visible
@@ -235,14 +237,7 @@ TEST_F(PlantedContours, AnEdgeTooMany) {
 
 // Nothing visible is missing then; it only draws more.
 TEST_F(PlantedContours, AnEdgeLess) {
-  std::vector<scene::CellContour> wrong;
-  for (std::uint32_t cell = 0; cell < town().lists().size(); ++cell) {
-    const auto right = contour_of(cell);
-    for (std::size_t i = 0; i < right.boundary.size(); ++i) {
-      wrong.push_back(right);
-      wrong.back().boundary.erase(wrong.back().boundary.begin() + static_cast<std::ptrdiff_t>(i));
-    }
-  }
+  const auto wrong = each_less(&scene::CellContour::boundary);
   ASSERT_GT(wrong.size(), 4U);
   EXPECT_EQ(caught(wrong).first, 0U);
 }

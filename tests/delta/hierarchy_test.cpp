@@ -21,17 +21,8 @@ namespace {
 using reference::CellTree;
 using Messages = std::vector<scene::StreamMessage>;
 
-constexpr const char* town_grid = "grid:3x3x2:box:-2.5,-2.5,0,2.5,2.5,2";
-
-std::vector<std::vector<scene::Point>> corners_of(const std::string& grid) {
-  std::vector<std::vector<scene::Point>> out;
-  for (const auto& cell : scene::parse_cells(grid)) out.push_back(cell.points);
-  return out;
-}
-
 reference::StreamStore store_with(std::size_t levels, int horizon) {
-  return {town().mesh(), town().lists(), town().neighbours(), horizon,
-          reference::cell_tree(corners_of(town_grid), levels)};
+  return {town().mesh(), town().lists(), town().neighbours(), horizon, reference::cell_tree(town().cells(), levels)};
 }
 
 void append(Messages& all, Messages more) {
@@ -45,7 +36,7 @@ std::string lines_of(const Messages& messages) {
 }
 
 TEST(CellTree, NodesOfAGridAreBlocks) {
-  const CellTree tree = reference::cell_tree(corners_of("grid:4x4x2:box:0,0,0,4,4,2"), 3);
+  const CellTree tree = reference::cell_tree(scene::parse_cells("grid:4x4x2:box:0,0,0,4,4,2"), 3);
   ASSERT_EQ(tree.node_of.size(), 4U);
   // Level 3: 2x2x2 cells; x fastest.
   const auto& node = tree.node_of[3];
@@ -129,7 +120,7 @@ TEST(StreamHierarchy, WithoutNodesItIsTheFlatStream) {
 
 TEST(StreamHierarchy, WithinANodeNothingIsSent) {
   const auto store = store_with(3, 0);
-  const auto tree = reference::cell_tree(corners_of(town_grid), 3);
+  const auto tree = reference::cell_tree(town().cells(), 3);
   std::uint64_t within = 0;
   for (std::uint32_t a = 0; a < town().neighbours().size(); ++a) {
     for (const std::uint32_t b : town().neighbours()[a]) {
@@ -239,7 +230,7 @@ TEST(HierarchyOverALink, LossesLeaveNoHole) {
 class PlantedHierarchy : public ::testing::Test {
  protected:
   PlantedHierarchy()
-      : tree_(reference::cell_tree(corners_of(town_grid), 3)),
+      : tree_(reference::cell_tree(town().cells(), 3)),
         lists_(reference::lists_of_nodes(tree_.node_of[3], town().lists())) {}
 
   std::uint32_t node(std::uint32_t cell) const { return tree_.node_of[3][cell]; }

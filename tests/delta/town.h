@@ -26,6 +26,7 @@ class Town {
   std::vector<scene::StreamMessage> stream(const std::vector<std::uint32_t>& route, int horizon) const;
 
   const scene::TriangleMesh& mesh() const { return mesh_; }
+  const std::vector<scene::CellSpec>& cells() const { return cells_; }
   const std::vector<std::vector<std::uint32_t>>& neighbours() const { return neighbours_; }
   const std::vector<std::vector<std::uint32_t>>& lists() const { return lists_; }
 

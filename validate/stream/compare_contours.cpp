@@ -46,14 +46,6 @@ FlatSet set_around(const Turns& border, const reference::TriangleFrame& frame) {
   return {frame.twice_area(), inside};
 }
 
-FT squared_distance(const Point2& p, const Point2& a, const Point2& b) {
-  const auto way = b - a;
-  const FT length = way.squared_length(), ahead = way * (p - a);
-  if (ahead <= 0) return CGAL::squared_distance(p, a);
-  if (ahead >= length) return CGAL::squared_distance(p, b);
-  return CGAL::squared_distance(p, a) - ahead * ahead / length;
-}
-
 // Whether all of the face is so near to one edge of the border that LitRegion::may_hold says nothing else of it: with an
 // end that stands for several, which cannot be told apart, a sliver between these is beside the border.
 bool lies_at_the_border(const Face2& face, const fastpath::LitRegion& region, const reference::TriangleFrame& frame) {
@@ -63,10 +55,11 @@ bool lies_at_the_border(const Face2& face, const fastpath::LitRegion& region, co
     corners.emplace_back(at[region.axes[0]], at[region.axes[1]]);
   }
   return std::any_of(region.border.begin(), region.border.end(), [&](const auto& edge) {
-    const Point2 a(edge.ends[0][0], edge.ends[0][1]), b(edge.ends[1][0], edge.ends[1][1]);
+    const exact::Kernel::Segment_2 line(Point2(edge.ends[0][0], edge.ends[0][1]),
+                                        Point2(edge.ends[1][0], edge.ends[1][1]));
     const FT near = 2 * FT(edge.radius);
     return std::all_of(corners.begin(), corners.end(),
-                       [&](const Point2& p) { return squared_distance(p, a, b) <= near * near; });
+                       [&](const Point2& p) { return CGAL::squared_distance(p, line) <= near * near; });
   });
 }
 

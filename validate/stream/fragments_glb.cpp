@@ -11,6 +11,7 @@
 
 #include "scene/mesh/bounds.h"
 #include "scene/messages/error.h"
+#include "scene/stream/varints.h"
 #include "validate/stream/fragments_file.h"
 
 namespace clues::validate {
@@ -20,16 +21,11 @@ using nlohmann::json;
 
 constexpr std::uint32_t array_buffer = 34962, element_array_buffer = 34963, floats = 5126, unsigned_ints = 5125;
 
-void put_u32(std::uint32_t x, std::string& out) {
-  for (int i = 0; i < 4; ++i) out.push_back(static_cast<char>(x >> (8 * i) & 0xffU));
-}
-
-// Its kind, padded to whole words.
-std::string chunk(std::string bytes, const char* kind, char padding) {
+// Its length, its kind, and its bytes, padded to whole words.
+void put_chunk(std::string bytes, const char* kind, char padding, scene::VarintWriter& out) {
   while (bytes.size() % 4 != 0) bytes.push_back(padding);
-  std::string out;
-  put_u32(static_cast<std::uint32_t>(bytes.size()), out);
-  return out.append(kind, 4) + bytes;
+  out.raw(bytes.size(), 4);
+  out.bytes.append(kind, 4).append(bytes);
 }
 
 scene::Point middle_of(const std::vector<scene::Point>& points) {
@@ -60,7 +56,7 @@ json groups_of(const std::vector<FileFragment>& fragments) {
 }
 
 // The buffer, and what the document says of it.
-void put_mesh(const FragmentsRecord& mesh, const scene::Point& middle, json& document, std::string& binary) {
+void put_mesh(const FragmentsRecord& mesh, const scene::Point& middle, json& document, scene::VarintWriter& binary) {
   constexpr float most = std::numeric_limits<float>::max();
   std::array<float, 3> low{most, most, most}, high{-most, -most, -most};
   for (const scene::Point& p : mesh.rounded) {
@@ -68,21 +64,21 @@ void put_mesh(const FragmentsRecord& mesh, const scene::Point& middle, json& doc
       const float x = single(p[i] - middle[i]);
       low[i] = std::min(low[i], x);
       high[i] = std::max(high[i], x);
-      put_u32(std::bit_cast<std::uint32_t>(x), binary);
+      binary.raw(std::bit_cast<std::uint32_t>(x), 4);
     }
   }
-  const std::size_t corners = binary.size();
+  const std::size_t corners = binary.bytes.size();
   for (const FileFragment& f : mesh.fragments) {
-    for (const std::uint64_t corner : f.corners) put_u32(static_cast<std::uint32_t>(corner), binary);
+    for (const std::uint64_t corner : f.corners) binary.raw(corner, 4);
   }
   const json primitive{{"attributes", {{"POSITION", 0}}}, {"indices", 1}};
   document["meshes"] =
       json::array({{{"primitives", {primitive}}, {"extras", {{"fragments", groups_of(mesh.fragments)}}}}});
-  document["buffers"] = json::array({{{"byteLength", binary.size()}}});
+  document["buffers"] = json::array({{{"byteLength", binary.bytes.size()}}});
   document["bufferViews"] = json::array({{{"buffer", 0}, {"byteLength", corners}, {"target", array_buffer}},
                                          {{"buffer", 0},
                                           {"byteOffset", corners},
-                                          {"byteLength", binary.size() - corners},
+                                          {"byteLength", binary.bytes.size() - corners},
                                           {"target", element_array_buffer}}});
   document["accessors"] = json::array({{{"bufferView", 0},
                                         {"componentType", floats},
@@ -101,7 +97,7 @@ void put_mesh(const FragmentsRecord& mesh, const scene::Point& middle, json& doc
 std::string to_glb_bytes(const FragmentsRecord& mesh) {
   json document{{"asset", {{"version", "2.0"}, {"generator", "clues"}}}, {"scene", 0}, {"scenes", {{{"nodes", {0}}}}}};
   json node{{"name", "visible fragments of " + mesh.scene_file}};
-  std::string binary;
+  scene::VarintWriter binary, chunks, out;
   if (!mesh.fragments.empty()) {  // glTF has no mesh without triangles
     const scene::Point middle = middle_of(mesh.rounded);
     node["mesh"] = 0;
@@ -109,14 +105,14 @@ std::string to_glb_bytes(const FragmentsRecord& mesh) {
     put_mesh(mesh, middle, document, binary);
   }
   document["nodes"] = json::array({std::move(node)});
-  std::string chunks = chunk(document.dump(-1, ' ', false, json::error_handler_t::replace), "JSON", ' ');
-  if (!binary.empty()) chunks += chunk(std::move(binary), "BIN\0", '\0');
-  if (chunks.size() > std::numeric_limits<std::uint32_t>::max() - 12)
+  put_chunk(document.dump(-1, ' ', false, json::error_handler_t::replace), "JSON", ' ', chunks);
+  if (!binary.bytes.empty()) put_chunk(std::move(binary.bytes), "BIN\0", '\0', chunks);
+  if (chunks.bytes.size() > std::numeric_limits<std::uint32_t>::max() - 12)
     throw scene::Error(scene::ErrorCode::unsupported, "fragments: more than 4 GiB, which is too long for binary glTF");
-  std::string out = "glTF";
-  put_u32(2, out);
-  put_u32(static_cast<std::uint32_t>(12 + chunks.size()), out);
-  return out + chunks;
+  out.bytes = "glTF";
+  out.raw(2, 4);
+  out.raw(12 + chunks.bytes.size(), 4);
+  return out.bytes + chunks.bytes;
 }
 
 }  // namespace clues::validate

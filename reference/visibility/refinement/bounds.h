@@ -75,7 +75,7 @@ class Bounds {
   std::uint64_t viewpoints() const { return viewpoints_; }  // that added to lower
   std::uint64_t fallbacks() const { return fallbacks_; }
 
-  // The map with `upper` as its visible regions: without wedges, and with the borders between visible and hidden as its segments.
+  // In the standard range, as all that Bounds holds; moved_back() leads out. The map with `upper` as its visible regions: without wedges, and with the borders between visible and hidden as its segments.
   VisibilityMap refined_map(const std::string& method) const;
 
  private:
