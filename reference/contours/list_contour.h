@@ -31,6 +31,8 @@ class EdgeUsers {
 struct ListContour {
   std::vector<std::uint32_t> seeds;     // triangles, ascending
   std::vector<std::uint32_t> boundary;  // edges, ascending
+
+  friend bool operator==(const ListContour&, const ListContour&) = default;
 };
 
 // For many lists of one scene: what is marked is taken back, so that a list costs what it has, and not what the scene has.

@@ -17,7 +17,7 @@ using Kind = ListRecord::Kind;
 using Ids = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t siblings_tried = 64;
-constexpr std::uint64_t most_triangles = std::uint64_t{1} << 28;  // of all lists
+constexpr std::uint64_t most_triangles = std::uint64_t{1} << 28;  // that are gone over, those of all lists among them
 
 bool holds(const Ids& large, const Ids& small) {
   return std::includes(large.begin(), large.end(), small.begin(), small.end());
@@ -131,28 +131,32 @@ class LevelMaker {
 
 class LevelReader {
  public:
-  // `floods`, of these edges, and `triangles` are those of all levels.
-  LevelReader(const EdgeUsers& edges, ListFloods& floods, const std::vector<Ids>& around, std::uint64_t& triangles)
-      : edges_(edges), floods_(floods), around_(around), triangles_(triangles) {}
+  // `floods`, of these edges, and `gone_over` are those of all levels.
+  LevelReader(const EdgeUsers& edges, ListFloods& floods, const std::vector<Ids>& around,
+              const std::vector<ListPlace>& places, std::uint64_t& gone_over)
+      : edges_(edges), floods_(floods), around_(around), places_(places), gone_over_(gone_over) {}
 
-  std::vector<Ids> read(const std::vector<ListPlace>& places) {
-    for (const ListPlace& place : places) {
-      Ids list = list_of(place);
-      triangles_ += list.size();
-      if (triangles_ > most_triangles)
-        throw scene::Error(scene::ErrorCode::unsupported, "the lists of a file have more than 2^28 triangles in all");
-      lists_.push_back(std::move(list));
+  std::vector<Ids> read() {
+    for (const ListPlace& place : places_) {
+      // Besides these, a record takes no longer than it has bytes: the list that it refers to lies in that around it
+      // (changed), or is its own, but for triangles that it names (same, delta).
+      if (!around_.empty()) go_over(around_[place.within]);
+      lists_.push_back(list_of(place));
+      go_over(lists_.back());
     }
     return std::move(lists_);
   }
 
  private:
-  [[noreturn]] void fail(const char* what) const {
-    throw scene::Error(scene::ErrorCode::malformed,
-                       "list " + std::to_string(lists_.size()) + " of a level of the file: " + what);
+  void go_over(const Ids& list) {
+    gone_over_ += list.size();
+    if (gone_over_ > most_triangles)
+      throw scene::Error(scene::ErrorCode::unsupported, "the lists of a file go over more than 2^28 triangles in all");
   }
   void require(bool fits, const char* what) const {
-    if (!fits) fail(what);
+    if (fits) return;
+    throw scene::Error(scene::ErrorCode::malformed,
+                       "list " + std::to_string(lists_.size()) + " of a level of the file: " + what);
   }
 
   Ids list_of(const ListPlace& place) {
@@ -160,11 +164,12 @@ class LevelReader {
     if (r.kind == Kind::list) return inside(r.first, place);
     if (r.kind == Kind::delta) {
       require(holds(lists_[r.of], r.second), "takes away what is not there");
-      Ids list = without(lists_[r.of], r.second);
-      require(either(list, r.first).size() == list.size() + r.first.size(), "brings what is there");
-      return inside(both(list, r.first), place);
+      require(without(r.first, lists_[r.of]).size() == r.first.size(), "brings what is there");
+      return inside(both(without(lists_[r.of], r.second), r.first), place);
     }
-    if (r.kind == Kind::same) return inside(lists_[r.of], place);
+    if (r.kind == Kind::same || r.kind == Kind::changed)
+      require(places_[r.of].within == place.within, "is that of a place within another one");
+    if (r.kind == Kind::same) return lists_[r.of];
     require(!around_.empty(), "is said to be within a list that there is not");
     const Ids& known = around_[place.within];
     if (r.kind == Kind::all) return known;
@@ -175,11 +180,13 @@ class LevelReader {
     ListContour contour{r.first, r.second};
     require(r.second.empty() || r.second.back() < edges_.edge_count(), "names an edge that the scene does not have");
     if (r.kind == Kind::changed) {
-      const ListContour other = floods_.contour(known, inside(lists_[r.of], place));
+      const ListContour other = floods_.contour(known, lists_[r.of]);
       contour = {either(other.seeds, r.first), either(other.boundary, r.second)};
     }
     require(holds(known, contour.seeds), "begins outside of what is known");
-    return floods_.list(known, contour);
+    Ids list = floods_.list(known, contour);
+    require(floods_.contour(known, list) == contour, "has a contour that is not the one that its triangles have");
+    return list;
   }
   // A list lies in that around it: what follows for cells below rests on it.
   Ids inside(Ids list, const ListPlace& place) const {
@@ -191,7 +198,8 @@ class LevelReader {
   const EdgeUsers& edges_;
   ListFloods& floods_;
   const std::vector<Ids>& around_;
-  std::uint64_t& triangles_;
+  const std::vector<ListPlace>& places_;
+  std::uint64_t& gone_over_;
   std::vector<Ids> lists_;
 };
 
@@ -224,11 +232,11 @@ std::vector<std::vector<Ids>> decoded_levels(const EdgeUsers& edges,
                                              const std::vector<std::vector<ListPlace>>& levels) {
   std::vector<std::vector<Ids>> out;
   ListFloods floods(edges);
-  std::uint64_t triangles = 0;
+  std::uint64_t gone_over = 0;
   for (const auto& places : levels) {
     const std::vector<Ids> none;
-    LevelReader reader(edges, floods, out.empty() ? none : out.back(), triangles);
-    out.push_back(reader.read(places));
+    LevelReader reader(edges, floods, out.empty() ? none : out.back(), places, gone_over);
+    out.push_back(reader.read());
   }
   return out;
 }

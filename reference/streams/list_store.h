@@ -38,7 +38,12 @@ std::vector<std::vector<scene::ListPlace>> made_levels(const EdgeUsers& edges, c
                                                        const CellTree& tree, const ListStoreOptions& options);
 
 // The lists of each level, ascending. Throws scene::Error malformed where a record does not fit the scene or what it is
-// within; unsupported where all lists together have more than 2^28 triangles, which a small file can ask for.
+// within, or a contour is not the one that its triangles have.
+//
+// A small file can ask for much: a record of few bytes for a large list, or for a walk over large ones that finds little.
+// So the triangles of each list are counted, with those of the list around it, and beyond 2^28 in all the file is
+// unsupported. Memory is O(size of the file + scene), and at most a GiB of lists; time is O(size of the file + scene), and
+// at most that of 2^28 triangles.
 std::vector<std::vector<std::vector<std::uint32_t>>> decoded_levels(
     const EdgeUsers& edges, const std::vector<std::vector<scene::ListPlace>>& levels);
 

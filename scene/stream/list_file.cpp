@@ -16,7 +16,7 @@ namespace {
 using Kind = ListRecord::Kind;
 
 constexpr SealedKind lists_kind{"lists", "CLUESLST", 1};
-constexpr std::uint64_t most_listed = std::uint64_t{1} << 32;
+constexpr std::uint64_t most_listed = (std::uint64_t{1} << 32) / 3;  // so that edges have numbers of 32 bits
 
 void write_record(const ListRecord& record, std::uint32_t place, VarintWriter& out) {
   out.number(static_cast<std::uint64_t>(record.kind));
@@ -124,6 +124,7 @@ ListFile parse_unsealed_lists(std::string_view bytes, const std::string& where) 
     cell.points = read_corners(in, coordinates);
     cell.inner = read_corners(in, coordinates);
     if (cell.points.empty()) in.fail("a cell without a corner");
+    if (cell.inner == cell.points) in.fail("an inner cell that is the cell, which is not written");
     file.cells.push_back(std::move(cell));
   }
   if (file.cells.empty()) in.fail("without a cell");
