@@ -365,6 +365,7 @@ def lists():
     put("lists", "delta", file([[(0, 1, 4), (6, 0, 1, 0, 1, 4)]]))
     put("lists", "more_than_around", file([node, [(0, 1, 4), (1,)]]))
     put("lists", "edge_that_there_is_not", file([node, [(3, 1, 0, 1, 14), (1,)]]))
+    put("lists", "seed_too_many", file([node, [(3, 2, 0, 0, 0), (1,)]]))
     put("lists", "of_itself", file([[(4, 0), (0, 0)]]))
     put("lists", "no_cells", file([[]], cells=0))
     put("lists", "another_version", file([[(0, 0), (0, 0)]], version=2))

@@ -1,6 +1,9 @@
-// Files of contours and of lists (D26), without the hash in their end. What is accepted is decoded in a small scene, contours exactly and in doubles: a label that
-// makes no point there is refused, and anything else is decoded to something.
+// Files of contours and of lists (D26), without the hash in their end. What is accepted is decoded in a small scene, contours
+// exactly and in doubles: a label that makes no point there is refused, and anything else is decoded to something. Lists
+// lie in those around them.
+#include <algorithm>
 #include <array>
+#include <functional>
 
 #include "fastpath/contours/contour_decoder.h"
 #include "fuzz/targets/promises.h"
@@ -76,8 +79,16 @@ bool list_files(std::string_view bytes) {
     require(scene::parse_lists(sealed, "again") == file, "a file survives being written");
     const auto mesh = town();
     const auto decoded = reference::decoded_levels(reference::EdgeUsers(mesh), file.levels);
-    for (const auto& list : decoded.back())
-      require(list.empty() || list.back() < mesh.triangles.size(), "every id is a triangle");
+    for (std::size_t i = 0; i < decoded.size(); ++i) {
+      for (std::size_t n = 0; n < decoded[i].size(); ++n) {
+        const auto& list = decoded[i][n];
+        require(std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end(), "ids ascend");
+        require(list.empty() || list.back() < mesh.triangles.size(), "every id is a triangle");
+        if (i == 0) continue;
+        const auto& around = decoded[i - 1][file.levels[i][n].within];
+        require(std::includes(around.begin(), around.end(), list.begin(), list.end()), "a list lies in that around it");
+      }
+    }
   });
 }
 
