@@ -3,6 +3,7 @@
 
 #include <numeric>
 #include <random>
+#include <string_view>
 
 #include "scene/messages/error.h"
 #include "tests/delta/floor_lists.h"
@@ -29,7 +30,7 @@ TEST(ListFile, FilesThatAreCutOrChangedAreRefused) {
   const auto bytes = scene::to_bytes(file_with(made(row_of_discs(1, 3), {2}), floor_scene().mesh.triangles.size()));
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     const std::string why = why_refused([&] { scene::parse_lists(bytes.substr(0, size), "x"); });
-    const bool is_named = size >= scene::lists_magic.size();
+    const bool is_named = size >= std::string_view("CLUESLST").size();
     EXPECT_NE(why.find(is_named ? "x: is cut short or was changed" : "x: is no file of lists"), std::string::npos)
         << size << ": " << why;
     // Where there is no hash to tell, too.
