@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
+#include <utility>
 
 namespace clues::exact {
 
@@ -45,6 +46,37 @@ FT collapsed(const FT& x) {
 Point3 collapsed(const Point3& p) {
   p.exact();
   return p;
+}
+
+namespace {
+
+using Exact = Kernel::Exact_kernel;
+
+Point3 leaf(Exact::Point_3&& p) {
+  return Point3(new CGAL::Lazy_rep_0<Kernel::Approximate_kernel::Point_3, Exact::Point_3, Kernel::E2A>(std::move(p)));
+}
+
+Point3 zero_on_line(const Exact::Point_3& a, const Exact::Point_3& b, const Exact::FT& at_a, const Exact::FT& at_b) {
+  const Exact::FT t = at_a / (at_a - at_b);
+  return leaf(a + t * (b - a));
+}
+
+}  // namespace
+
+Point3 rational_point(const FT::Exact_type& x, const FT::Exact_type& y, const FT::Exact_type& z) {
+  return leaf({x, y, z});
+}
+
+Point3 crossing(const Plane3& h, const Point3& a, const Point3& b) {
+  const Exact::Plane_3& plane = h.exact();
+  const auto at = [&](const Exact::Point_3& p) -> Exact::FT {
+    return plane.a() * p.x() + plane.b() * p.y() + plane.c() * p.z() + plane.d();
+  };
+  return zero_on_line(a.exact(), b.exact(), at(a.exact()), at(b.exact()));
+}
+
+Point3 zero_on_line(const Point3& a, const Point3& b, const FT& at_a, const FT& at_b) {
+  return zero_on_line(a.exact(), b.exact(), at_a.exact(), at_b.exact());
 }
 
 }  // namespace clues::exact

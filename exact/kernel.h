@@ -44,4 +44,12 @@ std::string to_string_exact(const FT& x);
 Point3 collapsed(const Point3& p);
 FT collapsed(const FT& x);
 
+// Collapsed points that are made in rationals from the start: lazy numbers would make a node for each operation, and an
+// interval for each node.
+Point3 rational_point(const FT::Exact_type& x, const FT::Exact_type& y, const FT::Exact_type& z);
+// Where a plane crosses the line ab, which is not parallel to it.
+Point3 crossing(const Plane3& h, const Point3& a, const Point3& b);
+// The point of the line ab where a linear form is zero that has these different values at a and b.
+Point3 zero_on_line(const Point3& a, const Point3& b, const FT& at_a, const FT& at_b);
+
 }  // namespace clues::exact

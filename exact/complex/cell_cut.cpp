@@ -20,7 +20,7 @@ std::optional<ConvexCell> part_beside(const ConvexCell& cell, const Plane3& plan
   for (const auto& [i, j] : cell.edges()) {
     const Point3 &a = cell.vertices()[static_cast<std::size_t>(i)], &b = cell.vertices()[static_cast<std::size_t>(j)];
     const FT at_a = value_at(plane, a), at_b = value_at(plane, b);
-    if (CGAL::sign(at_a) * CGAL::sign(at_b) < 0) kept.push_back(collapsed(a + (at_a / (at_a - at_b)) * (b - a)));
+    if (CGAL::sign(at_a) * CGAL::sign(at_b) < 0) kept.push_back(zero_on_line(a, b, at_a, at_b));
   }
   return ConvexCell(kept);
 }

@@ -38,6 +38,18 @@ Point2 drop_axis(const Point3& p, int axis, double unit) {
   return {in_units(p[(axis + 1) % 3]), in_units(p[(axis + 2) % 3])};
 }
 
+Point3 lift_axis(const Plane3& plane, const Point2& q, int axis, double unit) {
+  using Rational = FT::Exact_type;
+  const Kernel::Exact_kernel::Plane_3& h = plane.exact();
+  const Rational n[3] = {h.a(), h.b(), h.c()}, units(unit);
+  const int u = (axis + 1) % 3, w = (axis + 2) % 3;
+  Rational x[3];
+  x[u] = q.exact().x() * units;
+  x[w] = q.exact().y() * units;
+  x[axis] = -(n[u] * x[u] + n[w] * x[w] + h.d()) / n[axis];
+  return rational_point(x[0], x[1], x[2]);
+}
+
 int dominant_axis(const Vector3& normal) {
   int best = -1;
   double size = -1;
@@ -80,14 +92,7 @@ std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& tria
   for (const auto& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
   const double unit = unit_of(corners);
   const auto lay_flat = [&](const Point3& p) { return drop_axis(p, axis, unit); };
-  const auto lift = [&](const Point2& q) {  // the plane's point above q
-    const FT n[3] = {plane.a(), plane.b(), plane.c()};
-    FT c[3];
-    c[(axis + 1) % 3] = q.x() * unit;
-    c[(axis + 2) % 3] = q.y() * unit;
-    c[axis] = -(n[(axis + 1) % 3] * c[(axis + 1) % 3] + n[(axis + 2) % 3] * c[(axis + 2) % 3] + plane.d()) / n[axis];
-    return collapsed(Point3(c[0], c[1], c[2]));
-  };
+  const auto lift = [&](const Point2& q) { return lift_axis(plane, q, axis, unit); };
 
   Cdt cdt;
   std::map<Cdt::Vertex_handle, Point3> given;  // the vertices that are no crossings of constraints

@@ -32,6 +32,8 @@ std::vector<CutFace> cut_in_plane(const std::vector<std::array<Point3, 3>>& tria
 // Drops the coordinate `axis` (0, 1, 2) of points of a plane that is not parallel to that axis; a bijection on the plane. In units
 // of `unit`, a power of two.
 Point2 drop_axis(const Point3& p, int axis, double unit = 1);
+// And back: the point of the plane that is dropped there. Collapsed.
+Point3 lift_axis(const Plane3& plane, const Point2& q, int axis, double unit = 1);
 // An axis along which the plane's normal does not vanish (the largest component, as far as intervals can tell).
 int dominant_axis(const Vector3& normal);
 

@@ -34,7 +34,7 @@ FT fraction_of(const std::string& text) {
 Point3 crossing_on(const Point3& a, const Point3& b, const Plane3& plane) {
   const FT at_a = exact::value_at(plane, a), at_b = exact::value_at(plane, b);
   if (at_a == at_b || CGAL::sign(at_a) * CGAL::sign(at_b) > 0) refuse("a plane does not cross the line of its point");
-  return exact::collapsed(a + (b - a) * (at_a / (at_a - at_b)));
+  return exact::zero_on_line(a, b, at_a, at_b);
 }
 
 }  // namespace

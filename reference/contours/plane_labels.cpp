@@ -52,7 +52,7 @@ Plane3 PlaneTable::plane_of(const PlaneLabel& label) const {
   const exact::FT at_a = exact::value_at(planes_[label.crossed], a), at_b = exact::value_at(planes_[label.crossed], b);
   if (at_a == at_b)
     throw scene::Error(scene::ErrorCode::malformed, "contours: an edge that does not cross the plane of its label");
-  const Point3 x = exact::collapsed(a + (b - a) * (at_a / (at_a - at_b)));
+  const Point3 x = exact::zero_on_line(a, b, at_a, at_b);
   return {x, corner(label.cell[0]), corner(label.cell[1])};
 }
 

@@ -39,9 +39,7 @@ Shaft shaft_of(const VisibilityMap& map, const Region& r) {
   }
   for (const auto& [i, j] : map.cell.edges()) {
     const Point3 &a = cell[static_cast<std::size_t>(i)], &b = cell[static_cast<std::size_t>(j)];
-    const exact::FT at_a = exact::value_at(front, a), at_b = exact::value_at(front, b);
-    if (CGAL::sign(at_a) * CGAL::sign(at_b) < 0)
-      points.push_back(exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a)));
+    if (front.oriented_side(a) * front.oriented_side(b) < 0) points.push_back(exact::crossing(front, a, b));
   }
   return {exact::ConvexCell(points), box_of(points)};
 }

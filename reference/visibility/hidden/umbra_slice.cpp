@@ -98,10 +98,11 @@ void mark_depths(SliceArrangement& arrangement) {
 }  // namespace
 
 std::vector<std::vector<Point3>> in_space(const Plane3& plane, const std::vector<Ring2>& face) {
+  const PlaneFrame frame(plane);
   std::vector<std::vector<Point3>> rings;
   for (const Ring2& ring : face) {
     rings.emplace_back();
-    for (const Point2& q : ring) rings.back().push_back(lifted_onto(plane, q));
+    for (const Point2& q : ring) rings.back().push_back(frame.lifted(plane, q));
   }
   return rings;
 }

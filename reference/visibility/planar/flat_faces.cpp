@@ -96,20 +96,16 @@ Point2 inner_point(const std::vector<Ring2>& rings, std::size_t which) {
 }
 
 TriangleFrame::TriangleFrame(const exact::Complex& complex, std::uint32_t piece)
-    : frame_(complex.planes[piece], complex.unit),
+    : plane_(complex.planes[piece]),
+      frame_(plane_, complex.unit),
       corners_{complex.points[complex.pieces[piece].corners[0]], complex.points[complex.pieces[piece].corners[1]],
                complex.points[complex.pieces[piece].corners[2]]},
       flat_(frame_(corners_[0]), frame_(corners_[1]), frame_(corners_[2])) {}
 
 TriangleFrame::TriangleFrame(const std::array<Point3, 3>& corners)
-    : frame_(exact::Plane3(corners[0], corners[1], corners[2])),
+    : plane_(corners[0], corners[1], corners[2]),
+      frame_(plane_),
       corners_(corners),
       flat_(frame_(corners_[0]), frame_(corners_[1]), frame_(corners_[2])) {}
-
-Point3 TriangleFrame::lift(const Point2& q) const {  // affine: barycentric coordinates carry over
-  const FT area = CGAL::area(flat_[0], flat_[1], flat_[2]);
-  const FT u = CGAL::area(q, flat_[1], flat_[2]) / area, w = CGAL::area(flat_[0], q, flat_[2]) / area;
-  return exact::collapsed(corners_[2] + u * (corners_[0] - corners_[2]) + w * (corners_[1] - corners_[2]));
-}
 
 }  // namespace clues::reference

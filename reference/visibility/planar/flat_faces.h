@@ -40,9 +40,11 @@ class TriangleFrame {
   const exact::Kernel::Triangle_2& flat() const { return flat_; }
   Ring2 outline() const { return {flat_[0], flat_[1], flat_[2]}; }  // of flat()
   exact::FT twice_area() const { return reference::twice_area(outline()); }
-  exact::Point3 lift(const exact::Point2& q) const;  // the point of the piece's plane above q
+  // The point of the piece's plane that is laid there.
+  exact::Point3 lift(const exact::Point2& q) const { return frame_.lifted(plane_, q); }
 
  private:
+  exact::Plane3 plane_;
   PlaneFrame frame_;
   std::array<exact::Point3, 3> corners_;
   exact::Kernel::Triangle_2 flat_;

@@ -18,14 +18,15 @@ class PlaneFrame {
     const exact::Point2 q = exact::drop_axis(p, axis_, unit_);
     return flip_ ? exact::Point2(q.y(), q.x()) : q;
   }
+  // The point of this plane, which is that of the frame, that is laid there.
+  exact::Point3 lifted(const exact::Plane3& plane, const exact::Point2& q) const {
+    return exact::lift_axis(plane, flip_ ? exact::Point2(q.y(), q.x()) : q, axis_, unit_);
+  }
 
  private:
   int axis_;
   bool flip_;
   double unit_;
 };
-
-// The point of the plane that its frame, without a unit, lays there.
-exact::Point3 lifted_onto(const exact::Plane3& plane, const exact::Point2& q);
 
 }  // namespace clues::reference

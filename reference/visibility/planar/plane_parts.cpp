@@ -191,7 +191,7 @@ const std::vector<PlaneCut::Component>& PlaneCut::components() {
     sizes[i] = size;
     components_[i].flat = inside(a, b, c);
   }
-  for (Component& c : components_) c.inner = lifted_onto(plane_, c.flat);
+  for (Component& c : components_) c.inner = frame_.lifted(plane_, c.flat);
   collect_marks();
   return components_;
 }
@@ -261,7 +261,7 @@ std::vector<PlaneCut::Facet> PlaneCut::facets(const std::vector<int>& of) const 
     }
     Facet facet{f->info(), {}};
     for (int i = 0; i < 3; ++i)
-      facet.corners[static_cast<std::size_t>(i)] = lifted_onto(plane_, f->vertex((first + i) % 3)->point());
+      facet.corners[static_cast<std::size_t>(i)] = frame_.lifted(plane_, f->vertex((first + i) % 3)->point());
     facets.push_back(std::move(facet));
   }
   std::sort(facets.begin(), facets.end(), [](const Facet& x, const Facet& y) {

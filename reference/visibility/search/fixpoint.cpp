@@ -346,7 +346,7 @@ class Search {
       const exact::Vector2 d = ray->q - on.center;
       const exact::FT at_a = CGAL::determinant(d, qa - on.center), at_b = CGAL::determinant(d, qb - on.center);
       if (CGAL::sign(at_a) * CGAL::sign(at_b) >= 0) continue;
-      const Point3 x = exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a));
+      const Point3 x = exact::zero_on_line(a, b, at_a, at_b);
       if (CGAL::is_positive((on.frame(x) - on.center) * d)) new_cuts_[e].push_back(x);
     }
   }

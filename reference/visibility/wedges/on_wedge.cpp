@@ -77,9 +77,7 @@ class Envelope {
     const auto found = edge_crossing_.find(edge);
     if (found != edge_crossing_.end()) return found->second;
     const Point3 &a = complex_.points[complex_.edges[edge].a], &b = complex_.points[complex_.edges[edge].b];
-    const exact::Plane3& h = sector_.plane;
-    const FT at_a = exact::value_at(h, a), at_b = exact::value_at(h, b);
-    return edge_crossing_.emplace(edge, spot(exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a)))).first->second;
+    return edge_crossing_.emplace(edge, spot(exact::crossing(sector_.plane, a, b))).first->second;
   }
 
   // The trace of a piece in the plane, if the piece reaches into H-.
@@ -282,11 +280,11 @@ std::vector<Strip> strips_between(const OnWedge& wedge, const Spot& lo, const Sp
 }
 
 Point3 far_point(const OnWedge& wedge, const Blocker& b, const Spot& on_ray) {
-  const exact::Vector2 d = on_ray.q - wedge.center, u = b.u.q - wedge.center, along = b.w.q - b.u.q;
-  const FT at_u = CGAL::determinant(d, u);
+  const exact::Vector2 d = on_ray.q - wedge.center;
+  const FT at_u = CGAL::determinant(d, b.u.q - wedge.center), at_w = CGAL::determinant(d, b.w.q - wedge.center);
   if (CGAL::is_zero(at_u)) return b.u.p;
-  if (CGAL::is_zero(CGAL::determinant(d, b.w.q - wedge.center))) return b.w.p;
-  return exact::collapsed(b.u.p + (-at_u / CGAL::determinant(d, along)) * (b.w.p - b.u.p));
+  if (CGAL::is_zero(at_w)) return b.w.p;
+  return exact::zero_on_line(b.u.p, b.w.p, at_u, at_w);
 }
 
 }  // namespace clues::reference

@@ -22,7 +22,7 @@ Point3 near_point(const Sector& sector, const OnWedge& on, const Spot& on_ray) {
   const exact::Point2 a = on.frame(sector.near0), b = on.frame(sector.near1);
   const exact::Vector2 d = on_ray.q - on.center;
   const exact::FT at_a = CGAL::determinant(d, a - on.center), at_b = CGAL::determinant(d, b - on.center);
-  return exact::collapsed(sector.near0 + (at_a / (at_a - at_b)) * (sector.near1 - sector.near0));
+  return exact::zero_on_line(sector.near0, sector.near1, at_a, at_b);
 }
 
 }  // namespace
