@@ -18,12 +18,17 @@ CGAL::Sign det_sign(const Vector3& a, const Vector3& b, const Vector3& c) {
   return CGAL::sign(CGAL::determinant(a, b, c));
 }
 
-// Whether y, in the plane of the arc ab with normal a x b, lies in the closed arc. The arc is shorter than a half turn.
+// Where y is in the plane of the arc ab with normal a x b, which is shorter than a half turn.
+enum class OnArc { outside, at_end, inside };
+OnArc on_arc(const Vector3& a, const Vector3& b, const Vector3& normal, const Vector3& y) {
+  const CGAL::Sign from_a = CGAL::sign(normal * CGAL::cross_product(a, y));
+  if (from_a == CGAL::NEGATIVE) return OnArc::outside;
+  const CGAL::Sign to_b = CGAL::sign(normal * CGAL::cross_product(y, b));
+  if (to_b == CGAL::NEGATIVE || (from_a == CGAL::ZERO && to_b == CGAL::ZERO)) return OnArc::outside;
+  return from_a == CGAL::ZERO || to_b == CGAL::ZERO ? OnArc::at_end : OnArc::inside;
+}
 bool in_arc(const Vector3& a, const Vector3& b, const Vector3& normal, const Vector3& y) {
-  return !CGAL::is_negative(normal * CGAL::cross_product(a, y)) &&
-         !CGAL::is_negative(normal * CGAL::cross_product(y, b)) &&
-         (CGAL::is_positive(normal * CGAL::cross_product(a, y)) ||
-          CGAL::is_positive(normal * CGAL::cross_product(y, b)));
+  return on_arc(a, b, normal, y) != OnArc::outside;
 }
 
 // The first sign that is not zero.
@@ -170,12 +175,12 @@ std::optional<int> LocalStar::side_met(const Vector3& d, std::size_t aim_arc, in
     const CGAL::Sign sd = CGAL::sign(at_d), st = CGAL::sign(at_target);
     if (sd == CGAL::ZERO && st == CGAL::ZERO) return std::nullopt;
     if (sd == CGAL::ZERO || sd == st) continue;
-    const FT t = at_d / (at_d - at_target);
-    const Vector3 y = (FT(1) - t) * d + t * target;
+    const Vector3 y = CGAL::abs(at_target) * d + CGAL::abs(at_d) * target;
     const Vector3 &a = nodes_[static_cast<std::size_t>(arc.a)], &b = nodes_[static_cast<std::size_t>(arc.b)];
-    if (!in_arc(a, b, arc.normal, y)) continue;
-    if (CGAL::is_zero(arc.normal * CGAL::cross_product(a, y)) || CGAL::is_zero(arc.normal * CGAL::cross_product(y, b)))
-      return std::nullopt;
+    const OnArc where = on_arc(a, b, arc.normal, y);
+    if (where == OnArc::outside) continue;
+    if (where == OnArc::at_end) return std::nullopt;
+    const FT t = at_d / (at_d - at_target);
     if (t < nearest) {
       nearest = t;
       side = static_cast<int>(2 * i) + (sd == CGAL::POSITIVE ? 0 : 1);
@@ -184,9 +189,21 @@ std::optional<int> LocalStar::side_met(const Vector3& d, std::size_t aim_arc, in
   return side;
 }
 
+std::vector<FT> LocalStar::heights(const Vector3& d) const {
+  std::vector<FT> out;
+  for (const Arc& arc : arcs_) out.push_back(arc.normal * d);
+  return out;
+}
+
 bool LocalStar::free_between(const Vector3& d0, const Vector3& d1) const {
-  for (const Arc& arc : arcs_) {
-    const FT at0 = arc.normal * d0, at1 = arc.normal * d1;
+  return free_between(d0, heights(d0), d1, heights(d1));
+}
+
+bool LocalStar::free_between(const Vector3& d0, const std::vector<FT>& heights0, const Vector3& d1,
+                             const std::vector<FT>& heights1) const {
+  for (std::size_t i = 0; i < arcs_.size(); ++i) {
+    const Arc& arc = arcs_[i];
+    const FT &at0 = heights0[i], &at1 = heights1[i];
     const CGAL::Sign s0 = CGAL::sign(at0), s1 = CGAL::sign(at1);
     if (s0 == CGAL::ZERO && s1 != CGAL::ZERO) continue;  // leaves the arc's plane at once
     if (s0 != CGAL::ZERO && s0 == s1) continue;
@@ -261,19 +278,23 @@ Vector3 LocalStar::nudged(const Vector3& d, const Vector3& by, const Vector3& th
 std::optional<Vector3> LocalStar::nudged_if_possible(const Vector3& d, const Vector3& by, const Vector3& then) const {
   // Down to 2^-40960: the three may differ in size by more than the range of doubles. All fail only if the way runs along an arc through d.
   constexpr int kQuarters = 20, kSquares = 10;
+  const std::vector<FT> at_d = heights(d), at_by = heights(by), at_then = heights(then);
+  std::vector<FT> at_moved(arcs_.size());
   FT step(1);
-  for (int i = 0; i <= kQuarters + kSquares; ++i, step = i <= kQuarters ? step / FT(4) : step * step) {
+  for (int k = 0; k <= kQuarters + kSquares; ++k, step = k <= kQuarters ? step / FT(4) : step * step) {
     const Vector3 moved = d + step * by + step * step * then;
-    const auto wrong = [&](const Arc& arc) {
-      const CGAL::Sign side = CGAL::sign(arc.normal * moved);
-      if (CGAL::is_zero(arc.normal * d)) {  // leave the arc's great circle on the side that `by` points to
-        const CGAL::Sign wanted = CGAL::sign(arc.normal * by);
-        if (side != (wanted != CGAL::ZERO ? wanted : CGAL::sign(arc.normal * then))) return true;
-      }
-      return side == CGAL::ZERO && in_arc(nodes_[static_cast<std::size_t>(arc.a)],
-                                          nodes_[static_cast<std::size_t>(arc.b)], arc.normal, moved);
+    for (std::size_t i = 0; i < arcs_.size(); ++i) at_moved[i] = at_d[i] + step * at_by[i] + step * step * at_then[i];
+    const auto right = [&](std::size_t i) {
+      const CGAL::Sign side = CGAL::sign(at_moved[i]);
+      // Leave the arc's great circle on the side that `by` points to.
+      if (CGAL::is_zero(at_d[i]) && side != leading(at_by[i], at_then[i], FT(0))) return false;
+      const Arc& arc = arcs_[i];
+      return side != CGAL::ZERO || !in_arc(nodes_[static_cast<std::size_t>(arc.a)],
+                                           nodes_[static_cast<std::size_t>(arc.b)], arc.normal, moved);
     };
-    if (free_between(d, moved) && std::none_of(arcs_.begin(), arcs_.end(), wrong)) return moved;
+    bool all = free_between(d, at_d, moved, at_moved);
+    for (std::size_t i = 0; all && i < arcs_.size(); ++i) all = right(i);
+    if (all) return moved;
   }
   return std::nullopt;
 }
@@ -338,7 +359,7 @@ std::vector<Vector3> LocalStar::into_cell(const exact::Point3& x, const exact::C
       const exact::Point3 &a = s[static_cast<std::size_t>(i)], &b = s[static_cast<std::size_t>(j)];
       const FT at_a = arc.normal * (a - x), at_b = arc.normal * (b - x);
       if (CGAL::sign(at_a) * CGAL::sign(at_b) > 0 || (CGAL::is_zero(at_a) && CGAL::is_zero(at_b))) continue;
-      const exact::Point3 c = exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a));
+      const exact::Point3 c = exact::zero_on_line(a, b, at_a, at_b);
       if (c == x) continue;
       if (c != a) add(c, a - c);
       if (c != b) add(c, b - c);

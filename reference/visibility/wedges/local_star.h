@@ -62,6 +62,11 @@ class LocalStar {
   };
   void finish();  // joins the two sides of arcs into faces
   int root(int side) const;
+  // d's distance from the plane of each arc, in units of the arc's normal.
+  std::vector<exact::FT> heights(const exact::Vector3& d) const;
+  // With these heights of d0 and d1.
+  bool free_between(const exact::Vector3& d0, const std::vector<exact::FT>& heights0, const exact::Vector3& d1,
+                    const std::vector<exact::FT>& heights1) const;
   // nudged(), or nullopt when no step is small enough: the way runs along an arc through d.
   std::optional<exact::Vector3> nudged_if_possible(const exact::Vector3& d, const exact::Vector3& by,
                                                    const exact::Vector3& then) const;
