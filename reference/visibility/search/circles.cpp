@@ -53,12 +53,24 @@ class Waiting {
   }
 
   std::vector<std::vector<std::uint32_t>> arcs() const {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> of_edge;
+    for (std::uint32_t i = 0; i < parts_.size(); ++i) of_edge[parts_[i].edge].push_back(i);
+    std::vector<const std::vector<std::uint32_t>*> edges;
+    for (const auto& [edge, parts] : of_edge) edges.push_back(&parts);
     std::vector<std::vector<std::uint32_t>> arcs(parts_.size());
-    tbb::parallel_for(std::size_t{0}, parts_.size(), [&](std::size_t i) {
-      const Part& p = parts_[i];
-      for (const std::uint32_t k :
-           tree_.candidates([&](const CGAL::Bbox_3& box) { return CGAL::do_overlap(p.ways, box); })) {
-        if (may_wait(p, parts_[k])) arcs[i].push_back(k);
+    tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t e) {
+      std::map<std::uint32_t, bool> behind;  // by parts: what the parts of this edge cannot wait for
+      for (const std::uint32_t i : *edges[e]) {
+        const Part& p = parts_[i];
+        std::map<std::uint32_t, bool> before;  // by edges: those whose parts p cannot wait for
+        for (const std::uint32_t k :
+             tree_.candidates([&](const CGAL::Bbox_3& box) { return CGAL::do_overlap(p.ways, box); })) {
+          const Part& q = parts_[k];
+          if (p.edge == q.edge) continue;  // ways to one point of an edge come through no other point of it
+          if (!known(before, q.edge, [&] { return lies_on(-1, *q.planes, p); }) &&
+              !known(behind, k, [&] { return lies_on(1, *p.planes, q); }))
+            arcs[i].push_back(k);
+        }
       }
     });
     return arcs;
@@ -72,16 +84,18 @@ class Waiting {
     CGAL::Bbox_3 ways;  // holds the ways from V to the part
   };
 
-  // But for an end upon the plane.
-  static bool lies_on(int side, const Plane3& h, const Part& p) {
-    const int lo = side * h.oriented_side(p.source->lo), hi = side * h.oriented_side(p.source->hi);
-    return lo >= 0 && hi >= 0 && lo + hi > 0;
+  // Of any of the planes, but for an end upon it.
+  static bool lies_on(int side, const std::vector<Plane3>& planes, const Part& p) {
+    return std::any_of(planes.begin(), planes.end(), [&](const Plane3& h) {
+      const int lo = side * h.oriented_side(p.source->lo), hi = side * h.oriented_side(p.source->hi);
+      return lo >= 0 && hi >= 0 && lo + hi > 0;
+    });
   }
-  // Ways to one point of an edge come through no other point of it.
-  static bool may_wait(const Part& p, const Part& q) {
-    return p.edge != q.edge &&
-           std::none_of(q.planes->begin(), q.planes->end(), [&](const Plane3& h) { return lies_on(-1, h, p); }) &&
-           std::none_of(p.planes->begin(), p.planes->end(), [&](const Plane3& h) { return lies_on(1, h, q); });
+  template <class Decide>
+  static bool known(std::map<std::uint32_t, bool>& answers, std::uint32_t of, const Decide& decide) {
+    const auto [answer, is_new] = answers.try_emplace(of, false);
+    if (is_new) answer->second = decide();
+    return answer->second;
   }
 
   std::map<std::uint32_t, std::vector<Plane3>> planes_;
@@ -102,10 +116,9 @@ std::vector<std::pair<std::uint32_t, Point3>> cuts_of_circles(const exact::Scene
     for (const std::uint32_t i : circle) {
       const Source& s = sources[i];
       for (const std::size_t c : in_circle) {
-        const exact::FT at_lo = exact::value_at(contours[c].plane, s.lo),
-                        at_hi = exact::value_at(contours[c].plane, s.hi);
-        if (CGAL::sign(at_lo) * CGAL::sign(at_hi) >= 0) continue;
-        cuts.emplace_back(contours[s.contour].edge, exact::collapsed(s.lo + (at_lo / (at_lo - at_hi)) * (s.hi - s.lo)));
+        const exact::Plane3& plane = contours[c].plane;
+        if (plane.oriented_side(s.lo) * plane.oriented_side(s.hi) >= 0) continue;
+        cuts.emplace_back(contours[s.contour].edge, exact::crossing(plane, s.lo, s.hi));
       }
     }
   }
