@@ -1,7 +1,7 @@
 #include "fastpath/visibility/search/circles.h"
 
 #include <algorithm>
-#include <array>
+#include <map>
 
 #include "exact/strong_components.h"
 
@@ -17,6 +17,13 @@ class Waiting {
       : contours_(contours), parts_(parts) {
     IntervalBox cell = scene.cell.vertices.front().approximate();
     for (const ExactPoint& v : scene.cell.vertices) cell = hull(cell, v.approximate());
+    std::map<std::uint32_t, std::vector<std::uint32_t>> by_edge;
+    for (std::uint32_t i = 0; i < parts.size(); ++i) by_edge[contours[parts[i].contour].edge].push_back(i);
+    edge_of_.resize(parts.size());
+    for (auto& [edge, of_edge] : by_edge) {
+      for (const std::uint32_t i : of_edge) edge_of_[i] = static_cast<std::uint32_t>(edges_.size());
+      edges_.push_back(std::move(of_edge));
+    }
     std::vector<IntervalBox> boxes;
     for (const Sources::OfEdge& s : parts) {
       boxes.push_back(hull(s.part.lo->approximate(), s.part.hi->approximate()));
@@ -27,37 +34,55 @@ class Waiting {
 
   std::vector<std::vector<std::uint32_t>> arcs(Workers& workers) const {
     std::vector<std::vector<std::uint32_t>> arcs(parts_.size());
-    workers.for_each(parts_.size(), [&](std::size_t i, Workers::Worker&) {
-      tree_.any([&](const IntervalBox& box) { return overlap(box, ways_[i]); },
-                [&](std::uint32_t k) {
-                  if (may_wait(parts_[i], parts_[k])) arcs[i].push_back(k);
-                  return false;
-                });
+    workers.for_each(edges_.size(), [&](std::size_t e, Workers::Worker&) {
+      Answers behind(parts_.size());  // what the parts of this edge cannot wait for
+      for (const std::uint32_t i : edges_[e]) {
+        Answers before(edges_.size());  // those whose parts part i cannot wait for
+        tree_.any([&](const IntervalBox& box) { return overlap(box, ways_[i]); },
+                  [&](std::uint32_t k) {
+                    const std::uint32_t other = edge_of_[k];
+                    if (other == e) return false;  // ways to one point of an edge come through no other point of it
+                    if (!before.of(other, [&] { return lies_on(-1, parts_[k], parts_[i].part); }) &&
+                        !behind.of(k, [&] { return lies_on(1, parts_[i], parts_[k].part); }))
+                      arcs[i].push_back(k);
+                    return false;
+                  });
+      }
     });
     return arcs;
   }
 
  private:
-  std::array<const Plane*, 2> planes_of(const Sources::OfEdge& s) const {
-    return {contours_[s.contour].plane, contours_[s.contour].other};
-  }
-  // But for an end upon the plane.
-  static bool lies_on(int side, const Plane* h, const EdgePart& part) {
-    if (!h) return false;
-    const int lo = side * h->side(*part.lo), hi = side * h->side(*part.hi);
-    return lo >= 0 && hi >= 0 && lo + hi > 0;
-  }
-  // Ways to one point of an edge come through no other point of it.
-  bool may_wait(const Sources::OfEdge& p, const Sources::OfEdge& q) const {
-    const auto of_p = planes_of(p), of_q = planes_of(q);
-    return contours_[p.contour].edge != contours_[q.contour].edge &&
-           std::none_of(of_q.begin(), of_q.end(), [&](const Plane* h) { return lies_on(-1, h, p.part); }) &&
-           std::none_of(of_p.begin(), of_p.end(), [&](const Plane* h) { return lies_on(1, h, q.part); });
+  // Each is decided once.
+  class Answers {
+   public:
+    explicit Answers(std::size_t n) : known_(n, Known::nothing) {}
+    template <class Decide>
+    bool of(std::uint32_t i, const Decide& decide) {
+      if (known_[i] == Known::nothing) known_[i] = decide() ? Known::yes : Known::no;
+      return known_[i] == Known::yes;
+    }
+
+   private:
+    enum class Known : std::uint8_t { nothing, yes, no };
+    std::vector<Known> known_;
+  };
+
+  // On that side of one of the planes of the edge that `s` is of, but for an end upon it.
+  bool lies_on(int side, const Sources::OfEdge& s, const EdgePart& part) const {
+    for (const Plane* h : {contours_[s.contour].plane, contours_[s.contour].other}) {
+      if (!h) continue;
+      const int lo = side * h->side(*part.lo), hi = side * h->side(*part.hi);
+      if (lo >= 0 && hi >= 0 && lo + hi > 0) return true;
+    }
+    return false;
   }
 
   const std::vector<ContourEdge>& contours_;
   const std::vector<Sources::OfEdge>& parts_;
-  std::vector<IntervalBox> ways_;  // from V to a part
+  std::vector<IntervalBox> ways_;                  // from V to a part
+  std::vector<std::vector<std::uint32_t>> edges_;  // the parts of each edge that has some
+  std::vector<std::uint32_t> edge_of_;             // among these
   BoxTree tree_;
 };
 
