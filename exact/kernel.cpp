@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
-#include <utility>
 
 namespace clues::exact {
 
@@ -48,28 +47,26 @@ Point3 collapsed(const Point3& p) {
   return p;
 }
 
-namespace {
-
-using Exact = Kernel::Exact_kernel;
-
-Point3 leaf(Exact::Point_3&& p) {
-  return Point3(new CGAL::Lazy_rep_0<Kernel::Approximate_kernel::Point_3, Exact::Point_3, Kernel::E2A>(std::move(p)));
+Point3 to_lazy(const RationalKernel::Point_3& p) {
+  using Leaf = CGAL::Lazy_rep_0<Kernel::Approximate_kernel::Point_3, RationalKernel::Point_3, Kernel::E2A>;
+  return Point3(new Leaf(p));
 }
 
-Point3 zero_on_line(const Exact::Point_3& a, const Exact::Point_3& b, const Exact::FT& at_a, const Exact::FT& at_b) {
-  const Exact::FT t = at_a / (at_a - at_b);
-  return leaf(a + t * (b - a));
+namespace {
+
+using Rational = RationalKernel::FT;
+
+Point3 zero_on_line(const RationalKernel::Point_3& a, const RationalKernel::Point_3& b, const Rational& at_a,
+                    const Rational& at_b) {
+  const Rational t = at_a / (at_a - at_b);
+  return to_lazy(a + t * (b - a));
 }
 
 }  // namespace
 
-Point3 rational_point(const FT::Exact_type& x, const FT::Exact_type& y, const FT::Exact_type& z) {
-  return leaf({x, y, z});
-}
-
 Point3 crossing(const Plane3& h, const Point3& a, const Point3& b) {
-  const Exact::Plane_3& plane = h.exact();
-  const auto at = [&](const Exact::Point_3& p) -> Exact::FT {
+  const RationalKernel::Plane_3& plane = h.exact();
+  const auto at = [&](const RationalKernel::Point_3& p) -> Rational {
     return plane.a() * p.x() + plane.b() * p.y() + plane.c() * p.z() + plane.d();
   };
   return zero_on_line(a.exact(), b.exact(), at(a.exact()), at(b.exact()));

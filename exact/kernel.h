@@ -19,6 +19,9 @@ using Plane3 = Kernel::Plane_3;
 using Point2 = Kernel::Point_2;
 using Vector2 = Kernel::Vector_2;
 
+// Of plain rationals, in which the kernel decides what its intervals cannot.
+using RationalKernel = Kernel::Exact_kernel;
+
 enum class Side : signed char { negative = -1, on = 0, positive = 1 };
 
 inline Side to_side(CGAL::Sign s) { return static_cast<Side>(static_cast<int>(s)); }
@@ -46,7 +49,7 @@ FT collapsed(const FT& x);
 
 // Collapsed points that are made in rationals from the start: lazy numbers would make a node for each operation, and an
 // interval for each node.
-Point3 rational_point(const FT::Exact_type& x, const FT::Exact_type& y, const FT::Exact_type& z);
+Point3 to_lazy(const RationalKernel::Point_3& p);
 // Where a plane crosses the line ab, which is not parallel to it.
 Point3 crossing(const Plane3& h, const Point3& a, const Point3& b);
 // The point of the line ab where a linear form is zero that has these different values at a and b.

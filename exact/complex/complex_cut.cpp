@@ -39,15 +39,15 @@ Point2 drop_axis(const Point3& p, int axis, double unit) {
 }
 
 Point3 lift_axis(const Plane3& plane, const Point2& q, int axis, double unit) {
-  using Rational = FT::Exact_type;
-  const Kernel::Exact_kernel::Plane_3& h = plane.exact();
+  using Rational = RationalKernel::FT;
+  const RationalKernel::Plane_3& h = plane.exact();
   const Rational n[3] = {h.a(), h.b(), h.c()}, units(unit);
   const int u = (axis + 1) % 3, w = (axis + 2) % 3;
   Rational x[3];
   x[u] = q.exact().x() * units;
   x[w] = q.exact().y() * units;
   x[axis] = -(n[u] * x[u] + n[w] * x[w] + h.d()) / n[axis];
-  return rational_point(x[0], x[1], x[2]);
+  return to_lazy({x[0], x[1], x[2]});
 }
 
 int dominant_axis(const Vector3& normal) {

@@ -9,34 +9,41 @@ namespace {
 
 constexpr double kDenominators[kSimpleLevels] = {251, 65521, 16777213, 274877906857.0};
 
+using Rational = RationalKernel::FT;
+
 // none where doubles end, so far out that they are all whole
-std::optional<FT> rounded(double x, int level) {
+std::optional<Rational> rounded(double x, int level) {
   const double d = kDenominators[level], whole = std::nearbyint(x * d);
   if (!std::isfinite(whole)) return std::nullopt;
-  return FT(whole) / FT(d);
+  return Rational(Rational(whole) / Rational(d));
 }
 
 }  // namespace
 
-FT simple_near(const FT& x, int level) { return rounded(CGAL::to_double(x), level).value_or(x); }
+FT simple_near(const FT& x, int level) {
+  const auto near = rounded(CGAL::to_double(x), level);
+  return near ? FT(*near) : x;
+}
 
 std::optional<Point3> simple_in_triangle(const Point3& x, const std::array<Point3, 3>& corners, int level) {
   const auto& [a, b, c] = corners;
-  const int axis = dominant_axis(CGAL::cross_product(b - a, c - a));
-  const auto flat = [&](const Point3& p) {
-    const scene::Point d = to_double_estimate(p);
-    return std::array<double, 2>{d[static_cast<std::size_t>((axis + 1) % 3)],
-                                 d[static_cast<std::size_t>((axis + 2) % 3)]};
+  const scene::Point fa = to_double_estimate(a), fb = to_double_estimate(b), fc = to_double_estimate(c),
+                     fx = to_double_estimate(x);
+  // Twice the area of opq as seen along an axis.
+  const auto cross = [](const scene::Point& o, const scene::Point& p, const scene::Point& q, std::size_t axis) {
+    const std::size_t i = (axis + 1) % 3, k = (axis + 2) % 3;
+    return (p[i] - o[i]) * (q[k] - o[k]) - (p[k] - o[k]) * (q[i] - o[i]);
   };
-  const auto fa = flat(a), fb = flat(b), fc = flat(c), fx = flat(x);
-  const auto cross = [](const auto& o, const auto& p, const auto& q) {
-    return (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
-  };
-  const double area = cross(fa, fb, fc);
+  std::size_t axis = 0;
+  for (const std::size_t i : {1U, 2U}) {
+    if (std::fabs(cross(fa, fb, fc, i)) > std::fabs(cross(fa, fb, fc, axis))) axis = i;
+  }
+  const double area = cross(fa, fb, fc, axis);
   if (area == 0) return std::nullopt;
-  const auto u = rounded(cross(fa, fx, fc) / area, level), w = rounded(cross(fa, fb, fx) / area, level);
-  if (!u || !w || !CGAL::is_positive(*u) || !CGAL::is_positive(*w) || *u + *w >= FT(1)) return std::nullopt;
-  return collapsed(a + *u * (b - a) + *w * (c - a));
+  const auto u = rounded(cross(fa, fx, fc, axis) / area, level), w = rounded(cross(fa, fb, fx, axis) / area, level);
+  if (!u || !w || sgn(*u) <= 0 || sgn(*w) <= 0 || *u + *w >= 1) return std::nullopt;
+  const RationalKernel::Point_3 &o = a.exact(), &p = b.exact(), &q = c.exact();
+  return to_lazy(o + *u * (p - o) + *w * (q - o));
 }
 
 Point3 simple_between(const Point3& a, const Point3& b, const Point3& lo, const Point3& hi) {
