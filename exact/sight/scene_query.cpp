@@ -129,16 +129,26 @@ SegmentAnswer SceneQuery::crossings(const Point3& v, const Point3& p, bool off_p
     const Crossing::Kind kind = crossing.at(t);
     if (is_degenerate(kind, t)) return answer;
     if (kind == Crossing::Kind::none) continue;
-    const FT at_end = value_at(complex_->planes[t], p), at_start = value_at(complex_->planes[t], v);
-    const FT s = at_start / (at_start - at_end);
-    if (cell_->dimension() == 3 && meets_cell_[t] && cell_->interior_contains(v + s * (p - v))) continue;
-    answer.hits.push_back({t, s});
+    if (const std::optional<Hit> hit = hit_outside(v, p, t)) answer.hits.push_back(*hit);
   }
   std::sort(answer.hits.begin(), answer.hits.end(), [](const Hit& x, const Hit& y) { return x.t < y.t; });
   for (std::size_t i = 1; i < answer.hits.size(); ++i) {
     if (answer.hits[i - 1].t == answer.hits[i].t) answer.degenerate = true;
   }
   return answer;
+}
+
+std::optional<Hit> SceneQuery::hit_outside(const Point3& v, const Point3& p, std::uint32_t crossed) const {
+  const Plane3& plane = complex_->planes[crossed];
+  const FT at_end = value_at(plane, p), at_start = value_at(plane, v);
+  const FT s = at_start / (at_start - at_end);
+  if (cell_->dimension() == 3 && meets_cell_[crossed] && cell_->interior_contains(v + s * (p - v))) return std::nullopt;
+  return Hit{crossed, s};
+}
+
+bool SceneQuery::meets(const Point3& v, const Point3& p, std::uint32_t occluder) const {
+  const Crossing::Kind kind = Crossing(*complex_, *cell_, v, p, false).at(occluder);
+  return kind == Crossing::Kind::degenerate || (kind == Crossing::Kind::clean && hit_outside(v, p, occluder));
 }
 
 bool SceneQuery::is_free(const Point3& v, const Point3& p) const {

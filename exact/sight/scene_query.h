@@ -46,6 +46,9 @@ class SceneQuery {
   SegmentAnswer crossings(const Point3& v, const Point3& p, bool off_planes = false,
                           std::optional<std::uint32_t> first = std::nullopt) const;
 
+  // Whether crossings(v, p) finds something at that occluder: a hit, or what is degenerate. O(1).
+  bool meets(const Point3& v, const Point3& p, std::uint32_t occluder) const;
+
   // Whether the open segment (v,p) meets no closed piece outside int V (D5): exact for every two points, never degenerate.
   bool is_free(const Point3& v, const Point3& p) const;
 
@@ -66,6 +69,8 @@ class SceneQuery {
   const ConvexCell& cell() const { return *cell_; }
 
  private:
+  std::optional<Hit> hit_outside(const Point3& v, const Point3& p, std::uint32_t crossed) const;  // none in int V
+
   const Complex* complex_;
   const ConvexCell* cell_;
   BoxTree tree_;                          // over occluders_

@@ -1,5 +1,6 @@
 // Where a walk (D14) would go on for ever: grooves, corners, and their slices where the cell is a segment. walk.h argues.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "exact/complex/simple_point.h"
@@ -103,13 +104,13 @@ bool Walker::touches_only(std::uint32_t edge, const SurfaceSide& one, const Surf
 
 std::optional<Point3> Walker::along_groove(const Point3& p, const SurfaceSide& on, const SurfaceSide& before,
                                            const Point3& end) const {
-  constexpr int kPulls = 64;
-  Point3 v = choose(0, anchor_beyond(on, nullptr), [&](const Point3& x) { return CGAL::is_positive(height(on, x)); });
-  for (int i = 0; i < kPulls; ++i, v = exact::collapsed(end + (v - end) / FT(8))) {
-    const exact::SegmentAnswer answer = scene_->crossings(v, p);
-    if (!answer.degenerate && std::none_of(answer.hits.begin(), answer.hits.end(),
-                                           [&](const exact::Hit& hit) { return hit.piece == before.piece; }))
-      return v;
+  // Ever nearer to the end, by powers of 8; mostly the first ones will do, or none, as the wall before holds the end.
+  constexpr int kPulls[] = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 63};
+  const Point3 far =
+      choose(0, anchor_beyond(on, nullptr), [&](const Point3& x) { return CGAL::is_positive(height(on, x)); });
+  for (const int pull : kPulls) {
+    const Point3 v = exact::collapsed(end + FT(std::ldexp(1, -3 * pull)) * (far - end));
+    if (!scene_->meets(v, p, before.piece) && !scene_->crossings(v, p).degenerate) return v;
   }
   return std::nullopt;
 }
