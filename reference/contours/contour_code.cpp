@@ -107,7 +107,7 @@ class SideCoder {
     const auto& points = drawn_.points();
     const auto known = std::find_if(points.begin(), points.end(), [&](const auto& p) { return p.flat == flat; });
     if (known != points.end()) return static_cast<std::uint32_t>(known - points.begin());
-    const Point3 at = exact::collapsed(drawn_.frame().lift(flat));
+    const Point3 at = drawn_.frame().lift(flat);
     ContourPoint named = name_of(at, flat);
     ++(named.kind == ContourPoint::Kind::in_full ? counts_.in_full : counts_.by_labels);
     if (const auto edge = scene::edge_that_gets(named)) drawings_.on_scene_edge(out_.side / 2, *edge).push_back(at);

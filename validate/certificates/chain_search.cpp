@@ -154,7 +154,7 @@ class ChainSearch::Impl {
     const auto meet = [&](const Point3& a, const Point3& b) -> std::optional<Point3> {
       const FT at_a = n * CGAL::cross_product(d, a - w.center), at_b = n * CGAL::cross_product(d, b - w.center);
       if (CGAL::sign(at_a) * CGAL::sign(at_b) > 0) return std::nullopt;
-      return at_a == at_b ? a : exact::collapsed(a + (at_a / (at_a - at_b)) * (b - a));
+      return at_a == at_b ? a : exact::zero_on_line(a, b, at_a, at_b);
     };
     if (w.kind != WedgeKind::se_mv) {
       const std::optional<Point3> y = meet(w.near0, w.near1);

@@ -51,7 +51,7 @@ FlatSet set_around(const Turns& border, const reference::TriangleFrame& frame) {
 bool lies_at_the_border(const Face2& face, const fastpath::LitRegion& region, const reference::TriangleFrame& frame) {
   std::vector<Point2> corners;
   for (const Point2& q : face[0]) {
-    const auto at = exact::collapsed(frame.lift(q));
+    const auto at = frame.lift(q);
     corners.emplace_back(at[region.axes[0]], at[region.axes[1]]);
   }
   return std::any_of(region.border.begin(), region.border.end(), [&](const auto& edge) {

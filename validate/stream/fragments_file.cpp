@@ -57,7 +57,7 @@ FragmentsRecord fragments_of(const scene::TriangleMesh& mesh, const std::vector<
       reference::Rings3& rings = regions.emplace_back();
       for (const reference::Ring2& ring : face) {
         rings.emplace_back();
-        for (const exact::Point2& q : ring) rings.back().push_back(exact::collapsed(frame.lift(q)));
+        for (const exact::Point2& q : ring) rings.back().push_back(frame.lift(q));
         if (!sides[s].front) std::reverse(rings.back().begin(), rings.back().end());
       }
       side_of.push_back(s);

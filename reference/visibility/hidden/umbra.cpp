@@ -313,8 +313,7 @@ class Builder {
       if (at_a == CGAL::ON_ORIENTED_BOUNDARY) {
         ends.push_back(a);
       } else if (at_b != CGAL::ON_ORIENTED_BOUNDARY && at_a != at_b) {
-        const FT u = exact::value_at(plane, a), w = exact::value_at(plane, b);
-        ends.push_back(a + (u / (u - w)) * (b - a));
+        ends.push_back(exact::crossing(plane, a, b));
       }
     }
     if (ends.size() != 2) return std::nullopt;  // touches in a corner

@@ -40,7 +40,7 @@ class TriangleFrame {
   const exact::Kernel::Triangle_2& flat() const { return flat_; }
   Ring2 outline() const { return {flat_[0], flat_[1], flat_[2]}; }  // of flat()
   exact::FT twice_area() const { return reference::twice_area(outline()); }
-  // The point of the piece's plane that is laid there.
+  // The point of the piece's plane that is laid there. Collapsed.
   exact::Point3 lift(const exact::Point2& q) const { return frame_.lifted(plane_, q); }
 
  private:
