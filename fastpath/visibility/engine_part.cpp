@@ -22,6 +22,8 @@ class EnginePart : public PartialMap {
     return map_.label_beside(triangle, about);
   }
 
+  bool piece_may_touch(const Corners& triangle) const override { return map_.piece_may_touch(triangle); }
+
   const LocalMap& map() const { return map_; }
 
  private:
@@ -43,13 +45,14 @@ Box outside_of(const Bvh& bvh) {
 }
 
 ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
-                            const Box& outside, std::span<const std::uint32_t> guess) {
+                            const Box& outside, std::span<const std::uint32_t> guess,
+                            std::span<const std::uint8_t> counting) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   exact::CutMemory memory;
   const auto make_map = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids) {
     return std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, options, &outside));
   };
-  return {close_over_visible(bvh, Cell(exact_cell), make_map, kMappedWhole, options.dials, guess)};
+  return {close_over_visible(bvh, Cell(exact_cell), make_map, kMappedWhole, options.dials, guess, counting)};
 }
 
 }  // namespace clues::fastpath

@@ -22,6 +22,7 @@ Box outside_of(const Bvh& bvh);
 
 // `outside`: all places that the map will be asked about.
 ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
-                            const Box& outside, std::span<const std::uint32_t> guess = {});
+                            const Box& outside, std::span<const std::uint32_t> guess = {},
+                            std::span<const std::uint8_t> counting = {});
 
 }  // namespace clues::fastpath

@@ -41,9 +41,9 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
   for (const auto t : guess) {
     if (const auto at = scene.find_blocking(t)) guessed.push_back(*at);
   }
-  const ClosedScene closed =
-      close_by_engine(scene.blocking(), cell, options,
-                      scene::hull_of(outside_of(scene.blocking()), outside_of(scene.passing())), guessed);
+  const ClosedScene closed = close_by_engine(scene.blocking(), cell, options,
+                                             scene::hull_of(outside_of(scene.blocking()), outside_of(scene.passing())),
+                                             guessed, scene.blocking_that_count());
   SeeThroughList list;
   for (const auto t : closed.map().visible()) list.blocking.push_back(scene.blocking_id(closed.closure.part[t]));
   auto passing = not_proved_dark(scene.passing(), closed.closure, scene.blocking(), Cell(cell));
@@ -67,7 +67,9 @@ SeeThroughScene::SeeThroughScene(scene::FlaggedMesh scene)
       blocking_(scene::part_of(scene_.mesh, blocking_ids_)),
       passing_(scene::part_of(scene_.mesh, passing_ids_)),
       blocking_tree_(blocking_),
-      passing_tree_(passing_) {}
+      passing_tree_(passing_) {
+  for (const std::uint32_t t : blocking_ids_) counting_.push_back(scene_.counting(t) ? 1 : 0);
+}
 
 std::optional<std::uint32_t> SeeThroughScene::find_blocking(std::uint32_t id) const {
   const auto at = std::lower_bound(blocking_ids_.begin(), blocking_ids_.end(), id);

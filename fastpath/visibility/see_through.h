@@ -33,10 +33,13 @@ class SeeThroughScene {
   std::uint32_t blocking_id(std::uint32_t triangle) const { return blocking_ids_[triangle]; }
   std::uint32_t passing_id(std::uint32_t triangle) const { return passing_ids_[triangle]; }
   std::optional<std::uint32_t> find_blocking(std::uint32_t id) const;  // and back
+  // For each triangle of the blocking tree whether it counts.
+  std::span<const std::uint8_t> blocking_that_count() const { return counting_; }
 
  private:
   scene::FlaggedMesh scene_;
   std::vector<std::uint32_t> blocking_ids_, passing_ids_;
+  std::vector<std::uint8_t> counting_;
   scene::TriangleMesh blocking_, passing_;
   Bvh blocking_tree_, passing_tree_;
 };

@@ -70,6 +70,10 @@ class ReferencePart : public fastpath::PartialMap {
     if (touches(triangle.bbox(), triangle, in_plane)) return SetLabel::visible;
     return touches(to_bbox(about), box_of(about), in_plane) ? SetLabel::elsewhere : label_at(about, corners);
   }
+  bool piece_may_touch(const fastpath::Corners& t) const override {
+    const Triangle3 triangle(exact::to_exact(t[0]), exact::to_exact(t[1]), exact::to_exact(t[2]));
+    return triangle.is_degenerate() || touches(triangle.bbox(), triangle);
+  }
 
  private:
   // In the middle of the box, for all of the corners' hull.

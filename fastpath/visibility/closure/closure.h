@@ -5,10 +5,16 @@
 // So Omega(S) is closed under continuation in K, which makes Omega(K) a subset of Omega(S); then x in Omega(K) is in Omega(S), and Omega(K) is closed under continuation
 // in S, which makes it a superset. (What S has of measure zero in Omega(S) changes K's map by measure zero.)
 //
-// So: guess K by sampled rays, map K, and then prove of every other triangle that it lies outside Omega(K). Such a triangle has no point in Omega(S) either if K holds all
-// that has: that is how the loop ends, for then K is as the theorem wants it. (Were a triangle outside K in Omega(S), take the first one that a chain of D9 reaches: up to
-// there the chain runs in Omega(K), so that triangle meets Omega(K), and the proof would have failed.) A box that no lit triangle of K and no wedge of K touches is of one
-// label, so one point proves a whole subtree of the BVH dark. Where a proof fails K grows by what is in front, and the loop runs again; K may hold too much.
+// For any part K, Omega(S) lies in Omega(K): along a chain of D9 C(x,v) in S is a beginning of that in K. So a triangle that is proved to lie outside Omega(K) is dark for good, whatever
+// K is mapped next.
+//
+// So: guess K by sampled rays, map K, and then prove of every other triangle that it lies outside Omega(K). A box that no lit triangle of K and no wedge of K touches is of one
+// label, so one point proves a whole subtree of the BVH dark. Where a proof fails K grows by what is in front. What light does not touch in K is dark and leaves it: no wedge ends there, so
+// the map is the same without it. Then the loop runs again with what is left. When nothing is, K is as the theorem wants it, as only what is dark is not in it; K may hold too much.
+//
+// Where some triangles do not count (D22: the hulls of a level) nobody needs a proof about them: the loop ends when those that count are mapped or proved, and what light meets in
+// Omega(K) is listed, of which Omega(S) is a part. It may be more: light may come past what was left out. So that little does, K grows, too, by those without a proof that sight lines meet on
+// their way to what is asked about, or is listed and has been seen by no ray (once each).
 #pragma once
 
 #include <cstdint>
@@ -39,7 +45,9 @@ class PartialMap {
   virtual SetLabel label(const Box& box) const = 0;
   // The same for the inside of a triangle that no visible one meets. It is asked at middle_of(about); `about` holds a point of the inside, and no visible triangle touches it.
   virtual SetLabel label_of_inside(const Corners& triangle, const Box& about) const = 0;
-  // The same for what is right beside the inside of a triangle, on the side of middle_of(about), which is not in its plane. Visible ones may meet the inside, or touch `about`, only if they
+  // False only if no wedge piece touches the closed triangle.
+  virtual bool piece_may_touch(const Corners& triangle) const = 0;
+  // The same as label_of_inside for what is right beside the inside of a triangle, on the side of middle_of(about), which is not in its plane. Visible ones may meet the inside, or touch `about`, only if they
   // lie in that plane.
   virtual SetLabel label_beside(const Corners& triangle, const Box& about) const = 0;
 };
@@ -48,13 +56,13 @@ class PartialMap {
 using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(const scene::TriangleMesh& part,
                                                                         const std::vector<std::uint32_t>& ids)>;
 
-// Cheap figures about how the answer came about.
+// Cheap figures about how the answer came about, over all passes.
 struct ClosureCounts {
-  std::uint64_t passes = 0;          // maps made
-  std::uint64_t rays = 0;            // first hits asked for
-  std::uint64_t boxes_dark = 0;      // subtrees proved dark as a whole, in the last pass
-  std::uint64_t boxes_opened = 0;    // in the last pass
-  std::uint64_t triangles_dark = 0;  // proved dark one by one, in the last pass
+  std::uint64_t passes = 0;      // maps made
+  std::uint64_t rays = 0;        // first hits asked for
+  std::uint64_t boxes_dark = 0;  // subtrees proved dark as a whole
+  std::uint64_t boxes_opened = 0;
+  std::uint64_t triangles_dark = 0;  // proved dark one by one
 };
 
 struct Closure {
@@ -81,9 +89,10 @@ std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& clo
 
 // Deterministic for any number of threads of the current arena. Scenes of up to `whole` triangles are mapped as they are, unless the first guess is on a dial.
 // `guess`: triangles that are mapped from the start, for instance what a neighbour sees; whatever it is, the answer is a closed one.
+// `counting`: for each triangle whether it is asked about; none: all are. Of the others the list holds some that are dark, and not all that are lit.
 // O(passes * (map of K + boxes next to lit space)).
 Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map,
                            std::size_t whole = kMappedWhole, const exact::Dials& dials = {},
-                           std::span<const std::uint32_t> guess = {});
+                           std::span<const std::uint32_t> guess = {}, std::span<const std::uint8_t> counting = {});
 
 }  // namespace clues::fastpath

@@ -49,23 +49,31 @@ Point point_of_cell(const Cell& cell, Numbers& random) {
   return p;
 }
 
+bool is_finite(const Segment& s) {
+  const auto finite = [](double x) { return std::isfinite(x); };
+  return std::all_of(s.a.begin(), s.a.end(), finite) && std::all_of(s.b.begin(), s.b.end(), finite);
+}
+
 }  // namespace
+
+// Counts them.
+std::size_t SightRays::within_budget(std::size_t count) {
+  if (budget_ != exact::Dials::kOwn) count = std::min<std::size_t>(count, static_cast<std::uint64_t>(budget_) - count_);
+  count_ += count;
+  return count;
+}
 
 template <class RayOf>
 std::vector<std::uint32_t> SightRays::first_hits(std::size_t count, const RayOf& ray_of) {
   std::vector<std::uint32_t> met(count, kNothing);
-  if (budget_ != exact::Dials::kOwn) count = std::min<std::size_t>(count, static_cast<std::uint64_t>(budget_) - count_);
-  count_ += count;
+  count = within_budget(count);
   const Except except{{}, cell_is_empty_ ? nullptr : &cell_};
   tbb::enumerable_thread_specific<SegmentQueries> queries(std::cref(bvh_));
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 64), [&](const tbb::blocked_range<std::size_t>& range) {
     SegmentQueries& mine = queries.local();
     for (std::size_t i = range.begin(); i < range.end(); ++i) {
       const Segment ray = ray_of(i);
-      const auto finite = [](const Point& p) {
-        return std::all_of(p.begin(), p.end(), [](double x) { return std::isfinite(x); });
-      };
-      if (finite(ray.a) && finite(ray.b)) met[i] = mine.first_hit(ray, except).value_or(kNothing);
+      if (is_finite(ray)) met[i] = mine.first_hit(ray, except).value_or(kNothing);
     }
   });
   return met;
@@ -110,20 +118,39 @@ std::vector<std::uint32_t> SightRays::beside(std::span<const std::uint32_t> tria
   });
 }
 
+Segment SightRays::ray_towards(std::uint32_t triangle, std::size_t number, std::size_t of,
+                               std::uint64_t purpose) const {
+  Numbers random(purpose, triangle * of + number);
+  const Corners t = bvh_.corners(triangle);
+  Segment ray{point_of_cell(cell_, random), {}};
+  // Closer to one corner or less: what is seen of a triangle in part, is most often its corners.
+  const std::size_t corner = number % 3;
+  const double size = std::exp2(-5 * random.unit()), u = size * random.unit(), v = (size - u) * random.unit();
+  for (std::size_t k = 0; k < 3; ++k)
+    ray.b[k] = (1 - u - v) * t[corner][k] + u * t[(corner + 1) % 3][k] + v * t[(corner + 2) % 3][k];
+  return ray;
+}
+
 std::vector<std::uint32_t> SightRays::towards(std::span<const std::uint32_t> triangles) {
-  return first_hits(kTowards * triangles.size(), [&](std::size_t i) {
-    const std::uint32_t triangle = triangles[i / kTowards];
-    Numbers random(3, triangle * kTowards + i % kTowards);
-    const Corners t = bvh_.corners(triangle);
-    const Point from = point_of_cell(cell_, random);
-    // Closer to one corner or less: what is seen of a triangle in part, is most often its corners.
-    const std::size_t corner = i % 3;
-    const double size = std::exp2(-5 * random.unit()), u = size * random.unit(), v = (size - u) * random.unit();
-    Segment ray{from, {}};
-    for (std::size_t k = 0; k < 3; ++k)
-      ray.b[k] = (1 - u - v) * t[corner][k] + u * t[(corner + 1) % 3][k] + v * t[(corner + 2) % 3][k];
-    return ray;
+  return first_hits(kTowards * triangles.size(),
+                    [&](std::size_t i) { return ray_towards(triangles[i / kTowards], i % kTowards, kTowards, 3); });
+}
+
+std::vector<std::uint32_t> SightRays::all_towards(std::span<const std::uint32_t> triangles) {
+  const std::size_t count = within_budget(kAllTowards * triangles.size());
+  tbb::enumerable_thread_specific<SegmentQueries> queries(std::cref(bvh_));
+  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> met;
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const Segment ray = ray_towards(triangles[i / kAllTowards], i % kAllTowards, kAllTowards, 4);
+    if (!is_finite(ray)) return;
+    const std::vector<std::uint32_t> hits = queries.local().all_hits(ray);
+    met.local().insert(met.local().end(), hits.begin(), hits.end());
   });
+  std::vector<std::uint32_t> all;
+  for (const auto& hits : met) all.insert(all.end(), hits.begin(), hits.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
 }  // namespace clues::fastpath

@@ -29,10 +29,15 @@ class SightRays {
   static constexpr std::size_t kTowards = 4;
   static constexpr std::uint32_t kNothing = ~0U;
   std::vector<std::uint32_t> towards(std::span<const std::uint32_t> triangles);
+  // All that such rays meet before they get there, ascending; kAllTowards of them for each.
+  static constexpr std::size_t kAllTowards = 16;
+  std::vector<std::uint32_t> all_towards(std::span<const std::uint32_t> triangles);
 
   std::uint64_t count() const { return count_; }
 
  private:
+  Segment ray_towards(std::uint32_t triangle, std::size_t number, std::size_t of, std::uint64_t purpose) const;
+  std::size_t within_budget(std::size_t count);
   template <class RayOf>
   std::vector<std::uint32_t> first_hits(std::size_t count, const RayOf& ray_of);
 

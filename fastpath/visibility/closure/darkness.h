@@ -1,0 +1,72 @@
+// Proofs that triangles lie outside Omega(K) (D9): what the closure (closure.h) asks of the map of a part K of a scene.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "exact/box_tree.h"
+#include "fastpath/visibility/closure/closure.h"
+
+namespace clues::fastpath {
+
+// Child `lane` of a node of a tree in the coordinates of the scene, rounded outward.
+Box child_box(const LocalFrame& frame, const BoxLanes& node, std::size_t lane);
+
+// The triangles of K that are lit, as boxes: all that light meets. What is dark in K stops no light, and need not be in K.
+class LitTriangles {
+ public:
+  LitTriangles(const Bvh& bvh, std::span<const std::uint32_t> ids);
+
+  // Conservative: a box and the plane of a triangle beside it. Those in the plane of `aside` are not asked about.
+  bool may_touch(const Box& box, const Corners* aside = nullptr) const;
+  // Conservative: the boxes and the planes of two closed triangles.
+  bool may_touch(const Corners& t) const;
+  // Whether one may have a point inside t, which is none of them: only some that lie in its plane, or others.
+  enum class Meets : std::uint8_t { nothing, in_plane, across };
+  Meets may_meet_inside(const Corners& t) const;
+
+ private:
+  std::vector<std::uint32_t> near(const Box& box) const;
+
+  std::vector<Corners> corners_;
+  exact::BoxTree tree_;
+};
+
+// What has been proved dark of a tree. A triangle outside of Omega(K) is outside of Omega(S), whatever part of S the map was made of: so this is kept from pass to pass.
+struct ProvedDark {
+  explicit ProvedDark(const Bvh& tree)
+      : nodes(tree.nodes().size(), 0), blocks(tree.blocks().size(), 0), triangles(tree.mesh().triangles.size(), 0) {}
+  // All that is below a node, in a block of triangles; one triangle.
+  std::vector<std::uint8_t> nodes, blocks, triangles;
+};
+
+class Darkness {
+ public:
+  // Keeps references. `visible`: all triangles of the scene that light meets in the map, ascending.
+  Darkness(const PartialMap& map, const Bvh& scene, std::span<const std::uint32_t> visible, std::span<const Point> cell)
+      : map_(map), lit_(scene, visible), cell_(cell) {}
+
+  using Which = std::function<bool(std::uint32_t triangle)>;
+  // The triangles of the tree for which there is no proof, but for those that are skipped or proved before. No more levels of the tree are opened once there are `enough`, of which at
+  // least one counts. Marks what is proved.
+  std::vector<std::uint32_t> not_proved(const Bvh& tree, const Which& skip, const Which& counts, std::size_t enough,
+                                        ProvedDark& proved, ClosureCounts& figures) const;
+
+  // Of a triangle of K that light does not meet: whether neither a lit triangle nor a wedge piece touches the closed triangle either.
+  bool untouched(const Corners& t) const { return !lit_.may_touch(t) && !map_.piece_may_touch(t); }
+
+ private:
+  bool dark(const Box& box) const { return !lit_.may_touch(box) && map_.label(box) == SetLabel::hidden; }
+  bool dark(const Corners& t) const;
+  bool dark_inside(const Corners& t) const;
+  bool dark_beside(const Corners& t, int side) const;
+  bool cell_on_one_side(const Corners& t) const;
+
+  const PartialMap& map_;
+  LitTriangles lit_;
+  std::span<const Point> cell_;
+};
+
+}  // namespace clues::fastpath
