@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -35,10 +36,12 @@ const exact::Dials kByProofsAlone = [] {
 }();
 
 fastpath::Closure close(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell, PartBug bug,
-                        const exact::Dials& dials = {}) {
+                        const exact::Dials& dials = {}, const std::vector<std::uint32_t>& guess = {},
+                        const std::vector<std::uint8_t>& counting = {}) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   const fastpath::Bvh bvh(mesh);
-  return fastpath::close_over_visible(bvh, fastpath::Cell(cell), reference_parts(exact_cell, bug), 0, dials);
+  return fastpath::close_over_visible(bvh, fastpath::Cell(cell), reference_parts(exact_cell, bug), 0, dials, guess,
+                                      counting);
 }
 
 Both both(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) {
@@ -102,6 +105,16 @@ TEST(Closure, FindsWhatRaysMissAndIsNoBetterThanItsProofs) {
   for (const PartBug bug : {PartBug::dark_everywhere, PartBug::wedges_touch_nothing}) {
     EXPECT_EQ(close(mesh, cell, bug).visible.size(), whole.size() - 1);
   }
+  // Only what is behind the screen is asked about: strips of the screen that no ray meets need not be listed.
+  std::vector<std::uint8_t> counting(mesh.triangles.size(), 0);
+  counting.end()[-1] = counting.end()[-2] = 1;
+  const auto behind_listed = [&](PartBug bug) {
+    const auto listed = close(mesh, cell, bug, {}, {}, counting).visible;
+    return std::count_if(listed.begin(), listed.end(), [&](std::uint32_t t) { return counting[t] != 0; });
+  };
+  EXPECT_EQ(behind_listed(PartBug::none), 2);
+  EXPECT_EQ(behind_listed(PartBug::dark_everywhere), 1);
+  EXPECT_EQ(behind_listed(PartBug::wedges_touch_nothing), 1);
 }
 
 // A plate over the cell, and a second face in it: light from below meets both. The plate is mapped first; the second has to fail its proof, which asks on both
@@ -179,6 +192,49 @@ TEST(Closure, WhatLightOnlyGrazesIsHidden) {
       EXPECT_EQ(answer.part.size() < scene.mesh.triangles.size(), guess != Guess::everything);
     }
   }
+}
+
+// All but one triangle are mapped from the start: most are dark, and leave with the first map.
+TEST(Closure, DropsWhatLightDoesNotTouch) {
+  const auto mesh = fuzz::make_city(300, 1);
+  const auto cell = fuzz::street_cell(300, 1);
+  const auto whole = reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(cell), {}).visible;
+  std::vector<std::uint32_t> guess(mesh.triangles.size());
+  std::iota(guess.begin(), guess.end(), 0U);
+  std::erase(guess, whole.back());
+  const auto closure = close(mesh, cell, PartBug::none, kByProofsAlone, guess);
+  EXPECT_EQ(closure.visible, whole);
+  EXPECT_EQ(closure.counts.passes, 2);
+  EXPECT_LT(closure.part.size(), guess.size() / 2);
+}
+
+// Every third triangle is asked about, or none. What the list holds of these is all that is visible, and little else; less is mapped than if all were asked about.
+TEST(Closure, NeedsNoProofOfWhatDoesNotCount) {
+  std::size_t mapped = 0, mapped_of_all = 0, listed = 0, visible = 0;
+  for (const auto kind : fuzz::all_kinds) {
+    const auto scene = fuzz::generate(kind, 20261125, 0);
+    SCOPED_TRACE(scene.name);
+    std::vector<std::uint8_t> counting(scene.mesh.triangles.size(), 0);
+    for (std::size_t t = 0; t < counting.size(); t += 3) counting[t] = 1;
+    const auto [whole, all] = both(scene.mesh, scene.cell);
+    for (const bool by_rays : {true, false}) {
+      const auto dials = by_rays ? exact::Dials{} : kByProofsAlone;
+      const auto closure = close(scene.mesh, scene.cell, PartBug::none, dials, {}, counting);
+      for (const std::uint32_t t : whole) {
+        EXPECT_TRUE(counting[t] == 0 || std::binary_search(closure.visible.begin(), closure.visible.end(), t)) << t;
+      }
+      if (!by_rays) continue;
+      const auto counts = [&](std::uint32_t t) { return counting[t] != 0; };
+      listed += static_cast<std::size_t>(std::count_if(closure.visible.begin(), closure.visible.end(), counts));
+      visible += static_cast<std::size_t>(std::count_if(whole.begin(), whole.end(), counts));
+      mapped += closure.part.size();
+      mapped_of_all += all.part.size();
+    }
+    std::fill(counting.begin(), counting.end(), 0);
+    EXPECT_EQ(close(scene.mesh, scene.cell, PartBug::none, kByProofsAlone, {}, counting).counts.passes, 1);
+  }
+  EXPECT_LE(mapped, mapped_of_all);
+  EXPECT_LE(listed, visible + visible / 10);
 }
 
 TEST(Closure, IsTheSameForAnyNumberOfThreads) {
