@@ -77,15 +77,30 @@ class Search::Work {
       if (!is_contour[e]) continue;
       for (const ExactPoint* p : new_cuts[e]) changed |= insert_cut(e, p);
     }
+    PieceSet fresh;
+    fresh.add(not_there_before(merged));
     set.clear();
     set.add(std::move(merged));
-    if (sources.ask_nearer()) changed = true;
+    if (sources.ask_nearer(fresh)) changed = true;
     if (!changed) {
       for (const auto& [e, p] : cuts_of_circles(scene, contours, sources.of_edges(), workers))
         changed |= insert_cut(e, p);
     }
     if (changed) set.clear();
     return changed;
+  }
+
+  // Of all pieces of a round, those that were none at the end of the one before. What they are made of is kept from round to round, so the same ones have the same addresses.
+  std::vector<ValidPiece> not_there_before(const std::vector<ValidPiece>& merged) {
+    const auto name = [](const ValidPiece& p) { return std::tuple(p.on, p.ray0, p.ray1, p.near0, p.near1, p.blocker); };
+    std::vector<ValidPiece> fresh;
+    std::copy_if(merged.begin(), merged.end(), std::back_inserter(fresh), [&](const ValidPiece& p) {
+      return !std::binary_search(pieces_before.begin(), pieces_before.end(), name(p));
+    });
+    pieces_before.clear();
+    for (const ValidPiece& p : merged) pieces_before.push_back(name(p));
+    std::sort(pieces_before.begin(), pieces_before.end());
+    return fresh;
   }
 
   // D17b.
@@ -461,6 +476,9 @@ class Search::Work {
   std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
   std::map<std::tuple<const OnWedge*, const ExactPoint*, std::uint32_t>, const ExactPoint*> coplanar_cuts;
   std::set<const Contact*> csvs_met;  // in this round
+  std::vector<
+      std::tuple<const OnWedge*, const ExactPoint*, const ExactPoint*, const ExactPoint*, const ExactPoint*, int>>
+      pieces_before;  // at the end of the round before
   std::set<const Contact*> left_out_contacts;
   LeftOut left_out;
   DoubtfulSources doubtful_sources;

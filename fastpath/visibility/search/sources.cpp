@@ -167,6 +167,7 @@ Sources::Place& Sources::place_of(std::size_t i) {
 void Sources::find_place(OfEdge& s, Pool& pool) {
   const std::optional<ExactPoint> beside = beside_edge(scene_, pieces_, contours_[s.contour], s.part, s.level);
   s.beside = beside ? pool.keep(*beside) : nullptr;
+  s.is_clear = false;
   s.stale = beside.has_value();
   if (beside) return;
   s.walk = Walk{};
@@ -193,12 +194,12 @@ bool Sources::newly_visible_by_walk(Source& s, std::size_t first, Pool& pool) {
 }
 
 // Whether a piece from number `first` on may divide the place from the part of the edge.
-bool Sources::is_cut_off(const OfEdge& s, std::size_t first) const {
-  return s.beside && pieces_.may_meet(*s.beside, *s.part.y, first, holds_edge(scene_, contours_[s.contour].edge));
+bool Sources::is_cut_off(const OfEdge& s, const PieceSet& by, std::size_t first) const {
+  return s.beside && by.may_meet(*s.beside, *s.part.y, first, holds_edge(scene_, contours_[s.contour].edge));
 }
 
 bool Sources::newly_visible(OfEdge& s, std::size_t first, Pool& pool) {
-  if (is_cut_off(s, first)) {
+  if (is_cut_off(s, pieces_, first)) {
     ++s.level;
     find_place(s, pool);
     if (s.stale) walk_from_place(s, pool);
@@ -238,15 +239,17 @@ Sources::Numbers Sources::newly_lit(std::size_t first, Light light) {
   return lit;
 }
 
-bool Sources::ask_nearer() {
+bool Sources::ask_nearer(const PieceSet& fresh) {
   const std::size_t edges = of_edges_.size();
   std::vector<char> nearer(edges + of_vertices_.size(), 0);
   workers_.for_each(nearer.size(), [&](std::size_t i, Workers::Worker& worker) {
     Place& s = place_of(i);
+    OfEdge* e = i < edges ? &of_edges_[i] : nullptr;
+    if (e) e->is_clear = e->lit && !is_cut_off(*e, e->is_clear ? fresh : pieces_, 0);
     if (!s.lit) return;
-    if (i < edges && is_cut_off(of_edges_[i], 0)) {
+    if (e && !e->is_clear) {
       ++s.level;
-      find_place(of_edges_[i], worker.pool);  // where none of the pieces that are there now is between
+      find_place(*e, worker.pool);  // where none of the pieces that are there now is between
     } else {
       if (!s.walk.has_places() || walker_.visible(s.walk, 0) == Crossing::yes) return;
       ++s.manner.seed;

@@ -40,6 +40,7 @@ class Sources {
   struct OfEdge : Place {
     std::size_t contour = 0;
     EdgePart part;
+    bool is_clear = false;  // no piece that there was at the end of the round before divides the place from the part
 
     OfEdge() { manner.seed = 0x51; }
   };
@@ -76,8 +77,8 @@ class Sources {
   };
   Numbers newly_lit(std::size_t first, Light light);
   // When a round has all its pieces: what is lit though a piece divides one of its places from what that stands for is asked nearer in the next round. Whether there is any. Then the round had
-  // light that is not there, and what it left undecided is asked again, too; the first few times.
-  bool ask_nearer();
+  // light that is not there, and what it left undecided is asked again, too; the first few times. `fresh`: those of the pieces that were not there at the end of the round before.
+  bool ask_nearer(const PieceSet& fresh);
 
   // When the rounds are over and all pieces there (D17b): nothing is lit. From here on only that can be which was, which keeps out of all that was left out, with its place and where its walk goes
   // beside a sight line, which no piece divides, and which sight lines show. Needs RoundedUp in scope. O(sources * what is left out).
@@ -107,7 +108,7 @@ class Sources {
   template <class Source>
   bool newly_visible_by_walk(Source& source, std::size_t first, Pool& pool);
   Place& place_of(std::size_t i);  // of edges, then of vertices
-  bool is_cut_off(const OfEdge& source, std::size_t first) const;
+  bool is_cut_off(const OfEdge& source, const PieceSet& by, std::size_t first) const;
 
   const LocalScene& scene_;
   const std::vector<ContourEdge>& contours_;
