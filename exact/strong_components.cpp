@@ -22,4 +22,25 @@ std::vector<std::vector<std::uint32_t>> circles_of(const std::vector<std::vector
   return members;
 }
 
+// Over the nodes stands a binary tree: an inner one has arcs to both below it, so that an arc to it is one to all nodes below. Children of number j are 2j and 2j + 1, and the
+// nodes themselves are the numbers from n on; a range is at most two inner ones of each level.
+std::vector<std::vector<std::uint32_t>> circles_of(const std::vector<std::vector<NodeRange>>& arcs) {
+  const auto n = static_cast<std::uint32_t>(arcs.size());
+  const auto node_of = [n](std::uint32_t number) { return number >= n ? number - n : number + n; };
+  std::vector<std::vector<std::uint32_t>> plain(2 * arcs.size());
+  for (std::uint32_t j = 1; j < n; ++j) plain[node_of(j)] = {node_of(2 * j), node_of(2 * j + 1)};
+  for (std::uint32_t v = 0; v < n; ++v) {
+    for (const NodeRange& range : arcs[v]) {
+      for (std::uint32_t low = range.begin + n, high = range.end + n; low < high; low /= 2, high /= 2) {
+        if (low % 2 != 0) plain[v].push_back(node_of(low++));
+        if (high % 2 != 0) plain[v].push_back(node_of(--high));
+      }
+    }
+  }
+  std::vector<std::vector<std::uint32_t>> circles = circles_of(plain);
+  for (auto& circle : circles) std::erase_if(circle, [n](std::uint32_t v) { return v >= n; });
+  std::erase_if(circles, [](const auto& circle) { return circle.size() < 2; });
+  return circles;
+}
+
 }  // namespace clues::exact

@@ -81,7 +81,7 @@ MUTATIONS = [
     ("fast-scene-blocks-inside-the-cell", "fastpath/local_scene.cpp", "    if (pieces[t].in_cell) continue;\n", ""),
     ("fast-sources-no-vertices", "fastpath/sources.cpp", "    if (is_vertex[v]) found[v]", "    if (is_vertex[v] && scene_.points.empty()) found[v]"),
     ("fast-sources-never-walk-again", "fastpath/sources.cpp", "if (s.stale || s.walk.end == Walk::End::crossed) walk_from_place", "if (s.stale) walk_from_place"),
-    ("fast-sources-never-nearer", "fastpath/search.cpp", "    if (sources.ask_nearer()) changed = true;\n", ""),
+    ("fast-sources-never-nearer", "fastpath/search.cpp", "    if (sources.ask_nearer(fresh)) changed = true;\n", ""),
     ("fast-search-one-round", "fastpath/search.cpp", "    while (round());", "    while (round() && false);"),
     ("fast-search-no-cuts", "fastpath/search.cpp", "      new_cuts[m.id].push_back(c->x);\n", ""),
     ("fast-search-no-circles", "fastpath/search.cpp", "        changed |= insert_cut(e, p);\n    }\n    if (changed) set.clear();", "        changed |= insert_cut(e, p) && false;\n    }\n    if (changed) set.clear();"),

@@ -1,7 +1,6 @@
 #include "fastpath/visibility/search/circles.h"
 
 #include <algorithm>
-#include <map>
 
 #include "exact/strong_components.h"
 
@@ -17,34 +16,40 @@ class Waiting {
       : contours_(contours), parts_(parts) {
     IntervalBox cell = scene.cell.vertices.front().approximate();
     for (const ExactPoint& v : scene.cell.vertices) cell = hull(cell, v.approximate());
-    std::map<std::uint32_t, std::vector<std::uint32_t>> by_edge;
-    for (std::uint32_t i = 0; i < parts.size(); ++i) by_edge[contours[parts[i].contour].edge].push_back(i);
-    edge_of_.resize(parts.size());
-    for (auto& [edge, of_edge] : by_edge) {
-      for (const std::uint32_t i : of_edge) edge_of_[i] = static_cast<std::uint32_t>(edges_.size());
-      edges_.push_back(std::move(of_edge));
+    std::vector<IntervalBox> boxes_of_runs;
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+      const IntervalBox box = hull(parts[i].part.lo->approximate(), parts[i].part.hi->approximate());
+      boxes_.push_back(box);
+      ways_.push_back(hull(box, cell));
+      if (i == 0 || parts[i].contour != parts[i - 1].contour) {
+        runs_.push_back({i, i});
+        boxes_of_runs.push_back(box);
+      }
+      runs_.back().end = i + 1;
+      boxes_of_runs.back() = hull(boxes_of_runs.back(), box);
     }
-    std::vector<IntervalBox> boxes;
-    for (const Sources::OfEdge& s : parts) {
-      boxes.push_back(hull(s.part.lo->approximate(), s.part.hi->approximate()));
-      ways_.push_back(hull(boxes.back(), cell));
-    }
-    tree_ = BoxTree(std::move(boxes));
+    tree_ = BoxTree(std::move(boxes_of_runs));
   }
 
-  std::vector<std::vector<std::uint32_t>> arcs(Workers& workers) const {
-    std::vector<std::vector<std::uint32_t>> arcs(parts_.size());
-    workers.for_each(edges_.size(), [&](std::size_t e, Workers::Worker&) {
+  // Of the parts of an edge, one after the other, those that a part may wait for follow each other, too: so do those that meet its ways in boxes, and a plane has one end of the edge on a side,
+  // and what lies between.
+  std::vector<std::vector<exact::NodeRange>> arcs(Workers& workers) const {
+    std::vector<std::vector<exact::NodeRange>> arcs(parts_.size());
+    workers.for_each(runs_.size(), [&](std::size_t r, Workers::Worker&) {
+      const std::uint32_t edge = edge_of(runs_[r]);
       Answers behind(parts_.size());  // what the parts of this edge cannot wait for
-      for (const std::uint32_t i : edges_[e]) {
-        Answers before(edges_.size());  // those whose parts part i cannot wait for
+      for (std::uint32_t i = runs_[r].begin; i < runs_[r].end; ++i) {
+        const auto may_wait_for = [&](std::uint32_t k) {
+          return overlap(boxes_[k], ways_[i]) && !behind.of(k, [&] { return lies_on(1, parts_[i], parts_[k].part); });
+        };
         tree_.any([&](const IntervalBox& box) { return overlap(box, ways_[i]); },
-                  [&](std::uint32_t k) {
-                    const std::uint32_t other = edge_of_[k];
-                    if (other == e) return false;  // ways to one point of an edge come through no other point of it
-                    if (!before.of(other, [&] { return lies_on(-1, parts_[k], parts_[i].part); }) &&
-                        !behind.of(k, [&] { return lies_on(1, parts_[i], parts_[k].part); }))
-                      arcs[i].push_back(k);
+                  [&](std::uint32_t other) {
+                    exact::NodeRange range = runs_[other];
+                    // Ways to one point of an edge come through no other point of it.
+                    if (edge_of(range) == edge || lies_on(-1, parts_[range.begin], parts_[i].part)) return false;
+                    while (range.begin < range.end && !may_wait_for(range.begin)) ++range.begin;
+                    while (range.begin < range.end && !may_wait_for(range.end - 1)) --range.end;
+                    if (range.begin < range.end) arcs[i].push_back(range);
                     return false;
                   });
       }
@@ -78,12 +83,13 @@ class Waiting {
     return false;
   }
 
+  std::uint32_t edge_of(const exact::NodeRange& run) const { return contours_[parts_[run.begin].contour].edge; }
+
   const std::vector<ContourEdge>& contours_;
   const std::vector<Sources::OfEdge>& parts_;
-  std::vector<IntervalBox> ways_;                  // from V to a part
-  std::vector<std::vector<std::uint32_t>> edges_;  // the parts of each edge that has some
-  std::vector<std::uint32_t> edge_of_;             // among these
-  BoxTree tree_;
+  std::vector<IntervalBox> boxes_, ways_;  // of a part, and of all from V to it
+  std::vector<exact::NodeRange> runs_;     // the parts of one contour edge after the other, along it
+  BoxTree tree_;                           // of these
 };
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace clues::fastpath {
 
 // The edges of parts that have to be cut, and points inside the parts at which; the pools of the workers keep these. Of whole circles, whether their parts are lit or not. The same for any number of
-// threads. Needs RoundedUp in scope. O(parts * parts in front of them).
+// threads. Needs RoundedUp in scope. O(parts * parts in front of them) tests of boxes; memory goes with the edges in front of each part.
 std::vector<std::pair<std::uint32_t, const ExactPoint*>> cuts_of_circles(const LocalScene& scene,
                                                                          const std::vector<ContourEdge>& contours,
                                                                          const std::vector<Sources::OfEdge>& parts,
