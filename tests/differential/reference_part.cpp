@@ -42,7 +42,9 @@ class ReferencePart : public fastpath::PartialMap {
     tree_ = exact::BoxTree(std::move(boxes));
   }
 
-  std::vector<std::uint32_t> visible() const override { return map_.visible; }
+  std::vector<std::uint32_t> visible() const override {
+    return bug_ == PartBug::unlit ? std::vector<std::uint32_t>{} : map_.visible;
+  }
   SetLabel label(const fastpath::Box& box) const override {
     if (wedge_may_touch(box)) return SetLabel::visible;
     std::vector<Point3> corners;
@@ -71,6 +73,7 @@ class ReferencePart : public fastpath::PartialMap {
     return touches(to_bbox(about), box_of(about), in_plane) ? SetLabel::elsewhere : label_at(about, corners);
   }
   bool piece_may_touch(const fastpath::Corners& t) const override {
+    if (bug_ == PartBug::unlit) return false;
     const Triangle3 triangle(exact::to_exact(t[0]), exact::to_exact(t[1]), exact::to_exact(t[2]));
     return triangle.is_degenerate() || touches(triangle.bbox(), triangle);
   }

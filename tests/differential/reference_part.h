@@ -9,8 +9,9 @@
 
 namespace clues::tests {
 
-// What a planted bug does to the answers. dark_below: so is what is right beside a triangle, on the side from which it is clockwise.
-enum class PartBug { none, dark_everywhere, wedges_touch_nothing, dark_below };
+// What a planted bug does to the answers. dark_below: so is what is right beside a triangle, on the side from which it is clockwise. unlit: no triangle is lit, and no wedge touches the triangles of
+// the part.
+enum class PartBug { none, dark_everywhere, wedges_touch_nothing, dark_below, unlit };
 
 fastpath::PartialMapMaker reference_parts(const exact::ConvexCell& cell, PartBug bug = PartBug::none);
 

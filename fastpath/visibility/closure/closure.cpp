@@ -27,9 +27,11 @@ class Closer {
         seen_(in_part_.size(), 0),
         looked_into_(in_part_.size(), 0) {}
 
-  // False if it was there.
+  // Whether the part may grow by it. What has left it is dark and never comes back, though a ray that begins beside the cell by a rounding meets it: so each pass has what none had before.
+  bool is_new(std::uint32_t triangle) const { return in_part_[triangle] == 0 && proved_.triangles[triangle] == 0; }
+  // False if it is not.
   bool add(std::uint32_t triangle) {
-    if (in_part_[triangle] != 0) return false;
+    if (!is_new(triangle)) return false;
     in_part_[triangle] = 1;
     part_.push_back(triangle);
     return true;
@@ -146,7 +148,7 @@ void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
     for (const std::uint32_t t : std::span(first, SightRays::kTowards)) {
       if (t == SightRays::kNothing) continue;
       seen_[t] = 1;
-      if (in_part_[t] != 0) continue;
+      if (!is_new(t)) continue;
       seen.push_back(t);
       fresh = true;
     }
