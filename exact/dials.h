@@ -1,5 +1,6 @@
 // Dials that make rare paths of both engines common, for tests and fuzzing; a user never turns one. With any setting the answer is sound (D7); where nothing that
-// is limited is reached it is the same as with none: the PVS and the areas, not necessarily how sides are cut into regions. Plain data: what a dial does is
+// is limited is reached it is the same as with none: the PVS and the areas, not necessarily how sides are cut into regions. (But where triangles block that do not count, what else the fast kernel
+// lists hangs on what it maps first: closure.h.) Plain data: what a dial does is
 // written where it is read.
 #pragma once
 

@@ -244,5 +244,14 @@ TEST(Found, AProofBesideATriangleAcrossTheWedgesOfACsvThatIsLeftOut) {
   EXPECT_EQ(closed.closure.visible, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 
+// A reader's scene: whether a ray sees something is a guess, and what is dark must not come back by it.
+TEST(Found, RaysThatBeginBesideAFlatCell) {
+  const fuzz::Case scene = scene_of("rays-beside-a-flat-cell.obj", "box:0,0,0.12499999999999,1,1.1,0.12499999999999");
+  const fastpath::FirstOrder answer = fastpath::first_order_visibility(fastpath::Bvh(scene.mesh), scene.cell, {}, {});
+  std::vector<std::uint32_t> below{0, 1};
+  for (std::uint32_t t = 44; t < 84; ++t) below.push_back(t);
+  EXPECT_EQ(answer.visible, below);
+}
+
 }  // namespace
 }  // namespace clues::tests

@@ -139,17 +139,17 @@ std::vector<std::uint32_t> SightRays::towards(std::span<const std::uint32_t> tri
 std::vector<std::uint32_t> SightRays::all_towards(std::span<const std::uint32_t> triangles) {
   const std::size_t count = within_budget(kAllTowards * triangles.size());
   tbb::enumerable_thread_specific<SegmentQueries> queries(std::cref(bvh_));
-  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> met;
+  tbb::enumerable_thread_specific<std::vector<std::uint8_t>> met(bvh_.mesh().triangles.size(), 0);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
     const Segment ray = ray_towards(triangles[i / kAllTowards], i % kAllTowards, kAllTowards, 4);
     if (!is_finite(ray)) return;
-    const std::vector<std::uint32_t> hits = queries.local().all_hits(ray);
-    met.local().insert(met.local().end(), hits.begin(), hits.end());
+    std::vector<std::uint8_t>& mine = met.local();
+    for (const std::uint32_t t : queries.local().all_hits(ray)) mine[t] = 1;
   });
   std::vector<std::uint32_t> all;
-  for (const auto& hits : met) all.insert(all.end(), hits.begin(), hits.end());
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  for (std::uint32_t t = 0; t < bvh_.mesh().triangles.size(); ++t) {
+    if (std::any_of(met.begin(), met.end(), [t](const auto& of_thread) { return of_thread[t] != 0; })) all.push_back(t);
+  }
   return all;
 }
 
