@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "exact/dials.h"
@@ -152,6 +153,18 @@ Bvh::Bvh(const scene::TriangleMesh& mesh) : mesh_(&mesh) {
       }
     }
   });
+}
+
+// The local box contains the exact triangles in exact local coordinates; dividing by a power of two is exact (or overflows to infinity, which is outward), the sum is rounded once.
+scene::Bounds Bvh::child_bounds(const BoxLanes& node, std::size_t lane) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  scene::Bounds box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.low[i] = std::nextafter(static_cast<double>(node.side[i][lane]) / frame_.scale + frame_.center[i], -kInfinity);
+    box.high[i] =
+        std::nextafter(static_cast<double>(node.side[i + 3][lane]) / frame_.scale + frame_.center[i], kInfinity);
+  }
+  return box;
 }
 
 }  // namespace clues::fastpath

@@ -9,6 +9,7 @@
 #include "fastpath/queries/box_lanes.h"
 #include "fastpath/queries/local_frame.h"
 #include "fastpath/queries/triangle_block.h"
+#include "scene/mesh/bounds.h"
 #include "scene/mesh/mesh.h"
 
 namespace clues::fastpath {
@@ -30,6 +31,8 @@ class Bvh {
   const LocalFrame& frame() const { return frame_; }
   const std::vector<BoxLanes>& nodes() const { return nodes_; }  // node 0 is the root; none for an empty scene
   const std::vector<TriangleBlock>& blocks() const { return blocks_; }
+  // Child `lane` of a node in the coordinates of the scene, rounded outward.
+  scene::Bounds child_bounds(const BoxLanes& node, std::size_t lane) const;
   static constexpr int kDeepest = 96;  // no path from the root has more nodes
 
  private:

@@ -12,10 +12,11 @@
 namespace clues::fastpath {
 namespace {
 
-std::vector<std::uint32_t> ids_that(const scene::FlaggedMesh& scene, bool block) {
+// T: what counts and does not block.
+std::vector<std::uint32_t> passing_ids(const scene::FlaggedMesh& scene) {
   std::vector<std::uint32_t> ids;
   for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-    if (block ? scene.blocking(t) : !scene.blocking(t) && scene.counting(t)) ids.push_back(t);
+    if (!scene.blocking(t) && scene.counting(t)) ids.push_back(t);
   }
   return ids;
 }
@@ -62,8 +63,8 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
 
 SeeThroughScene::SeeThroughScene(scene::FlaggedMesh scene)
     : scene_(std::move(scene)),
-      blocking_ids_(ids_that(scene_, true)),
-      passing_ids_(ids_that(scene_, false)),
+      blocking_ids_(scene::blocking_ids(scene_)),
+      passing_ids_(passing_ids(scene_)),
       blocking_(scene::part_of(scene_.mesh, blocking_ids_)),
       passing_(scene::part_of(scene_.mesh, passing_ids_)),
       blocking_tree_(blocking_),

@@ -259,13 +259,9 @@ class BakesTrial : public Trial {
 
   // Where triangles block that do not count, what else the fast kernel lists hangs on what it maps first (closure.h), unless that is all.
   static bool lists_hang_on_guesses(const scene::FlaggedMesh& scene) {
-    bool any = false;
-    std::size_t blocking = 0;
-    for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
-      any = any || (scene.blocking(t) && !scene.counting(t));
-      blocking += scene.blocking(t) ? 1 : 0;
-    }
-    return any && blocking > fastpath::kMappedWhole;
+    const Ids blocking = scene::blocking_ids(scene);
+    return blocking.size() > fastpath::kMappedWhole &&
+           std::any_of(blocking.begin(), blocking.end(), [&](std::uint32_t t) { return !scene.counting(t); });
   }
 
   // A group's list lacks triangles of which it sees a border and nothing else; T6 has these, too. They touch something that it sees. So where a list is larger than alone, the cell is mapped twice

@@ -53,9 +53,6 @@ class Closer {
   void add_with_neighbours(std::vector<std::uint32_t> seen);
   // Adds what sight lines to the triangles meet first; else the triangles themselves.
   void add_front_of(const std::vector<std::uint32_t>& triangles);
-  // Of those whose proof failed the ones that sight lines to the others meet on their way.
-  std::vector<std::uint32_t> in_the_way_of(const std::vector<std::uint32_t>& triangles,
-                                           std::vector<std::uint32_t> failed);
   void drop_untouched(const Darkness& darkness, const std::vector<std::uint32_t>& visible);
 
   const Bvh& bvh_;
@@ -81,7 +78,7 @@ void Closer::add_triangles_by_the_cell() {
     nodes.pop_back();
     for (std::size_t lane = 0; lane < BoxLanes::kWidth; ++lane) {
       const std::uint32_t child = node.child[lane];
-      if (child == BoxLanes::kEmpty || !touch(cell, child_box(bvh_.frame(), node, lane))) continue;
+      if (child == BoxLanes::kEmpty || !touch(cell, bvh_.child_bounds(node, lane))) continue;
       if ((child & BoxLanes::kLeaf) == 0) {
         nodes.push_back(child);
         continue;
@@ -147,22 +144,12 @@ void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
     bool fresh = false;
     for (const std::uint32_t t : std::span(first, SightRays::kTowards)) {
       if (t == SightRays::kNothing) continue;
-      seen_[t] = 1;
-      if (!is_new(t)) continue;
       seen.push_back(t);
-      fresh = true;
+      fresh = fresh || is_new(t);
     }
     if (!fresh) add(triangles[i]);
   }
   add_with_neighbours(std::move(seen));
-}
-
-std::vector<std::uint32_t> Closer::in_the_way_of(const std::vector<std::uint32_t>& triangles,
-                                                 std::vector<std::uint32_t> failed) {
-  const std::vector<std::uint32_t> met = rays_.all_towards(triangles);
-  std::sort(failed.begin(), failed.end());
-  std::erase_if(failed, [&](std::uint32_t t) { return !std::binary_search(met.begin(), met.end(), t); });
-  return failed;
 }
 
 void Closer::drop_untouched(const Darkness& darkness, const std::vector<std::uint32_t>& visible) {
@@ -178,7 +165,7 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   const Darkness darkness(map, bvh_, visible, cell_.vertices());
   const auto counts_in_list = [&](std::uint32_t t) { return counting_.empty() || counting_[t] != 0; };
   const std::size_t enough = failures_ > 0 ? failures_ : std::max(kFailures, kFailuresPerMapped * part_.size());
-  std::vector<std::uint32_t> failed = darkness.not_proved(
+  const std::vector<std::uint32_t> failed = darkness.not_proved(
       bvh_, [&](std::uint32_t t) { return in_part_[t] != 0; }, counts_in_list, enough, proved_, counts);
   std::vector<std::uint32_t> open;
   std::copy_if(failed.begin(), failed.end(), std::back_inserter(open), counts_in_list);
@@ -186,10 +173,15 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   drop_untouched(darkness, visible);
   if (open.size() < failed.size()) {
     std::vector<std::uint32_t> asked = open;
-    std::copy_if(visible.begin(), visible.end(), std::back_inserter(asked), [&](std::uint32_t t) {
-      return counts_in_list(t) && seen_[t] == 0 && std::exchange(looked_into_[t], 1) == 0;
-    });
-    for (const std::uint32_t t : in_the_way_of(asked, std::move(failed))) add(t);
+    for (const std::uint32_t t : visible) {
+      if (!counts_in_list(t) || seen_[t] != 0 || looked_into_[t] != 0) continue;
+      looked_into_[t] = 1;
+      asked.push_back(t);
+    }
+    const std::vector<std::uint8_t> in_the_way = rays_.met_towards(asked);
+    for (const std::uint32_t t : failed) {
+      if (in_the_way[t] != 0) add(t);
+    }
   }
   if (failures_ > 0) open.resize(std::min(open.size(), failures_));
   add_front_of(open);

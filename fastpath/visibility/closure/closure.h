@@ -45,11 +45,11 @@ class PartialMap {
   virtual SetLabel label(const Box& box) const = 0;
   // The same for the inside of a triangle that no visible one meets. It is asked at middle_of(about); `about` holds a point of the inside, and no visible triangle touches it.
   virtual SetLabel label_of_inside(const Corners& triangle, const Box& about) const = 0;
-  // False only if no wedge piece touches the closed triangle.
-  virtual bool piece_may_touch(const Corners& triangle) const = 0;
-  // The same as label_of_inside for what is right beside the inside of a triangle, on the side of middle_of(about), which is not in its plane. Visible ones may meet the inside, or touch `about`, only if they
+  // The same for what is right beside the inside of a triangle, on the side of middle_of(about), which is not in its plane. Visible ones may meet the inside, or touch `about`, only if they
   // lie in that plane.
   virtual SetLabel label_beside(const Corners& triangle, const Box& about) const = 0;
+  // False only if no wedge piece touches the closed triangle.
+  virtual bool piece_may_touch(const Corners& triangle) const = 0;
 };
 
 // Makes the map of a part of the scene, for the same cell. `ids` are those of the part's triangles in the scene, ascending.

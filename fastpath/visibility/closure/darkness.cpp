@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "fastpath/predicates/estimated_vectors.h"
@@ -32,18 +31,6 @@ constexpr std::array<std::array<double, 3>, 3> kInside{
     {{0.3125, 0.375, 0.3125}, {0.25, 0.25, 0.5}, {0.5, 0.1875, 0.3125}}};
 
 }  // namespace
-
-// The local box contains the exact triangles in exact local coordinates; dividing by a power of two is exact (or overflows to infinity, which is outward), the sum is rounded once.
-Box child_box(const LocalFrame& frame, const BoxLanes& node, std::size_t lane) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Box box;
-  for (std::size_t i = 0; i < 3; ++i) {
-    box.low[i] = std::nextafter(static_cast<double>(node.side[i][lane]) / frame.scale + frame.center[i], -kInfinity);
-    box.high[i] =
-        std::nextafter(static_cast<double>(node.side[i + 3][lane]) / frame.scale + frame.center[i], kInfinity);
-  }
-  return box;
-}
 
 LitTriangles::LitTriangles(const Bvh& bvh, std::span<const std::uint32_t> ids) {
   std::vector<CGAL::Bbox_3> boxes;
@@ -160,7 +147,7 @@ std::vector<std::uint32_t> Darkness::not_proved(const Bvh& tree, const Which& sk
         if (child == BoxLanes::kEmpty) continue;
         const bool leaf = (child & BoxLanes::kLeaf) != 0;
         if ((leaf ? proved.blocks[child & ~BoxLanes::kLeaf] : proved.nodes[child]) != 0) continue;
-        if (dark(child_box(tree.frame(), node, lane))) {
+        if (dark(tree.child_bounds(node, lane))) {
           answer.dark_children.push_back(child);
         } else if (!leaf) {
           answer.open.push_back(child);

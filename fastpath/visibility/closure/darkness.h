@@ -11,9 +11,6 @@
 
 namespace clues::fastpath {
 
-// Child `lane` of a node of a tree in the coordinates of the scene, rounded outward.
-Box child_box(const LocalFrame& frame, const BoxLanes& node, std::size_t lane);
-
 // The triangles of K that are lit, as boxes: all that light meets. What is dark in K stops no light, and need not be in K.
 class LitTriangles {
  public:

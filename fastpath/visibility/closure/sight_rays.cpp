@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "fastpath/queries/segment_queries.h"
@@ -136,21 +137,20 @@ std::vector<std::uint32_t> SightRays::towards(std::span<const std::uint32_t> tri
                     [&](std::size_t i) { return ray_towards(triangles[i / kTowards], i % kTowards, kTowards, 3); });
 }
 
-std::vector<std::uint32_t> SightRays::all_towards(std::span<const std::uint32_t> triangles) {
-  const std::size_t count = within_budget(kAllTowards * triangles.size());
+std::vector<std::uint8_t> SightRays::met_towards(std::span<const std::uint32_t> triangles) {
+  const std::size_t count = within_budget(kMetTowards * triangles.size());
   tbb::enumerable_thread_specific<SegmentQueries> queries(std::cref(bvh_));
   tbb::enumerable_thread_specific<std::vector<std::uint8_t>> met(bvh_.mesh().triangles.size(), 0);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    const Segment ray = ray_towards(triangles[i / kAllTowards], i % kAllTowards, kAllTowards, 4);
+    const Segment ray = ray_towards(triangles[i / kMetTowards], i % kMetTowards, kMetTowards, 4);
     if (!is_finite(ray)) return;
     std::vector<std::uint8_t>& mine = met.local();
     for (const std::uint32_t t : queries.local().all_hits(ray)) mine[t] = 1;
   });
-  std::vector<std::uint32_t> all;
-  for (std::uint32_t t = 0; t < bvh_.mesh().triangles.size(); ++t) {
-    if (std::any_of(met.begin(), met.end(), [t](const auto& of_thread) { return of_thread[t] != 0; })) all.push_back(t);
-  }
-  return all;
+  std::vector<std::uint8_t> by_any(bvh_.mesh().triangles.size(), 0);
+  for (const std::vector<std::uint8_t>& of_thread : met)
+    std::transform(by_any.begin(), by_any.end(), of_thread.begin(), by_any.begin(), std::bit_or<>());
+  return by_any;
 }
 
 }  // namespace clues::fastpath

@@ -29,9 +29,9 @@ class SightRays {
   static constexpr std::size_t kTowards = 4;
   static constexpr std::uint32_t kNothing = ~0U;
   std::vector<std::uint32_t> towards(std::span<const std::uint32_t> triangles);
-  // All that such rays meet before they get there, ascending; kAllTowards of them for each.
-  static constexpr std::size_t kAllTowards = 16;
-  std::vector<std::uint32_t> all_towards(std::span<const std::uint32_t> triangles);
+  // For each triangle of the tree whether such a ray meets it before it gets there; kMetTowards of them for each that is asked about.
+  static constexpr std::size_t kMetTowards = 16;
+  std::vector<std::uint8_t> met_towards(std::span<const std::uint32_t> triangles);
 
   std::uint64_t count() const { return count_; }
 

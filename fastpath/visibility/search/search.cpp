@@ -90,15 +90,17 @@ class Search::Work {
     return changed;
   }
 
+  using PieceName =
+      std::tuple<const OnWedge*, const ExactPoint*, const ExactPoint*, const ExactPoint*, const ExactPoint*, int>;
+  static PieceName name_of(const ValidPiece& p) { return {p.on, p.ray0, p.ray1, p.near0, p.near1, p.blocker}; }
   // Of all pieces of a round, those that were none at the end of the one before. What they are made of is kept from round to round, so the same ones have the same addresses.
   std::vector<ValidPiece> not_there_before(const std::vector<ValidPiece>& merged) {
-    const auto name = [](const ValidPiece& p) { return std::tuple(p.on, p.ray0, p.ray1, p.near0, p.near1, p.blocker); };
     std::vector<ValidPiece> fresh;
     std::copy_if(merged.begin(), merged.end(), std::back_inserter(fresh), [&](const ValidPiece& p) {
-      return !std::binary_search(pieces_before.begin(), pieces_before.end(), name(p));
+      return !std::binary_search(pieces_before.begin(), pieces_before.end(), name_of(p));
     });
     pieces_before.clear();
-    for (const ValidPiece& p : merged) pieces_before.push_back(name(p));
+    for (const ValidPiece& p : merged) pieces_before.push_back(name_of(p));
     std::sort(pieces_before.begin(), pieces_before.end());
     return fresh;
   }
@@ -475,10 +477,8 @@ class Search::Work {
   std::vector<Contact*> too_intricate;                         // lit in this round
   std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
   std::map<std::tuple<const OnWedge*, const ExactPoint*, std::uint32_t>, const ExactPoint*> coplanar_cuts;
-  std::set<const Contact*> csvs_met;  // in this round
-  std::vector<
-      std::tuple<const OnWedge*, const ExactPoint*, const ExactPoint*, const ExactPoint*, const ExactPoint*, int>>
-      pieces_before;  // at the end of the round before
+  std::set<const Contact*> csvs_met;     // in this round
+  std::vector<PieceName> pieces_before;  // at the end of the round before
   std::set<const Contact*> left_out_contacts;
   LeftOut left_out;
   DoubtfulSources doubtful_sources;
