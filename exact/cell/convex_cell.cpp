@@ -176,19 +176,28 @@ ConvexCell ConvexCell::from_doubles(const std::vector<scene::Point>& points) {
   return ConvexCell(exact);
 }
 
-Point3 ConvexCell::interior_point(const std::vector<int>& weights) const {
-  if (weights.size() != vertices_.size() || std::any_of(weights.begin(), weights.end(), [](int w) { return w <= 0; })) {
+namespace {
+
+template <class Weight>
+Point3 combination(const std::vector<Point3>& vertices, const std::vector<Weight>& weights) {
+  if (weights.size() != vertices.size() ||
+      std::any_of(weights.begin(), weights.end(), [](Weight w) { return !(w > 0); }))
     throw scene::Error(scene::ErrorCode::internal, "interior_point needs one positive weight for each cell vertex");
-  }
   std::array<FT::Exact_type, 3> sum;
   FT::Exact_type total = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const auto& v = CGAL::exact(vertices_[i]);
-    for (int axis = 0; axis < 3; ++axis) sum[static_cast<std::size_t>(axis)] += v[axis] * weights[i];
-    total += weights[i];
+    const auto& v = CGAL::exact(vertices[i]);
+    const FT::Exact_type weight = weights[i];
+    for (int axis = 0; axis < 3; ++axis) sum[static_cast<std::size_t>(axis)] += v[axis] * weight;
+    total += weight;
   }
   return {FT(sum[0] / total), FT(sum[1] / total), FT(sum[2] / total)};
 }
+
+}  // namespace
+
+Point3 ConvexCell::interior_point(const std::vector<int>& weights) const { return combination(vertices_, weights); }
+Point3 ConvexCell::interior_point(const std::vector<double>& weights) const { return combination(vertices_, weights); }
 
 namespace {
 

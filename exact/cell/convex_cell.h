@@ -34,6 +34,7 @@ class ConvexCell {
 
   // A point of int V: the convex combination with the given positive weights, one per vertex.
   Point3 interior_point(const std::vector<int>& weights) const;
+  Point3 interior_point(const std::vector<double>& weights) const;
 
  private:
   int dimension_ = 0;

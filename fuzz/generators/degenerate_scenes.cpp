@@ -7,6 +7,7 @@
 #include "fastpath/predicates/estimated_vectors.h"
 #include "fuzz/generators/grid_mesh.h"
 #include "fuzz/generators/parts.h"
+#include "fuzz/generators/touching_scenes.h"
 
 namespace clues::fuzz {
 namespace {
@@ -333,7 +334,11 @@ const std::vector<DegenerateGenerator>& degenerate_generators() {
       {"irises",
        "3 to 6 long plates (dial modulo 4) about a window, each under the next; bent ones (dial 4 to 7); slits before "
        "them",
-       irises}};
+       irises},
+      {"grooves_on_cells",
+       "walls that meet in a line which the cell touches, with and without notches; something 1/2 to 2^-8 (dial) "
+       "inside",
+       grooves_on_cells}};
   return all;
 }
 

@@ -1,6 +1,9 @@
 #include "fuzz/generators/touching_scenes.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
 
 #include "fuzz/generators/cell_shapes.h"
 #include "fuzz/generators/parts.h"
@@ -260,6 +263,97 @@ GeneratedScene made(std::uint64_t seed, std::uint64_t index) {
   return Builder(seed, index, Salt).filled_by(Make);
 }
 
+// Two walls, or more, that meet in a line upon the cell: one or two stretches of wall on each side of it (with a notch between them, or not), ends that are closed or open, something small inside.
+class Grooves {
+ public:
+  Grooves(std::uint64_t seed, std::uint64_t index)
+      : random_(random_of(seed, index, 13)), depth_(std::ldexp(1, -1 - dial_of(index))) {}
+
+  // The line is the first axis, the third leads into the groove; then all is turned and sheared.
+  GeneratedScene make() {
+    const bool joins = !random_.one_in(4);  // both walls in the same points of the line
+    const int middle = random_.between(-1, 1);
+    for (const int side : {-1, 1}) add_wall(side, joins ? middle : random_.between(-1, 1));
+    for (const int end : {-1, 1}) {
+      if (random_.one_in(3)) add_across(end * random_.between(1, 3), random_.between(1, 2));
+    }
+    for (int n = random_.between(1, 2); n > 0; --n) add_inside();
+    add_cell();
+    turn();
+    scene_.cell.erase(std::unique(scene_.cell.begin(), scene_.cell.end()), scene_.cell.end());
+    return std::move(scene_);
+  }
+
+ private:
+  double quarter(int low, int high) { return random_.between(4 * low, 4 * high) / 4.0; }
+
+  // From the left of the line to its right, in one triangle or two that meet in `middle`; what is between those is filled or not.
+  void add_wall(int side, int middle) {
+    const double lean = side * random_.between(0, 4) / 2.0;  // upright is 0: both may be in one plane, or cross
+    const auto up = [&](double x, double z) { return Point{x, lean * z, z}; };
+    const Point left{-quarter(2, 3), 0, 0}, right{quarter(2, 3), 0, 0}, at{static_cast<double>(middle), 0, 0};
+    if (random_.one_in(3)) return add(scene_.mesh, left, right, up(quarter(-2, 2), 1));
+    const Point l = up(middle - random_.between(0, 6) / 4.0, 1), r = up(middle + random_.between(0, 6) / 4.0, 1);
+    add(scene_.mesh, left, at, l);
+    add(scene_.mesh, at, right, r);
+    if (random_.one_in(3)) add(scene_.mesh, at, l, r);
+  }
+
+  // A triangle that stands across the groove, on the line.
+  void add_across(double x, double height) {
+    add(scene_.mesh, {x, 0, 0}, {x + quarter(-1, 1), 2 * height, height}, {x + quarter(-1, 1), -2 * height, height});
+  }
+
+  void add_inside() {
+    const double x = quarter(-2, 2);
+    const auto corner = [&] {
+      return Point{x + depth_ * random_.between(-4, 4) / 4, depth_ * random_.between(-2, 2) / 2,
+                   depth_ * random_.between(1, 4) / 2};
+    };
+    const Point a = corner(), b = corner(), c = corner();
+    add(scene_.mesh, a, b, c);
+  }
+
+  void add_cell() {
+    const Point lo{-quarter(0, 2), 0, 0}, hi{quarter(1, 3), 0, 0};
+    const double aside = random_.between(1, 4) / 2.0, below = random_.between(1, 4) / 2.0;
+    const int kind = random_.between(0, 5);
+    Point a = lo, b = hi;
+    if (kind == 1) {         // a segment on the line
+    } else if (kind == 2) {  // a polygon with a side on the line
+      b[1] = aside;
+    } else if (kind == 3) {  // a solid with an edge on the line
+      b[1] = aside;
+      a[2] = -below;
+    } else {
+      a[1] = -aside;
+      b[1] = random_.between(1, 4) / 2.0;
+      if (kind == 4) a[2] = -below;                                                   // a solid under the line
+      if (kind == 5) b[1] = 0, a[2] = b[2] = -std::ldexp(1, -random_.between(1, 6));  // next to it
+    }
+    scene_.cell = box_of(a, b);
+    std::sort(scene_.cell.begin(), scene_.cell.end());
+  }
+
+  void turn() {
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    for (std::size_t i = 2; i > 0; --i)
+      std::swap(axes[i], axes[static_cast<std::size_t>(random_.between(0, static_cast<int>(i)))]);
+    const bool mirror = random_.one_in(2);
+    const int shear = random_.one_in(2) ? 0 : random_.between(-2, 2), along = random_.between(-1, 1);
+    for (auto* points : {&scene_.mesh.points, &scene_.cell}) {
+      for (Point& p : *points) {
+        const Point q{p[0] + shear * p[1], p[1] + along * p[2], mirror ? -p[2] : p[2]};
+        for (std::size_t i = 0; i < 3; ++i) p[axes[i]] = q[i];
+      }
+    }
+  }
+
+  Random random_;
+  double depth_;
+  GeneratedScene scene_;
+};
+
 }  // namespace
 
 const std::vector<DegenerateGenerator>& touching_generators() {
@@ -276,5 +370,7 @@ const std::vector<DegenerateGenerator>& touching_generators() {
        made<anywhere, 37>}};
   return all;
 }
+
+GeneratedScene grooves_on_cells(std::uint64_t seed, std::uint64_t index) { return Grooves(seed, index).make(); }
 
 }  // namespace clues::fuzz

@@ -12,4 +12,9 @@ namespace clues::fuzz {
 // (cell_shapes.h).
 const std::vector<DegenerateGenerator>& touching_generators();
 
+// One of degenerate_generators(): grooves that stand on the cell. Walls meet in a line which the closed cell touches; what they leave open is seen along the line by viewers next to it, however near to it, and
+// where they leave nothing open all is hidden. Walks (D14) run into both. The dial: how deep inside the groove something is looked for, 1/2 to 2^-8. Cells: a polygon, with the line inside or on its rim; a segment on the line; a
+// solid with the line on a face or on an edge; and next to the line.
+GeneratedScene grooves_on_cells(std::uint64_t seed, std::uint64_t index);
+
 }  // namespace clues::fuzz

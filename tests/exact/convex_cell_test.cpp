@@ -113,9 +113,9 @@ TEST(ConvexCell, SegmentsAndPoints) {
 
 TEST(ConvexCell, InteriorPointsAreWeightedAndChecked) {
   const ConvexCell cell(cube(1));
-  EXPECT_TRUE(cell.interior_contains(cell.interior_point({1, 1000000, 1, 1, 1, 1, 1, 1})));
-  EXPECT_THROW(cell.interior_point({1, 0, 1, 1, 1, 1, 1, 1}), scene::Error);
-  EXPECT_THROW(cell.interior_point({1}), scene::Error);
+  EXPECT_TRUE(cell.interior_contains(cell.interior_point(std::vector<int>{1, 1000000, 1, 1, 1, 1, 1, 1})));
+  EXPECT_THROW(cell.interior_point(std::vector<int>{1, 0, 1, 1, 1, 1, 1, 1}), scene::Error);
+  EXPECT_THROW(cell.interior_point(std::vector<int>{1}), scene::Error);
   EXPECT_THROW(ConvexCell({}), scene::Error);
 }
 

@@ -32,6 +32,7 @@ MUTATIONS = [
     ("walk-first-crossing", "reference/walk.cpp", "const exact::Hit& last = answer.hits.back();", "const exact::Hit& last = answer.hits.front();"),
     ("walk-exits-on-the-wrong-side", "reference/walk.cpp", "const bool front = complex.planes[last.piece].oriented_side(p) == CGAL::ON_POSITIVE_SIDE;", "const bool front = complex.planes[last.piece].oriented_side(p) == CGAL::ON_NEGATIVE_SIDE;"),
     ("walk-groove-always", "reference/walk.cpp", "const std::optional<Point3> end = end_of_groove(*surface, *before);", "const std::optional<Point3> end;"),
+    ("walk-notch-is-no-gap", "reference/grooves.cpp", "if (next == pieces.end()) return false;", "if (next == pieces.end()) return true;"),
     ("walk-no-rule-2", "reference/walk.cpp", "    note(crossed(start, walk, leg, leg.m, leg.p, wedges, first));", ""),
     ("fixpoint-one-round", "reference/fixpoint.cpp", "changed = round();", "changed = round() && false;"),
     ("fixpoint-no-vertex-sources", "reference/fixpoint.cpp", "    vertex_sources_ = vertex_sources(\n        scene_, walker_, [this](std::uint32_t p) -> const Apex& { return *corner(p); }, statistics_.walks);\n", ""),
@@ -56,6 +57,7 @@ MUTATIONS = [
     ("fixpoint-no-circles", "reference/fixpoint.cpp", "for (const auto& [e, x] : cuts_of_circles(scene_, contours_, sources_)) new_cuts_[e].push_back(x);", ""),
     # The fast path, put to the suite with --kernel fast.
     ("fast-contour-wrong-side", "fastpath/contour.cpp", "in_h_plus &= side <= 0;", "in_h_plus &= side >= 0;"),
+    ("fast-walk-notch-is-no-gap", "fastpath/grooves.cpp", "if (next == pieces.end()) return false;", "if (next == pieces.end()) return true;"),
     ("fast-contour-convex-only", "fastpath/contour.cpp", "if (!in_h_plus || (left && right)) continue;", "if (!in_h_plus || left || right) continue;"),
     ("fast-contour-one-plane-only", "fastpath/contour.cpp", "for (const int turn : {1, -1}) {", "for (const int turn : {1}) {"),
     ("fast-contour-right-of-the-edge-only", "fastpath/contour.cpp", "    if (!supports[k].left.empty()) contour.push_back({id, plane, supports[k].left, other, holds_cell});\n", ""),

@@ -36,22 +36,46 @@ Walker::Wall Walker::wall_of(const Surface& a, const Surface& b) const {
   return wall;
 }
 
-Walker::Chain Walker::chain_of(std::size_t first, const std::vector<std::uint32_t>& edges) const {
-  Chain ends{scene_->edges[edges[first]].a, scene_->edges[edges[first]].b};
+bool Walker::is_whole_at(std::uint32_t point, std::uint32_t from, std::uint32_t to, const Surface& wall,
+                         const Surface& other) const {
+  std::optional<std::uint32_t> piece;
+  for (std::uint32_t edge = from; edge != to;) {
+    const std::vector<std::uint32_t>& pieces = scene_->edges[edge].pieces;
+    const auto next = std::find_if(pieces.begin(), pieces.end(),
+                                   [&](std::uint32_t t) { return t != piece && is_wall(t, wall, other); });
+    if (next == pieces.end()) return false;
+    piece = *next;
+    const auto& edges = scene_->pieces[*piece].edges;
+    edge = *std::find_if(edges.begin(), edges.end(), [&](std::uint32_t id) {
+      return id != edge && (scene_->edges[id].a == point || scene_->edges[id].b == point);
+    });
+  }
+  return true;
+}
+
+Walker::Chain Walker::chain_of(std::size_t first, const std::vector<std::uint32_t>& edges, const Surface& a,
+                               const Surface& b) const {
+  struct End {
+    std::uint32_t point, edge;
+  };
+  const std::uint32_t e0 = edges[first];
+  std::array<End, 2> ends{End{scene_->edges[e0].a, e0}, End{scene_->edges[e0].b, e0}};
   std::vector<bool> used(edges.size(), false);
   used[first] = true;
   for (bool grown = true; grown;) {
     grown = false;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const LocalEdge& e = scene_->edges[edges[i]];
-      for (std::uint32_t& end : ends) {
-        if (used[i] || (e.a != end && e.b != end)) continue;
-        end = e.a == end ? e.b : e.a;
+      for (End& end : ends) {
+        if (used[i] || (e.a != end.point && e.b != end.point)) continue;
+        if (!is_whole_at(end.point, end.edge, edges[i], a, b) || !is_whole_at(end.point, end.edge, edges[i], b, a))
+          continue;
+        end = {e.a == end.point ? e.b : e.a, edges[i]};
         used[i] = grown = true;
       }
     }
   }
-  return ends;
+  return {ends[0].point, ends[1].point};
 }
 
 Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b, const std::optional<Chain>& ends) const {
@@ -159,7 +183,7 @@ bool Walker::leg_from_edge(Walk& walk, const Surface& on, const Surface& before,
     const double t = along / length;
     if (!(t > 0 && t < 1)) continue;
     // Where V touches the line beyond this chain of edges, sight lines come in through the gap.
-    if (how == Both::touch && in_front_of_both(on, before, chain_of(i, common)) != Both::apart) continue;
+    if (how == Both::touch && in_front_of_both(on, before, chain_of(i, common, on, before)) != Both::apart) continue;
     const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
     if (scene_->cell.divides(*y, *last.next)) continue;
     const auto at_y = [&](std::uint32_t wall) {

@@ -87,6 +87,8 @@ class Walker {
   // A point of int V strictly in front of the surface (and of `also`, if given and possible); none if V has none in front of the first, or it is not found
   // within 2^-3968 of a vertex. What is in front of a plane of doubles is: heights over it are multiples of 2^-3222, and below 2^400 in the standard range.
   const ExactPoint* in_front(const Surface& on, const Surface* also, std::uint64_t seed, Pool& pool) const;
+  // Whether a sight line from next to V's point nearest to p ends at p, a point of the surface, of the few that are tried: next to V few points of it may see p.
+  bool is_seen_from_close_by(const ExactPoint& p, const Surface& on, std::uint64_t seed, std::int64_t depth) const;
   enum class Both : std::uint8_t { apart, touch, meet };  // V, or the closed V only, with the space in front of both
   using Chain = std::array<std::uint32_t, 2>;             // the ends of edges that are connected
 
@@ -102,8 +104,12 @@ class Walker {
     std::vector<std::uint32_t> edges;  // at which the other wall stands on it: on one line
   };
   Wall wall_of(const Surface& a, const Surface& b) const;
-  // Those of such edges that are connected with number `first`.
-  Chain chain_of(std::size_t first, const std::vector<std::uint32_t>& edges) const;
+  // Whether the wall's pieces at a point of such an edge fill the angle from one edge to the next, in front of the other wall. Where they leave a notch, a viewer next to the line
+  // sees along the groove through it, however near the edge.
+  bool is_whole_at(std::uint32_t point, std::uint32_t from, std::uint32_t to, const Surface& wall,
+                   const Surface& other) const;
+  // Those of such edges that are connected with number `first`, with no notch between.
+  Chain chain_of(std::size_t first, const std::vector<std::uint32_t>& edges, const Surface& a, const Surface& b) const;
   // A point of int V in front of `on`, from which the sight line to p comes in past the other wall, where the closed V
   // touches the groove.
   const ExactPoint* along_groove(const ExactPoint& p, const Surface& on, const Surface& before, Pool& pool) const;
@@ -122,6 +128,7 @@ class Walker {
   const LocalScene* scene_;
   const PieceSet* pieces_;
   std::int64_t longest_;
+  std::vector<Point> corners_;  // of V, about
   Pool own_;
   std::vector<const ExactPoint*> viewpoints_;
 };

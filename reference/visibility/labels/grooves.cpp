@@ -64,6 +64,24 @@ Walker::Wall Walker::wall_of(const SurfaceSide& one, const SurfaceSide& other) c
   return wall;
 }
 
+bool Walker::is_whole_at(std::uint32_t point, std::uint32_t from, std::uint32_t to, const SurfaceSide& wall,
+                         const SurfaceSide& other) const {
+  const exact::Complex& complex = scene_->complex();
+  std::optional<std::uint32_t> piece;
+  for (std::uint32_t edge = from; edge != to;) {
+    const std::vector<std::uint32_t>& pieces = complex.edges[edge].pieces;
+    const auto next = std::find_if(pieces.begin(), pieces.end(),
+                                   [&](std::uint32_t t) { return t != piece && is_wall(t, wall, other); });
+    if (next == pieces.end()) return false;
+    piece = *next;
+    const auto& edges = complex.piece_edges[*piece];
+    edge = *std::find_if(edges.begin(), edges.end(), [&](std::uint32_t id) {
+      return id != edge && (complex.edges[id].a == point || complex.edges[id].b == point);
+    });
+  }
+  return true;
+}
+
 bool Walker::touches_only(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two) const {
   std::vector<Point3> shared;  // by V and the closed groove: what is extreme among it, and more
   bool on_line = true;
@@ -81,21 +99,25 @@ bool Walker::touches_only(std::uint32_t edge, const SurfaceSide& one, const Surf
   // From the edge on, both ways along its line, as far as both walls stand: beyond, sight lines may come in.
   const exact::Complex& complex = scene_->complex();
   std::array<std::uint32_t, 2> ends{complex.edges[edge].a, complex.edges[edge].b};
-  const auto next = [&](std::uint32_t end, std::uint32_t other) -> std::optional<std::uint32_t> {
+  const auto next = [&](std::uint32_t last, std::uint32_t end, std::uint32_t other) -> std::optional<std::uint32_t> {
     for (const std::uint32_t t : complex.point_pieces[end]) {
       for (const std::uint32_t id : complex.piece_edges[t]) {
         const exact::Edge& e = complex.edges[id];
         if (e.a != end && e.b != end) continue;
-        const std::uint32_t beyond = e.a == end ? e.b : e.a;
-        const Point3 &x = complex.points[other], &y = complex.points[end], &z = complex.points[beyond];
-        if (CGAL::collinear(x, y, z) && CGAL::collinear_are_ordered_along_line(x, y, z) && carries_both(e, one, two))
-          return beyond;
+        const Point3 &x = complex.points[other], &y = complex.points[end], &z = complex.points[e.a == end ? e.b : e.a];
+        if (CGAL::collinear(x, y, z) && CGAL::collinear_are_ordered_along_line(x, y, z) && carries_both(e, one, two) &&
+            is_whole_at(end, last, id, one, two) && is_whole_at(end, last, id, two, one))
+          return id;
       }
     }
     return std::nullopt;
   };
-  for (const int i : {0, 1}) {
-    while (const auto beyond = next(ends[i], ends[1 - i])) ends[i] = *beyond;
+  for (const std::size_t i : {0U, 1U}) {
+    std::uint32_t last = edge;
+    while (const auto id = next(last, ends[i], ends[1 - i])) {
+      last = *id;
+      ends[i] = complex.edges[last].a == ends[i] ? complex.edges[last].b : complex.edges[last].a;
+    }
   }
   return std::all_of(shared.begin(), shared.end(), [&](const Point3& x) {
     return CGAL::collinear_are_ordered_along_line(complex.points[ends[0]], x, complex.points[ends[1]]);

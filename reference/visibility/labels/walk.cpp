@@ -3,35 +3,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact/cell/beside_nearest.h"
 #include "exact/cell/cell_plane.h"
 #include "exact/cell/direction_cone.h"
 #include "exact/complex/simple_point.h"
+#include "exact/mix.h"
 #include "reference/visibility/labels/special_position.h"
 #include "scene/messages/error.h"
 
 namespace clues::reference {
 
 using exact::FT;
+using exact::mix;
 using exact::Point3;
 
 namespace {
 
 constexpr std::int64_t kLongestWalk = 64;  // legs; what is longer has lost its way in a corner of several walls
+constexpr int kDeep = 6, kBeside = 4;      // from which leg on it is looked for light close by, in how many directions
 constexpr int kCoincidences = 4;           // this many in a row, and a plane in common may be the reason
 constexpr int kDoubtful = 12;              // walks to a point before it counts as visible
 constexpr int kAttempts = 200;  // sight lines in special position come from coincidences; this many in a row mean a bug
-
-std::uint64_t mix(std::uint64_t x) {  // splitmix64's finisher
-  x += 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
-}
 
 }  // namespace
 
 Walker::Walker(const exact::SceneQuery& scene, std::int64_t longest)
     : scene_(&scene), longest_(longest == exact::Dials::kOwn ? kLongestWalk : longest) {
+  for (const Point3& v : scene.cell().vertices()) corners_.push_back(exact::to_double_estimate(v));
   if (scene.cell().dimension() == 2) in_cell_plane_.emplace(scene, scene.cell().facets()[0].plane);
 }
 
@@ -71,19 +69,35 @@ std::optional<Point3> Walker::generic_viewpoint(const std::vector<exact::Plane3>
   return found;
 }
 
-std::optional<Point3> Walker::foot(const Point3& p) const {
+std::vector<Point3> Walker::beneath(const Point3& p, const SurfaceSide& on) const {
   const exact::ConvexCell& cell = scene_->cell();
-  std::optional<Point3> x;
+  const exact::Plane3& plane = scene_->complex().planes[on.piece];
+  exact::Vector3 along = on.front ? plane.orthogonal_vector() : -plane.orthogonal_vector();
+  Point3 foot;
   if (cell.dimension() == 2) {
     const exact::Plane3& h = cell.facets()[0].plane;
     const exact::Vector3 n = h.orthogonal_vector();
-    x = p - exact::value_at(h, p) / (n * n) * n;
+    foot = p - exact::value_at(h, p) / (n * n) * n;
+    along = along - (along * n) / (n * n) * n;
   } else if (cell.dimension() == 1) {
     const Point3 &a = cell.vertices()[0], &b = cell.vertices()[1];
-    x = a + ((p - a) * (b - a)) / ((b - a) * (b - a)) * (b - a);
+    const exact::Vector3 u = b - a;
+    foot = a + ((p - a) * u) / (u * u) * u;
+    along = (along * u) / (u * u) * u;
+  } else {
+    return {};
   }
-  if (!x || !cell.interior_contains(*x)) return std::nullopt;
-  return exact::collapsed(*x);
+  std::vector<Point3> points{foot};
+  const FT steepness = along.squared_length();
+  if (!CGAL::is_zero(steepness)) {
+    const FT h = height(on, foot);
+    const double high = std::sqrt(CGAL::to_double(CGAL::squared_distance(p, foot) / steepness));
+    if (std::isfinite(high))
+      points.push_back(foot + (FT(high) - (CGAL::is_positive(h) ? FT(0) : h / steepness)) * along);
+  }
+  std::erase_if(points, [&](const Point3& x) { return !cell.interior_contains(x); });
+  for (Point3& x : points) x = exact::collapsed(x);
+  return points;
 }
 
 FT Walker::height(const SurfaceSide& on, const Point3& x) const {
@@ -134,14 +148,24 @@ Point3 Walker::last_crossing(const Point3& v, const Point3& p, const exact::Hit&
   const auto& c = complex.pieces[hit.piece].corners;
   const Point3 m = v + hit.t * (p - v);
   const std::array<Point3, 3> corners{complex.points[c[0]], complex.points[c[1]], complex.points[c[2]]};
-  if (scene_->cell().dimension() == 3) {
+  // Where a sight line through it comes from, before that.
+  const auto viewpoint_of = [&](const Point3& near, int level) -> std::optional<Point3> {
+    if (scene_->cell().dimension() == 3) {
+      const FT t = exact::simple_near(hit.t, level);
+      if (t >= FT(1)) return std::nullopt;
+      return p + (near - p) / (FT(1) - t);
+    }
+    const exact::Plane3& h = scene_->cell().facets()[0].plane;
+    const FT at_p = exact::value_at(h, p), at_near = exact::value_at(h, near);
+    if (CGAL::sign(at_p) * CGAL::sign(at_near) <= 0 || CGAL::abs(at_near) >= CGAL::abs(at_p)) return std::nullopt;
+    return p + at_p / (at_p - at_near) * (near - p);
+  };
+  if (scene_->cell().dimension() >= 2) {
     for (int level = 1; level < exact::kSimpleLevels; ++level) {
       const auto near = exact::simple_in_triangle(m, corners, level);
       if (!near) continue;
-      const FT t = exact::simple_near(hit.t, level);
-      if (t >= FT(1)) continue;
-      const Point3 from = p + (*near - p) / (FT(1) - t);
-      if (!scene_->cell().interior_contains(from) || !good(from)) continue;
+      const auto from = viewpoint_of(*near, level);
+      if (!from || !scene_->cell().interior_contains(*from) || !good(*from)) continue;
       if (scene_->crossings(*near, p).is_clear()) return *near;
     }
   }
@@ -217,9 +241,16 @@ Walk Walker::walk(const Start& start, std::uint64_t seed, std::size_t least) con
     const Good good = [&](const Point3& x) {
       return std::all_of(sides.begin(), sides.end(), [&](const exact::Plane3& h) { return h.has_on_positive_side(x); });
     };
-    if (surface) {  // next to a flat cell or a segment few points of V may see p: those right beneath it
-      const std::optional<Point3> beneath = foot(p);
-      if (beneath && good(*beneath) && scene_->crossings(*beneath, p).is_clear()) {
+    if (surface) {  // next to V few points of it may see p
+      std::vector<Point3> near = beneath(p, *surface);
+      for (int i = 0; i < (depth < kDeep ? 0 : kBeside); ++i) {
+        const auto weights = exact::weights_beside_nearest(
+            corners_, exact::to_double_estimate(p),
+            mix(seed * 1000003 + static_cast<std::uint64_t>(depth) * 1009 + static_cast<std::uint64_t>(i)));
+        if (!weights.empty()) near.push_back(exact::collapsed(cell.interior_point(weights)));
+      }
+      for (const Point3& x : near) {
+        if (!good(x) || !scene_->crossings(x, p).is_clear()) continue;
         walk.ends_at_cell = true;
         return walk;
       }

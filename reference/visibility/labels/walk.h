@@ -10,7 +10,7 @@
 // through that end with V and the tent on one side (T2). The planes exist if V and the closed groove share no point, or none but points of the edge: let f be linear, positive in
 // the groove, zero on the edge and at most zero on V; let s be linear, the distance from the end along the edge, and at least zero where V has f = 0. As V is a
 // polytope, f <= k s holds on V where s < 0, for some k > 0; then f - r s is at most zero on V for all r in [0,k], and the less r is, the flatter is the tent.
-// Edges that carry both walls on along the line count as one edge. Where V touches the line elsewhere, sight lines nearly along the edge come in at the
+// Edges that carry both walls on along the line, without a notch between their pieces, count as one edge. Where V touches the line elsewhere, sight lines nearly along the edge come in at the
 // groove's end, past the walls, however near the edge p is: then the walk looks that way.
 //
 // With a segment as cell, all of a walk lies in one plane with it, a slice, and what is seen there is a matter of the slice
@@ -114,8 +114,8 @@ class Walker {
   // position. `special`: they are nowhere.
   std::optional<exact::Point3> generic_viewpoint(const std::vector<exact::Plane3>& sides, const exact::Point3& p,
                                                  bool off_planes, bool& special) const;
-  // The point of a flat cell or a segment that is nearest to p, if that is in int V.
-  std::optional<exact::Point3> foot(const exact::Point3& p) const;
+  // Of a flat cell or a segment, what of int V sees p, a point of the surface, if it is near enough: the foot of p, and, where that is behind the surface or may be, a point in front of it as far from p.
+  std::vector<exact::Point3> beneath(const exact::Point3& p, const SurfaceSide& on) const;
   // A multiple of the distance of x from the piece's plane, positive on the given side.
   exact::FT height(const SurfaceSide& on, const exact::Point3& x) const;
   // Calls visit(s, x) for each edge or diagonal of V that leaves the open side at x, a point of its plane, from the vertex
@@ -144,6 +144,10 @@ class Walker {
     std::vector<std::uint32_t> edges;  // at which the other wall stands on it
   };
   Wall wall_of(const SurfaceSide& one, const SurfaceSide& other) const;
+  // Whether the wall's pieces at a point of the edge fill the angle between two edges on one line, on the side in front of the other wall. Where they leave a notch, a viewer next to
+  // the line sees along the groove through it, however near the edge.
+  bool is_whole_at(std::uint32_t point, std::uint32_t from, std::uint32_t to, const SurfaceSide& wall,
+                   const SurfaceSide& other) const;
   // Whether V and the closed groove between two walls that meet in this edge share nothing but points of the edge, and of
   // the edges that carry both walls on along its line without a gap.
   bool touches_only(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two) const;
@@ -169,6 +173,7 @@ class Walker {
                               const Good& good) const;
   const exact::SceneQuery* scene_;
   std::int64_t longest_;
+  std::vector<scene::Point> corners_;             // of V, about
   std::optional<SpecialPosition> in_cell_plane_;  // of a flat cell
 };
 
