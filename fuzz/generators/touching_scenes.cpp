@@ -272,12 +272,12 @@ class Grooves {
   // The line is the first axis, the third leads into the groove; then all is turned and sheared.
   GeneratedScene make() {
     const bool joins = !random_.one_in(4);  // both walls in the same points of the line
-    const int middle = random_.between(-1, 1);
+    const int middle = random_.between(-1, 1) * random_.between(0, 1);
     for (const int side : {-1, 1}) add_wall(side, joins ? middle : random_.between(-1, 1));
     for (const int end : {-1, 1}) {
-      if (random_.one_in(3)) add_across(end * random_.between(1, 3), random_.between(1, 2));
+      if (random_.one_in(6)) add_across(end * random_.between(1, 3), random_.between(1, 2));
     }
-    for (int n = random_.between(1, 2); n > 0; --n) add_inside();
+    add_inside();
     add_cell();
     turn();
     scene_.cell.erase(std::unique(scene_.cell.begin(), scene_.cell.end()), scene_.cell.end());
@@ -289,14 +289,14 @@ class Grooves {
 
   // From the left of the line to its right, in one triangle or two that meet in `middle`; what is between those is filled or not.
   void add_wall(int side, int middle) {
-    const double lean = side * random_.between(0, 4) / 2.0;  // upright is 0: both may be in one plane, or cross
+    const double lean = side * random_.between(1, 8) / 4.0;
     const auto up = [&](double x, double z) { return Point{x, lean * z, z}; };
     const Point left{-quarter(2, 3), 0, 0}, right{quarter(2, 3), 0, 0}, at{static_cast<double>(middle), 0, 0};
-    if (random_.one_in(3)) return add(scene_.mesh, left, right, up(quarter(-2, 2), 1));
+    if (random_.one_in(2)) return add(scene_.mesh, left, right, up(quarter(-2, 2), 1));
     const Point l = up(middle - random_.between(0, 6) / 4.0, 1), r = up(middle + random_.between(0, 6) / 4.0, 1);
     add(scene_.mesh, left, at, l);
     add(scene_.mesh, at, right, r);
-    if (random_.one_in(3)) add(scene_.mesh, at, l, r);
+    if (random_.one_in(2)) add(scene_.mesh, at, l, r);
   }
 
   // A triangle that stands across the groove, on the line.
@@ -315,9 +315,10 @@ class Grooves {
   }
 
   void add_cell() {
-    const Point lo{-quarter(0, 2), 0, 0}, hi{quarter(1, 3), 0, 0};
+    const double reach = random_.one_in(4) ? 3 : 1.5;  // beyond the walls, or not as far
+    const Point lo{-reach * random_.between(1, 4) / 4, 0, 0}, hi{reach * random_.between(1, 4) / 4, 0, 0};
     const double aside = random_.between(1, 4) / 2.0, below = random_.between(1, 4) / 2.0;
-    const int kind = random_.between(0, 5);
+    const int kind = random_.between(0, 7);
     Point a = lo, b = hi;
     if (kind == 1) {         // a segment on the line
     } else if (kind == 2) {  // a polygon with a side on the line
