@@ -68,9 +68,21 @@ class Search {
   Nearest best_;
 };
 
+// Farther from V than V is large: what is near x then is no nearer to one place of V than to another.
+bool is_far(const std::vector<Point>& vertices, const Point& x) {
+  double squared_size = 0;
+  for (const Point& v : vertices) {
+    const Point across = minus(v, vertices[0]);
+    squared_size = std::max(squared_size, dot(across, across));
+  }
+  const Point way = minus(x, vertices[0]);
+  return dot(way, way) > 4 * squared_size;
+}
+
 }  // namespace
 
 std::vector<double> weights_beside_nearest(const std::vector<Point>& vertices, const Point& x, std::uint64_t number) {
+  if (is_far(vertices, x)) return {};
   const Nearest nearest = Search(vertices, x).run();
   // Somewhere in V: seldom about the middle.
   std::vector<double> weights;

@@ -10,7 +10,7 @@
 namespace clues::exact {
 
 // Positive weights of the vertices of V, for a point of int V about as far from the one nearest to x as x is, from an eighth to twice that, in a direction that goes by `number`. Empty where x is no farther
-// from V than doubles tell, and of a point. O(n^3) for n vertices.
+// from V than doubles tell, or farther than V is large, and of a point. O(n^3) for n vertices.
 std::vector<double> weights_beside_nearest(const std::vector<scene::Point>& vertices, const scene::Point& x,
                                            std::uint64_t number);
 

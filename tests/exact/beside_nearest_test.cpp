@@ -59,7 +59,8 @@ TEST(BesideNearest, LooksInEveryDirection) {
   for (const int n : met) EXPECT_GE(n, 20);
 }
 
-TEST(BesideNearest, SaysNothingUponTheCell) {
+TEST(BesideNearest, SaysNothingUponTheCellAndFarFromIt) {
+  EXPECT_TRUE(weights_beside_nearest({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {9, 9, 9}, 1).empty());
   EXPECT_TRUE(weights_beside_nearest({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0.25, 0.25, 0}, 1).empty());
   EXPECT_TRUE(weights_beside_nearest({{2, 0, 0}}, {3, 0, 0}, 1).empty());
 }

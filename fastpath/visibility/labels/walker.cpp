@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "exact/cell/beside_nearest.h"
 #include "exact/mix.h"
 #include "fastpath/visibility/points/near_enough.h"
 
@@ -16,8 +15,6 @@ constexpr std::int64_t kLongestWalk = 48;  // legs
 constexpr int kAttempts = 40;              // sight lines in special position in a row
 constexpr int kRefused = 8;                // and that come through elsewhere, before a nearer place is better
 constexpr std::size_t kLegsInGroove = 4;   // before it is taken for one
-constexpr std::int64_t kDeep = 6;          // from this leg on it is looked for light close by
-constexpr std::uint64_t kBeside = 4;       // in so many directions
 
 constexpr auto kNothing = [](const Plane&) { return false; };
 
@@ -34,7 +31,6 @@ Walker::Walker(const LocalScene& scene, const PieceSet& pieces, std::int64_t lon
     : scene_(&scene), pieces_(&pieces), longest_(longest == exact::Dials::kOwn ? kLongestWalk : longest) {
   const RoundedUp rounded_up;
   const std::size_t n = scene.cell.vertices.size();
-  for (const ExactPoint& v : scene.cell.vertices) corners_.push_back(v.estimate());
   const std::size_t count = n == 1 ? 1 : 61;
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<double> weights;
@@ -98,23 +94,6 @@ const ExactPoint* Walker::in_front(const Surface& on, const Surface* also, std::
   return nullptr;
 }
 
-bool Walker::is_seen_from_close_by(const ExactPoint& p, const Surface& on, std::uint64_t seed,
-                                   std::int64_t depth) const {
-  const auto sees = [&](const ExactPoint& v) {
-    if (height_sign(on, v) <= 0) return false;
-    const LocalScene::Last last = scene_->last_crossing(v, p);
-    return !last.degenerate && !last.piece;
-  };
-  const std::optional<ExactPoint> foot = scene_->cell.foot(p);
-  if (foot && sees(*foot)) return true;
-  if (depth < kDeep) return false;
-  for (std::uint64_t i = 0; i < kBeside; ++i) {
-    const std::vector<double> weights = exact::weights_beside_nearest(corners_, p.estimate(), mix(seed + i));
-    if (!weights.empty() && sees(scene_->cell.interior_point(weights))) return true;
-  }
-  return false;
-}
-
 Walk Walker::walk(const ExactPoint* p, Pool& pool, const Manner& manner, const MayCome& may_come) const {
   Walk walk;
   if (scene_->cell.contains(*p)) {
@@ -141,9 +120,15 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, const Manner& manner, const M
         if (how == Both::touch) along = along_groove(*p, *on, *before, pool);
       }
     }
-    if (on && is_seen_from_close_by(*p, *on, mix(manner.seed * 1000003 + static_cast<std::uint64_t>(depth)), depth)) {
-      walk.end = Walk::End::cell;
-      return walk;
+    if (on) {  // next to a flat cell or a segment few points of V may see p: those right beneath it
+      const std::optional<ExactPoint> beneath = scene_->cell.foot(*p);
+      if (beneath && height_sign(*on, *beneath) > 0) {
+        const LocalScene::Last last = scene_->last_crossing(*beneath, *p);
+        if (!last.degenerate && !last.piece) {
+          walk.end = Walk::End::cell;
+          return walk;
+        }
+      }
     }
     bool found = false;
     for (int attempt = 0; attempt < kAttempts && !found; ++attempt) {

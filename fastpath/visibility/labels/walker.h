@@ -87,8 +87,6 @@ class Walker {
   // A point of int V strictly in front of the surface (and of `also`, if given and possible); none if V has none in front of the first, or it is not found
   // within 2^-3968 of a vertex. What is in front of a plane of doubles is: heights over it are multiples of 2^-3222, and below 2^400 in the standard range.
   const ExactPoint* in_front(const Surface& on, const Surface* also, std::uint64_t seed, Pool& pool) const;
-  // Whether a sight line from next to V's point nearest to p ends at p, a point of the surface, of the few that are tried: next to V few points of it may see p.
-  bool is_seen_from_close_by(const ExactPoint& p, const Surface& on, std::uint64_t seed, std::int64_t depth) const;
   enum class Both : std::uint8_t { apart, touch, meet };  // V, or the closed V only, with the space in front of both
   using Chain = std::array<std::uint32_t, 2>;             // the ends of edges that are connected
 
@@ -128,7 +126,6 @@ class Walker {
   const LocalScene* scene_;
   const PieceSet* pieces_;
   std::int64_t longest_;
-  std::vector<Point> corners_;  // of V, about
   Pool own_;
   std::vector<const ExactPoint*> viewpoints_;
 };
