@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "exact/mix.h"
 
@@ -79,12 +80,9 @@ bool is_far(const std::vector<Point>& vertices, const Point& x) {
   return dot(way, way) > 4 * squared_size;
 }
 
-}  // namespace
-
-std::vector<double> weights_beside_nearest(const std::vector<Point>& vertices, const Point& x, std::uint64_t number) {
-  if (is_far(vertices, x)) return {};
-  const Nearest nearest = Search(vertices, x).run();
-  // Somewhere in V: seldom about the middle.
+// Somewhere in V, seldom about the middle, and from there towards the nearest point as far as is asked for. Empty where doubles do not tell the two apart: nothing hangs on how close
+// that is, as it only proposes.
+std::vector<double> weights_beside(const Nearest& nearest, const std::vector<Point>& vertices, std::uint64_t number) {
   std::vector<double> weights;
   double total = 0;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -105,6 +103,20 @@ std::vector<double> weights_beside_nearest(const std::vector<Point>& vertices, c
   for (double& w : weights) w *= share;
   for (std::size_t m = 0; m < 3; ++m) weights[nearest.vertices[m]] += (1 - share) * nearest.weights[m];
   return weights;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> weights_beside_nearest(const std::vector<Point>& vertices, const Point& x,
+                                                        std::uint64_t seed, std::size_t count) {
+  std::vector<std::vector<double>> found;
+  if (is_far(vertices, x)) return found;
+  const Nearest nearest = Search(vertices, x).run();
+  for (std::size_t i = 0; i < count; ++i) {
+    std::vector<double> weights = weights_beside(nearest, vertices, mix(seed + i));
+    if (!weights.empty()) found.push_back(std::move(weights));
+  }
+  return found;
 }
 
 }  // namespace clues::exact

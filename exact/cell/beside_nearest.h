@@ -9,9 +9,9 @@
 
 namespace clues::exact {
 
-// Positive weights of the vertices of V, for a point of int V about as far from the one nearest to x as x is, from an eighth to twice that, in a direction that goes by `number`. Empty where x is no farther
-// from V than doubles tell, or farther than V is large, and of a point. O(n^3) for n vertices.
-std::vector<double> weights_beside_nearest(const std::vector<scene::Point>& vertices, const scene::Point& x,
-                                           std::uint64_t number);
+// So many times (or none) positive weights of the vertices of V, for points of int V about as far from the one nearest to x as x is, from an eighth to twice that, in directions that go by `seed`. None where
+// x is no farther from V than doubles tell, or farther than V is large, and of a point. O(n^3) for n vertices.
+std::vector<std::vector<double>> weights_beside_nearest(const std::vector<scene::Point>& vertices,
+                                                        const scene::Point& x, std::uint64_t seed, std::size_t count);
 
 }  // namespace clues::exact

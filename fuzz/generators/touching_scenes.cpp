@@ -320,17 +320,16 @@ class Grooves {
     const double aside = random_.between(1, 4) / 2.0, below = random_.between(1, 4) / 2.0;
     const int kind = random_.between(0, 7);
     Point a = lo, b = hi;
-    if (kind == 1) {         // a segment on the line
-    } else if (kind == 2) {  // a polygon with a side on the line
+    if (kind == 2 || kind == 3) {  // a side of a polygon, or an edge of a solid, is on the line
       b[1] = aside;
-    } else if (kind == 3) {  // a solid with an edge on the line
-      b[1] = aside;
-      a[2] = -below;
-    } else {
+    } else if (kind != 1) {  // the line runs in a polygon, or on a face; 1 is a segment on it
       a[1] = -aside;
       b[1] = random_.between(1, 4) / 2.0;
-      if (kind == 4) a[2] = -below;                                                   // a solid under the line
-      if (kind == 5) b[1] = 0, a[2] = b[2] = -std::ldexp(1, -random_.between(1, 6));  // next to it
+    }
+    if (kind == 3 || kind == 4) a[2] = -below;
+    if (kind == 5) {  // a polygon next to the line
+      b[1] = 0;
+      a[2] = b[2] = -std::ldexp(1, -random_.between(1, 6));
     }
     scene_.cell = box_of(a, b);
     std::sort(scene_.cell.begin(), scene_.cell.end());

@@ -21,12 +21,13 @@ void expect_beside(const std::vector<scene::Point>& vertices, const scene::Point
   std::vector<scene::Point> corners;
   for (const Point3& v : cell.vertices()) corners.push_back(to_double_estimate(v));
   const double far = std::hypot(x[0] - nearest[0], x[1] - nearest[1], x[2] - nearest[2]);
-  for (std::uint64_t number = 0; number < 200; ++number) {
-    const std::vector<double> weights = weights_beside_nearest(corners, x, number);
+  const auto found = weights_beside_nearest(corners, x, 0, 200);
+  EXPECT_EQ(found.size(), 200U);
+  for (const std::vector<double>& weights : found) {
     ASSERT_EQ(weights.size(), corners.size());
     const Point3 v = cell.interior_point(weights);
     EXPECT_TRUE(cell.interior_contains(v));
-    EXPECT_LE(distance(v, nearest), 2.0001 * far) << number;
+    EXPECT_LE(distance(v, nearest), 2.0001 * far);
   }
 }
 
@@ -50,9 +51,7 @@ TEST(BesideNearest, LooksInEveryDirection) {
   std::vector<scene::Point> corners;
   for (const Point3& v : cell.vertices()) corners.push_back(to_double_estimate(v));
   std::array<int, 4> met{};
-  for (std::uint64_t number = 0; number < 200; ++number) {
-    const std::vector<double> weights = weights_beside_nearest(corners, {0.5, 0.5, 0x1p-10}, number);
-    if (weights.empty()) continue;  // the middle itself
+  for (const std::vector<double>& weights : weights_beside_nearest(corners, {0.5, 0.5, 0x1p-10}, 0, 200)) {
     const scene::Point v = to_double_estimate(cell.interior_point(weights));
     ++met[(v[0] > 0.5 ? 1U : 0U) + (v[1] > 0.5 ? 2U : 0U)];
   }
@@ -60,9 +59,9 @@ TEST(BesideNearest, LooksInEveryDirection) {
 }
 
 TEST(BesideNearest, SaysNothingUponTheCellAndFarFromIt) {
-  EXPECT_TRUE(weights_beside_nearest({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {9, 9, 9}, 1).empty());
-  EXPECT_TRUE(weights_beside_nearest({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0.25, 0.25, 0}, 1).empty());
-  EXPECT_TRUE(weights_beside_nearest({{2, 0, 0}}, {3, 0, 0}, 1).empty());
+  EXPECT_TRUE(weights_beside_nearest({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {9, 9, 9}, 1, 4).empty());
+  EXPECT_TRUE(weights_beside_nearest({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0.25, 0.25, 0}, 1, 4).empty());
+  EXPECT_TRUE(weights_beside_nearest({{2, 0, 0}}, {3, 0, 0}, 1, 4).empty());
 }
 
 }  // namespace

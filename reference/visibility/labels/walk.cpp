@@ -20,7 +20,8 @@ using exact::Point3;
 namespace {
 
 constexpr std::int64_t kLongestWalk = 64;  // legs; what is longer has lost its way in a corner of several walls
-constexpr int kDeep = 6, kBeside = 4;      // from which leg on it is looked for light close by, in how many directions
+constexpr int kDeep = 6;                   // from this leg on it is looked for light close by
+constexpr std::size_t kBeside = 4;         // in so many directions
 constexpr int kCoincidences = 4;           // this many in a row, and a plane in common may be the reason
 constexpr int kDoubtful = 12;              // walks to a point before it counts as visible
 constexpr int kAttempts = 200;  // sight lines in special position come from coincidences; this many in a row mean a bug
@@ -242,18 +243,17 @@ Walk Walker::walk(const Start& start, std::uint64_t seed, std::size_t least) con
       return std::all_of(sides.begin(), sides.end(), [&](const exact::Plane3& h) { return h.has_on_positive_side(x); });
     };
     if (surface) {  // next to V few points of it may see p
-      std::vector<Point3> near = beneath(p, *surface);
-      for (int i = 0; i < (depth < kDeep ? 0 : kBeside); ++i) {
-        const auto weights = exact::weights_beside_nearest(
-            corners_, exact::to_double_estimate(p),
-            mix(seed * 1000003 + static_cast<std::uint64_t>(depth) * 1009 + static_cast<std::uint64_t>(i)));
-        if (!weights.empty()) near.push_back(exact::collapsed(cell.interior_point(weights)));
+      const auto sees = [&](const Point3& x) { return good(x) && scene_->crossings(x, p).is_clear(); };
+      const std::vector<Point3> feet = beneath(p, *surface);
+      walk.ends_at_cell = std::any_of(feet.begin(), feet.end(), sees);
+      if (!walk.ends_at_cell && depth >= kDeep) {
+        const auto beside = exact::weights_beside_nearest(
+            corners_, exact::to_double_estimate(p), seed * 1000003 + static_cast<std::uint64_t>(depth) * 1009, kBeside);
+        walk.ends_at_cell = std::any_of(beside.begin(), beside.end(), [&](const std::vector<double>& weights) {
+          return sees(exact::collapsed(cell.interior_point(weights)));
+        });
       }
-      for (const Point3& x : near) {
-        if (!good(x) || !scene_->crossings(x, p).is_clear()) continue;
-        walk.ends_at_cell = true;
-        return walk;
-      }
+      if (walk.ends_at_cell) return walk;
     }
     exact::SegmentAnswer answer;
     Point3 v;
