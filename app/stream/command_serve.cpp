@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/common.h"
@@ -46,19 +47,23 @@ void answer_lines(const reference::StreamStore& store, const scene::StreamHeader
   }
 }
 
-// Exit code: what is no request ends it.
-int answer_packets(const reference::StreamStore& store, const scene::StreamHeader& header) {
+// What is no request ends it: the client is told why, and so is who started the program.
+void answer_packets(const reference::StreamStore& store, const scene::StreamHeader& header) {
   reference::StreamSession session(store, header);
   say(session.greeting());
   std::array<char, 65536> buffer;
-  while (!session.is_over()) {
+  for (bool more = true; more && !session.is_over();) {
     const auto got = read(STDIN_FILENO, buffer.data(), buffer.size());
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return fine;
+    if (got < 0)
+      throw scene::Error(scene::ErrorCode::file_unreadable,
+                         "cannot read standard input: " + std::generic_category().message(errno));
+    more = got > 0;
     session.feed({buffer.data(), static_cast<std::size_t>(got)});
     for (std::string answer = session.answer_next(); !answer.empty(); answer = session.answer_next()) say(answer);
+    if (!more) say(session.finish());
   }
-  return bad_usage;
+  if (session.is_over()) throw scene::Error(scene::ErrorCode::malformed, session.why_over());
 }
 
 int run_serve(const ServeRequest& request) {
@@ -71,8 +76,11 @@ int run_serve(const ServeRequest& request) {
     serve_at(request.socket, store, header);
     return fine;
   }
-  if (request.binary) return answer_packets(store, header);
-  answer_lines(store, header);
+  if (request.binary) {
+    answer_packets(store, header);
+  } else {
+    answer_lines(store, header);
+  }
   return fine;
 }
 

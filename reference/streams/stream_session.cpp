@@ -21,9 +21,19 @@ std::string StreamSession::answer_next() {
     resumed_ = Resumed{request.route, request.have, 0};
     return resume_some();
   } catch (const scene::Error& e) {
-    over_ = true;
-    return scene::refusal_packet(e.what());
+    return refuse(e.what());
   }
+}
+
+std::string StreamSession::finish() {
+  if (over_ || reader_.empty()) return {};
+  return refuse("client: the input ends inside a request");
+}
+
+std::string StreamSession::refuse(const std::string& why) {
+  over_ = true;
+  why_over_ = why;
+  return scene::refusal_packet(why);
 }
 
 std::string StreamSession::said(std::span<const scene::StreamMessage> messages) {

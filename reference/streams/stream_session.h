@@ -24,9 +24,13 @@ class StreamSession {
   // What to send for the next request that is there as a whole, or for the next cell of a route that is resumed; empty:
   // there is none. One at a time, so that who asks much and takes nothing fills no memory but his own.
   std::string answer_next();
+  // The client sends no more, and what it sent is answered: a refusal where that ends inside a request; else empty.
+  std::string finish();
   bool is_over() const { return over_; }
+  const std::string& why_over() const { return why_over_; }
 
  private:
+  std::string refuse(const std::string& why);
   static std::string said(std::span<const scene::StreamMessage> messages);
   std::string resume_some();
 
@@ -40,6 +44,7 @@ class StreamSession {
   const scene::StreamHeader* header_;
   scene::PacketReader reader_{scene::most_request_bytes, "client"};
   bool over_ = false;
+  std::string why_over_;
 };
 
 }  // namespace clues::reference

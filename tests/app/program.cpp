@@ -41,13 +41,17 @@ std::string attacked_program() {
   return other != nullptr ? other : CLUES_PROGRAM;
 }
 
-Ran run_clues(const std::vector<std::string>& arguments, const fs::path& folder) {
+namespace {
+
+// `input`: what standard input is read from; empty: as it is.
+Ran run(const std::string& input, const std::vector<std::string>& arguments, const fs::path& folder) {
   const TestFolder outputs;
   const auto out = outputs.file("out"), err = outputs.file("err");
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
   if (child == 0) {
     if (chdir(folder.c_str()) != 0) _exit(126);
+    if (!input.empty()) dup2(open(input.c_str(), O_RDONLY), STDIN_FILENO);
     dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
     dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     std::vector<std::string> words = arguments;
@@ -61,6 +65,15 @@ Ran run_clues(const std::vector<std::string>& arguments, const fs::path& folder)
   int status = 0;
   if (waitpid(child, &status, 0) != child) throw std::runtime_error("waitpid failed");
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(out), read_all(err)};
+}
+
+}  // namespace
+
+Ran run_clues(const std::vector<std::string>& arguments, const fs::path& folder) { return run({}, arguments, folder); }
+
+Ran run_clues_on(const std::string& input, const std::vector<std::string>& arguments, const fs::path& folder) {
+  const TestFolder inputs;
+  return run(inputs.write("in", input), arguments, folder);
 }
 
 Ran run_clues(std::vector<std::string> arguments, const std::vector<std::string>& more, const fs::path& folder) {

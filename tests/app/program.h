@@ -24,6 +24,9 @@ Ran run_clues(const std::vector<std::string>& arguments, const std::filesystem::
 // With `more` arguments behind the others.
 Ran run_clues(std::vector<std::string> arguments, const std::vector<std::string>& more,
               const std::filesystem::path& folder);
+// With this on standard input.
+Ran run_clues_on(const std::string& input, const std::vector<std::string>& arguments,
+                 const std::filesystem::path& folder);
 
 class TestFolder : public scene::TemporaryFolder {
  public:

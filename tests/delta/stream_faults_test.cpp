@@ -375,6 +375,24 @@ TEST(StreamFaults, ASocketThatIsInUseOrNoneIsLeftAlone) {
   EXPECT_EQ(tests::read_all(folder.path() / "file"), "mine");
 }
 
+TEST(StreamFaults, PacketsOnStandardInputThatAreNoneOrNotWholeAreToldOfAndExitWithTwo) {
+  const tests::TestFolder folder;
+  folder.write("screen.off", tests::screen_scene);
+  const std::string enter = scene::to_packet(scene::StreamRequest{false, 1, {}, 0});
+  const std::string inside = "inside a request";
+  for (const auto& [input, why] : {std::pair{enter, std::string{}},
+                                   {enter + enter.substr(0, enter.size() - 1), inside},
+                                   {enter.substr(0, 1), inside},
+                                   {std::string(64, '\xFF'), "client: "}}) {
+    const auto ran =
+        tests::run_clues_on(input, {"serve", "screen.off", "--cells", SocketServer::cells, "--binary"}, folder.path());
+    EXPECT_EQ(ran.exit_code, why.empty() ? 0 : 2) << ran.err;
+    EXPECT_NE(ran.err.find(why), std::string::npos) << ran.err;
+    EXPECT_EQ(ran.err.empty(), why.empty()) << ran.err;
+    EXPECT_NE(ran.out.find(why), std::string::npos);  // as a refusal
+  }
+}
+
 TEST(StreamServers, TheProgramIsOneInPacketsAndItsWalkIsAClient) {
   const tests::TestFolder folder;
   folder.write("screen.off", tests::screen_scene);
