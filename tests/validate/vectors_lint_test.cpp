@@ -109,6 +109,45 @@ TEST(Lint, AWrongFirstOrderSetIsFound) {
               HasSubstr("exactly [0, 1, 2, 4, 5]"));
 }
 
+// A limit makes a map larger (D17): where all that it lists is seen nothing was lost. The scene is Found.ANotchInAGroove.
+TEST(Lint, ACaseThatIsCutShortIsTooHardUnlessAllThatIsListedIsSeen) {
+  const auto groove = [](bool all_seen) {
+    return [all_seen](ordered_json& file) {
+      auto& scene = *file["scenes"].begin();
+      scene["vertices"] = {
+          {"-0x1p+1", "0x0p+0", "0x0p+0"},    {"0x0p+0", "0x0p+0", "0x0p+0"},      {"-0x1.7p-2", "0x1p+0", "0x1p+0"},
+          {"0x1p+1", "0x0p+0", "0x0p+0"},     {"0x1.ap-1", "0x1p+0", "0x1p+0"},    {"-0x1.5p-1", "-0x1p+0", "0x1p+0"},
+          {"-0x1.58p+0", "0x1p-3", "0x1p-1"}, {"-0x1.48p+0", "-0x1p-3", "0x1p-1"}, {"-0x1.58p+0", "0x0p+0", "0x1p-2"}};
+      scene["triangles"] = {{0, 1, 2}, {1, 3, 4}, {0, 3, 5}, {6, 7, 8}};
+      auto& only = file["cases"][0];
+      only["cell"] = {{"-0x1p+0", "-0x1p+0", "0x0p+0"},
+                      {"-0x1p+0", "0x1p+0", "0x0p+0"},
+                      {"0x1p+0", "-0x1p+0", "0x0p+0"},
+                      {"0x1p+0", "0x1p+0", "0x0p+0"}};
+      auto seen = ordered_json::array();
+      for (int t = 0; t < 3; ++t) seen.push_back({{"triangle", t}, {"meets_cell", true}});
+      if (all_seen) {
+        seen.push_back({{"triangle", 3},
+                        {"front", true},
+                        {"v", {"4354/4729", "1280/4729", "0"}},
+                        {"p", {"-10625/8032", "-1/2008", "209/502"}}});
+      }
+      auto hidden = ordered_json::array();
+      if (!all_seen)
+        hidden.push_back({{"triangle", 3}, {"proof", "exhaustive"}});  // it is not: the finding beside ours
+      only["expect"] = {{"must_be_visible", seen},
+                        {"umbra", hidden},
+                        {"no_surface", ordered_json::array()},
+                        {"first_order_visible", {0, 1, 2, 3}}};
+    };
+  };
+  const SuiteFolder suite;
+  suite.spoil(groove(true));
+  EXPECT_TRUE(lint(suite).findings.empty()) << to_text(lint(suite));
+  suite.spoil(groove(false));
+  EXPECT_THAT(to_text(lint(suite)), HasSubstr("cut short by the generation limit (D17): too hard to be a case"));
+}
+
 TEST(Lint, MalformedFilesAreFoundAndTheOthersStillProved) {
   for (const auto& change : std::vector<std::function<void(ordered_json&)>>{
            [](auto& file) { file["cases"][0]["colour"] = "red"; },            // an unknown field
