@@ -93,6 +93,7 @@ class LevelsTrial : public Trial {
           Finding again = finding;
           again.where = scene;
           again.witness = to_text(witness);
+          again.explanation = explained(witness.triangle, scene, "a sight line of the larger scene is free here, too");
           return again;
         }
       }
@@ -108,9 +109,13 @@ class LevelsTrial : public Trial {
     f.where = scene;
     f.triangle = seen.triangle;
     if (seen.witness) f.witness = to_text(*seen.witness);
-    f.explanation = fmt::format("triangle {} of {} is not listed: {}", seen.triangle, scene.mesh.triangles.size(),
-                                seen.witness ? "a free sight line (" + seen.aim + ") ends on it" : seen.aim);
+    f.explanation =
+        explained(seen.triangle, scene, seen.witness ? "a free sight line (" + seen.aim + ") ends on it" : seen.aim);
     return f;
+  }
+
+  static std::string explained(std::uint32_t triangle, const Case& scene, const std::string& why) {
+    return fmt::format("triangle {} of {} is not listed: {}", triangle, scene.mesh.triangles.size(), why);
   }
 
   std::uint64_t lines_;

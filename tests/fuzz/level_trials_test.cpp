@@ -1,4 +1,5 @@
 // Trials of bakes, streams and levels (fuzz/trials): what is ours holds; what is planted is found, shrunk, saved, and found again.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -261,6 +262,10 @@ TEST(LevelsTrial, AListThatLacksOneTriangleIsFoundAndShrunk) {
   EXPECT_LT(saved.finding.where.mesh.triangles.size(), 20U);
   EXPECT_EQ(saved.finding.where.blocks.size(), saved.finding.where.mesh.triangles.size());
   EXPECT_EQ(saved.finding.verdict, "hidden/visible");
+  ASSERT_TRUE(saved.finding.triangle);
+  const std::string of_the_shrunk_scene = fmt::format("triangle {} of {} is not listed", *saved.finding.triangle,
+                                                      saved.finding.where.mesh.triangles.size());
+  EXPECT_NE(saved.finding.explanation.find(of_the_shrunk_scene), std::string::npos) << saved.finding.explanation;
 }
 
 // Panes are taken for walls: what is behind them is missing.
