@@ -338,7 +338,12 @@ const std::vector<DegenerateGenerator>& degenerate_generators() {
       {"grooves_on_cells",
        "walls that meet in a line which the cell touches, with and without notches; something 1/2 to 2^-8 (dial) "
        "inside",
-       grooves_on_cells}};
+       grooves_on_cells},
+      {"floors_under_cells",
+       "cells in the plane of a floor, walls on its seams, small triangles right above and below; of those many (dial "
+       "4 "
+       "to 7)",
+       floors_under_cells}};
   return all;
 }
 

@@ -17,4 +17,9 @@ const std::vector<DegenerateGenerator>& touching_generators();
 // solid with the line on a face or on an edge; and next to the line.
 GeneratedScene grooves_on_cells(std::uint64_t seed, std::uint64_t index);
 
+// Another one: a floor in the plane of a cell that is flat, a segment or a point, walls on its seams, and small triangles right above and below it: one side
+// is dark, the other is seen, and neither light nor an event surface is between the two (floor_scenes.cpp). The dial: 4 and more for 66 of these, so that the
+// fast path does not map the scene as a whole.
+GeneratedScene floors_under_cells(std::uint64_t seed, std::uint64_t index);
+
 }  // namespace clues::fuzz

@@ -166,6 +166,32 @@ FlaggedMesh panes() {
   return scene;
 }
 
+// The cell is in the plane of a floor with a wall on its seam: behind it the floor divides dark from lit, and is neither lit nor has an event surface. One place spoke for both sides, and panes
+// 4 and 5 were missing (Found.AFloorUnderAFlatCell is the same without panes).
+TEST(SeeThrough, AFloorInThePlaneOfTheCellDivides) {
+  FlaggedMesh scene;
+  const auto add = [&](const std::array<Point, 3>& corners, bool blocks) {
+    const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
+    scene.mesh.points.insert(scene.mesh.points.end(), corners.begin(), corners.end());
+    scene.mesh.triangles.push_back({first, first + 1, first + 2});
+    scene.mesh.face_of.push_back(static_cast<std::uint32_t>(scene.blocks.size()));
+    scene.blocks.push_back(blocks ? 1 : 0);
+    scene.counts.push_back(1);
+  };
+  const Point left{-64, 4, 0}, right{64, 4, 0};
+  add({left, right, {0, -64, 0}}, true);  // 0, 1: the floor
+  add({left, right, {0, 64, 0}}, true);
+  add({left, right, {0, 4, 64}}, true);                       // 2: the wall
+  add({{{0, 6, 1}, {0.5, 6, 1}, {0, 6.5, 1}}}, false);        // 3: behind it
+  add({{{0, 6, -1}, {0.5, 6, -1}, {0, 6.5, -1}}}, false);     // 4: below the floor
+  add({{{-0.5, 7, 1}, {0.5, 7, 1}, {0, 7.5, -0.5}}}, false);  // 5: through the floor
+  add({{{2, 6, 0}, {3, 6, 0}, {2, 7, 0}}}, false);            // 6: upon the floor, edge-on
+  const fastpath::SeeThroughScene both(scene);
+  for (const std::vector<Point>& cell :
+       {std::vector<Point>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{-1, 0, 0}, {1, 0, 0}}, {{0, 0, 0}}})
+    EXPECT_EQ(fastpath::visible_through(both, cell, {}).all(), (Ids{0, 2, 4, 5}));
+}
+
 TEST(SeeThrough, PanesAreSeenThroughOneAnother) {
   const auto scene = panes();
   for (const auto& list : {by_reference, by_fast_path, exactly_visible})

@@ -58,6 +58,7 @@ MUTATIONS = [
     # The fast path, put to the suite with --kernel fast.
     ("fast-contour-wrong-side", "fastpath/contour.cpp", "in_h_plus &= side <= 0;", "in_h_plus &= side >= 0;"),
     ("fast-walk-notch-is-no-gap", "fastpath/grooves.cpp", "if (next == pieces.end()) return false;", "if (next == pieces.end()) return true;"),
+    ("fast-closure-floors-divide-nothing", "fastpath/darkness.cpp", "t) && is_edge_on(scene.corners(t), cell);", "t) && is_edge_on(scene.corners(t), cell) && false;"),
     ("fast-contour-convex-only", "fastpath/contour.cpp", "if (!in_h_plus || (left && right)) continue;", "if (!in_h_plus || left || right) continue;"),
     ("fast-contour-one-plane-only", "fastpath/contour.cpp", "for (const int turn : {1, -1}) {", "for (const int turn : {1}) {"),
     ("fast-contour-right-of-the-edge-only", "fastpath/contour.cpp", "    if (!supports[k].left.empty()) contour.push_back({id, plane, supports[k].left, other, holds_cell});\n", ""),

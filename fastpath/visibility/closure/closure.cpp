@@ -162,7 +162,7 @@ void Closer::drop_untouched(const Darkness& darkness, const std::vector<std::uin
 }
 
 bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible) {
-  const Darkness darkness(map, bvh_, visible, cell_.vertices());
+  const Darkness darkness(map, bvh_, part_, visible, cell_.vertices());
   const auto counts_in_list = [&](std::uint32_t t) { return counting_.empty() || counting_[t] != 0; };
   const std::size_t enough = failures_ > 0 ? failures_ : std::max(kFailures, kFailuresPerMapped * part_.size());
   const std::vector<std::uint32_t> failed = darkness.not_proved(
@@ -192,7 +192,7 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
 
 std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene,
                                            const Cell& cell) {
-  const Darkness darkness(*closure.map, scene, closure.visible, cell.vertices());
+  const Darkness darkness(*closure.map, scene, closure.part, closure.visible, cell.vertices());
   ClosureCounts uncounted;
   ProvedDark proved(others);
   auto left = darkness.not_proved(

@@ -3,12 +3,13 @@
 // Theorem. If K contains every triangle of S that has a point in Omega(S), then Omega(K) = Omega(S).
 // Proof. A continuation C(x,v) with x in Omega(S) ends, in S, at a point of Omega(S), so at a triangle of K, and K has no nearer one: C(x,v) is the same in K and in S.
 // So Omega(S) is closed under continuation in K, which makes Omega(K) a subset of Omega(S); then x in Omega(K) is in Omega(S), and Omega(K) is closed under continuation
-// in S, which makes it a superset. (What S has of measure zero in Omega(S) changes K's map by measure zero.)
+// in S, which makes it a superset. (What S has of measure zero in Omega(S) changes K's map by measure zero. So triangles that are edge-on to a flat V, in a
+// plane with all of it, need not be in K: sight lines off the plane do not meet them, and no side of them faces V.)
 //
 // For any part K, Omega(S) lies in Omega(K): along a chain of D9 C(x,v) in S is a beginning of that in K. So a triangle that is proved to lie outside Omega(K) is dark for good, whatever
 // K is mapped next.
 //
-// So: guess K by sampled rays, map K, and then prove of every other triangle that it lies outside Omega(K). A box that no lit triangle of K and no wedge of K touches is of one
+// So: guess K by sampled rays, map K, and then prove of every other triangle that it lies outside Omega(K). A box that no lit triangle of K, no edge-on one and no wedge of K touches is of one
 // label, so one point proves a whole subtree of the BVH dark. Where a proof fails K grows by what is in front. What light does not touch in K is dark and leaves it: no wedge ends there, so
 // the map is the same without it. Then the loop runs again with what is left. When nothing is, K is as the theorem wants it, as only what is dark is not in it; K may hold too much.
 //
@@ -41,7 +42,7 @@ class PartialMap {
 
   // Triangles of the small scene with a visible region, or meeting the cell; ascending.
   virtual std::vector<std::uint32_t> visible() const = 0;
-  // hidden only if all of the closed box is outside Omega, where no visible triangle touches it.
+  // hidden only if all of the closed box is outside Omega, where no visible triangle touches it, nor one that is edge-on to the cell (darkness.h, Dividers); so below.
   virtual SetLabel label(const Box& box) const = 0;
   // The same for the inside of a triangle that no visible one meets. It is asked at middle_of(about); `about` holds a point of the inside, and no visible triangle touches it.
   virtual SetLabel label_of_inside(const Corners& triangle, const Box& about) const = 0;

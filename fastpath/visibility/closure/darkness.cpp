@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "fastpath/predicates/estimated_vectors.h"
@@ -27,12 +28,25 @@ bool plane_may_touch(const Corners& t, const Box& b) {
   return negative && positive;
 }
 
+std::vector<std::uint32_t> with_edge_on(const Bvh& scene, std::span<const std::uint32_t> part,
+                                        std::span<const std::uint32_t> visible, std::span<const Point> cell) {
+  std::vector<std::uint32_t> all(visible.begin(), visible.end());
+  std::copy_if(part.begin(), part.end(), std::back_inserter(all), [&](std::uint32_t t) {
+    return !std::binary_search(visible.begin(), visible.end(), t) && is_edge_on(scene.corners(t), cell);
+  });
+  return all;
+}
+
 constexpr std::array<std::array<double, 3>, 3> kInside{
     {{0.3125, 0.375, 0.3125}, {0.25, 0.25, 0.5}, {0.5, 0.1875, 0.3125}}};
 
 }  // namespace
 
-LitTriangles::LitTriangles(const Bvh& bvh, std::span<const std::uint32_t> ids) {
+bool is_edge_on(const Corners& t, std::span<const Point> cell) {
+  return std::all_of(cell.begin(), cell.end(), [&](const Point& v) { return side_of_plane(t, v) == 0; });
+}
+
+Dividers::Dividers(const Bvh& bvh, const std::vector<std::uint32_t>& ids) {
   std::vector<CGAL::Bbox_3> boxes;
   for (const std::uint32_t id : ids) {
     corners_.push_back(bvh.corners(id));
@@ -41,14 +55,14 @@ LitTriangles::LitTriangles(const Bvh& bvh, std::span<const std::uint32_t> ids) {
   tree_ = exact::BoxTree(std::move(boxes));
 }
 
-bool LitTriangles::may_touch(const Box& box, const Corners* aside) const {
+bool Dividers::may_touch(const Box& box, const Corners* aside) const {
   for (const std::uint32_t i : near(box)) {
     if (plane_may_touch(corners_[i], box) && !(aside && in_plane_of(*aside, corners_[i]))) return true;
   }
   return false;
 }
 
-bool LitTriangles::may_touch(const Corners& t) const {
+bool Dividers::may_touch(const Corners& t) const {
   const Box box = scene::bounds_of(t);
   for (const std::uint32_t i : near(box)) {
     if (plane_may_touch(corners_[i], box) && plane_may_touch(t, scene::bounds_of(corners_[i]))) return true;
@@ -56,7 +70,7 @@ bool LitTriangles::may_touch(const Corners& t) const {
   return false;
 }
 
-LitTriangles::Meets LitTriangles::may_meet_inside(const Corners& t) const {
+Dividers::Meets Dividers::may_meet_inside(const Corners& t) const {
   Meets meets = Meets::nothing;
   for (const std::uint32_t i : near(scene::bounds_of(t))) {
     if (!may_meet_inside_conservative(t, corners_[i])) continue;
@@ -66,15 +80,20 @@ LitTriangles::Meets LitTriangles::may_meet_inside(const Corners& t) const {
   return meets;
 }
 
-std::vector<std::uint32_t> LitTriangles::near(const Box& box) const {
+std::vector<std::uint32_t> Dividers::near(const Box& box) const {
   const CGAL::Bbox_3 b = to_bbox(box);
   return tree_.candidates([&](const CGAL::Bbox_3& other) { return CGAL::do_overlap(b, other); });
 }
 
+Darkness::Darkness(const PartialMap& map, const Bvh& scene, std::span<const std::uint32_t> part,
+                   std::span<const std::uint32_t> visible, std::span<const Point> cell)
+    : map_(map), dividers_(scene, with_edge_on(scene, part, visible, cell)), cell_(cell) {}
+
 bool Darkness::dark(const Corners& t) const {
-  const LitTriangles::Meets meets = lit_.may_meet_inside(t);
-  if (meets == LitTriangles::Meets::across) return false;
-  if (meets == LitTriangles::Meets::nothing && dark_inside(t)) return true;
+  if (is_edge_on(t, cell_) && !touch(scene::bounds_of(t), scene::bounds_of(cell_))) return true;
+  const Dividers::Meets meets = dividers_.may_meet_inside(t);
+  if (meets == Dividers::Meets::across) return false;
+  if (meets == Dividers::Meets::nothing && dark_inside(t)) return true;
   return cell_on_one_side(t) && dark_beside(t, 1) && dark_beside(t, -1);
 }
 
@@ -82,7 +101,7 @@ bool Darkness::dark(const Corners& t) const {
 bool Darkness::dark_inside(const Corners& t) const {
   for (const std::array<double, 3>& weight : kInside) {
     const Box about = about_inside(t, weight);
-    if (lit_.may_touch(about)) continue;
+    if (dividers_.may_touch(about)) continue;
     const SetLabel label = map_.label_of_inside(t, about);
     if (label != SetLabel::elsewhere) return label == SetLabel::hidden;
   }
@@ -111,7 +130,7 @@ bool Darkness::dark_beside(const Corners& t, int side) const {
         const double by = side * (n[i] / largest) * step * extent;
         (by > 0 ? about.high : about.low)[i] += by;
       }
-      if (side_of_plane(t, middle_of(about)) != side || lit_.may_touch(about, &t)) continue;
+      if (side_of_plane(t, middle_of(about)) != side || dividers_.may_touch(about, &t)) continue;
       const SetLabel label = map_.label_beside(t, about);
       if (label != SetLabel::elsewhere) return label == SetLabel::hidden;
     }

@@ -11,10 +11,16 @@
 
 namespace clues::fastpath {
 
-// The triangles of K that are lit, as boxes: all that light meets. What is dark in K stops no light, and need not be in K.
-class LitTriangles {
+// Whether all of the cell is in the plane of the triangle.
+bool is_edge_on(const Corners& t, std::span<const Point> cell);
+
+// What divides lit space from dark in K, but for wedge pieces: the triangles of K that are lit, and those edge-on to all of V (their planes
+// hold V, which is flat). Of any other triangle a side that is lit faces V, so that the triangle is lit, or has V on its plane and
+// a wedge piece upon it. Light is never on an edge-on one, as viewers in its plane see past it on both sides (T10): so it stops
+// none, but one side of it may be in Omega and the other not, as where a wall stands on a floor that V is in.
+class Dividers {
  public:
-  LitTriangles(const Bvh& bvh, std::span<const std::uint32_t> ids);
+  Dividers(const Bvh& bvh, const std::vector<std::uint32_t>& ids);
 
   // Conservative: a box and the plane of a triangle beside it. Those in the plane of `aside` are not asked about.
   bool may_touch(const Box& box, const Corners* aside = nullptr) const;
@@ -41,9 +47,9 @@ struct ProvedDark {
 
 class Darkness {
  public:
-  // Keeps references. `visible`: all triangles of the scene that light meets in the map, ascending.
-  Darkness(const PartialMap& map, const Bvh& scene, std::span<const std::uint32_t> visible, std::span<const Point> cell)
-      : map_(map), lit_(scene, visible), cell_(cell) {}
+  // Keeps references. `part`: K; `visible`: all triangles of the scene that light meets in the map; both ascending.
+  Darkness(const PartialMap& map, const Bvh& scene, std::span<const std::uint32_t> part,
+           std::span<const std::uint32_t> visible, std::span<const Point> cell);
 
   using Which = std::function<bool(std::uint32_t triangle)>;
   // The triangles of the tree for which there is no proof, but for those that are skipped or proved before. No more levels of the tree are opened once there are `enough`, of which at
@@ -51,18 +57,18 @@ class Darkness {
   std::vector<std::uint32_t> not_proved(const Bvh& tree, const Which& skip, const Which& counts, std::size_t enough,
                                         ProvedDark& proved, ClosureCounts& figures) const;
 
-  // Of a triangle of K that light does not meet: whether neither a lit triangle nor a wedge piece touches the closed triangle either.
-  bool untouched(const Corners& t) const { return !lit_.may_touch(t) && !map_.piece_may_touch(t); }
+  // Of a triangle of K that light does not meet: whether nothing that divides and no wedge piece touches the closed triangle either.
+  bool untouched(const Corners& t) const { return !dividers_.may_touch(t) && !map_.piece_may_touch(t); }
 
  private:
-  bool dark(const Box& box) const { return !lit_.may_touch(box) && map_.label(box) == SetLabel::hidden; }
+  bool dark(const Box& box) const { return !dividers_.may_touch(box) && map_.label(box) == SetLabel::hidden; }
   bool dark(const Corners& t) const;
   bool dark_inside(const Corners& t) const;
   bool dark_beside(const Corners& t, int side) const;
   bool cell_on_one_side(const Corners& t) const;
 
   const PartialMap& map_;
-  LitTriangles lit_;
+  Dividers dividers_;
   std::span<const Point> cell_;
 };
 

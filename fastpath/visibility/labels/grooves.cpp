@@ -170,6 +170,8 @@ bool Walker::groove_leg(Walk& walk, const Surface& on, const Surface& before, Bo
 
 bool Walker::leg_from_edge(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const {
   const Leg& last = walk.legs.back();
+  // It is rounded, and has to be in the groove for all that.
+  if (height_sign(on, *last.next) <= 0 || height_sign(before, *last.next) <= 0) return false;
   const std::vector<std::uint32_t> common = wall_of(on, before).edges;
   for (std::size_t i = 0; i < common.size(); ++i) {
     const LocalEdge& e = scene_->edges[common[i]];

@@ -3,7 +3,7 @@
 // every apex x whose wedges a limit of D17 left out. All else is visible, or counted as such.
 //
 // Theorem. Let W be the valid pieces that were built and X the apexes whose wedges were left out. Let M be convex (or the inside of a triangle, and what is right beside it), let no
-// surface that light meets and no piece of W cut M, and let M be disjoint from the closed A(x) of every x in X. If the walk from one point of M calls it hidden, no point of M is in Omega.
+// surface that light meets or that is edge-on to all of a flat V, and no piece of W cut M, and let M be disjoint from the closed A(x) of every x in X. If the walk from one point of M calls it hidden, no point of M is in Omega.
 // Proof. A(x) is x and a convex cone; so y in A(x) gives y - x + (cone of y - V) in the cone of x - V: A(y) lies in A(x), and the same holds for the closed ones.
 // (1) What a wedge with an apex or on an edge at y could show lies in the closed A(y): a leg of a walk that crosses the wedge at q runs on in A(q), so does every later leg, whose
 // m is on the one before; and q is in the closed A(y). So a walk from a point outside is right as far as it follows sight lines. Where it does not (from the place beside m to p, a rounding
@@ -42,7 +42,7 @@ class OneLabel {
   // Keeps references; `pieces` are complete. Needs RoundedUp in scope, here and below.
   OneLabel(const Walker& walker, const PieceSet& pieces, const LeftOut& left_out);
 
-  // Of a closed box that no surface touches which light meets.
+  // Of a closed box that no surface touches which light meets, or which is edge-on to V (closure/darkness.h, Dividers). So below: "such surfaces" are these.
   SetLabel of_box(const Box& box) const;
   // Of the inside of a triangle that no such surface meets, asked at the middle of `about`: a box that holds a point of the inside and that no such surface touches.
   SetLabel of_inside(const Corners& triangle, const Box& about) const;
