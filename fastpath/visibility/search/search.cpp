@@ -371,7 +371,8 @@ class Search::Work {
       const int generation = piece.generation + 1;
       if (c->generation < 0 || generation < c->generation) c->generation = generation;
       const LocalEdge& e = scene.edges[m.id];
-      probe.lit_end = &scene.points[on.plane->side(scene.points[e.a]) > 0 ? e.a : e.b];
+      // On the rim of the piece the lit space before it may meet the edge in this point alone.
+      if (before && after) probe.lit_end = &scene.points[on.plane->side(scene.points[e.a]) > 0 ? e.a : e.b];
     }
     // The piece lies on both sides of the ray through the vertex, or on one.
     if (before) {

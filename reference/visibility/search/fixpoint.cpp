@@ -323,17 +323,19 @@ class Search {
     // The piece lies on both sides of the ray through x, or on one. aside: counter-clockwise about n, or clockwise.
     const Vector3 ccw = CGAL::cross_product(n, x - w.center);
     const OnWedge& on = *piece.on_wedge;
+    const bool before = CGAL::orientation(on.center, c.at.q, piece.strip.on_ray1.q) == CGAL::LEFT_TURN,
+               after = CGAL::orientation(on.center, piece.strip.on_ray0.q, c.at.q) == CGAL::LEFT_TURN;
     const auto add = [&](const Vector3& aside) {
       Probe probe = apex->probe(back, aside, n);
       probe.doubtful = in_doubt();
-      if (apex->on_edge()) {
+      if (apex->on_edge() && before && after) {  // on its rim the lit space before it may meet the edge in x alone
         const Vector3 along = complex_.points[complex_.edges[c.id].b] - complex_.points[complex_.edges[c.id].a];
         probe.lit_edge = CGAL::is_positive(n * along) ? along : -along;
       }
       apex->add_probe(probe);
     };
-    if (CGAL::orientation(on.center, c.at.q, piece.strip.on_ray1.q) == CGAL::LEFT_TURN) add(ccw);
-    if (CGAL::orientation(on.center, piece.strip.on_ray0.q, c.at.q) == CGAL::LEFT_TURN) add(-ccw);
+    if (before) add(ccw);
+    if (after) add(-ccw);
     touched_.insert(apex);
   }
 
