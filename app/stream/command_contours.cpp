@@ -97,10 +97,16 @@ void require_within(const PlacedCell& cell, const std::vector<PlacedCell>& cells
     if (!hull.contains(exact::to_exact(p)))
       throw Error(ErrorCode::bad_cell, fmt::format("cell {}: is not inside of {}", cell.spec.name, named));
   }
+  const auto inner = exact::ConvexCell::from_doubles(cell.spec.points);
   // T6 asks for int C in int P. C lies in P, so one point of int C in int P is enough.
-  if (!hull.interior_contains(exact::ConvexCell::from_doubles(cell.spec.points).center()))
+  if (!hull.interior_contains(inner.center()))
     throw Error(ErrorCode::bad_cell,
                 fmt::format("cell {}: lies in the border of {}; give a larger --parent", cell.spec.name, named));
+  if (hull.dimension() < 3 && inner.dimension() < hull.dimension())
+    throw Error(ErrorCode::bad_cell,
+                fmt::format("cell {}: has fewer dimensions than {}, which is not solid, and may see "
+                            "what that does not; give a solid --parent, or cells of one kind",
+                            cell.spec.name, named));
 }
 
 // One line of the table. `lists`: of the maps of cells before.

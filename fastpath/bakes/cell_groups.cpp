@@ -31,14 +31,15 @@ class Builder {
   }
 
  private:
-  // T6 asks for boxes that hold the insides of the cells in theirs. That of a flat cell, a segment or a point may lie in the border of
-  // the box; then that side is moved out by an eighth, or by as little as doubles can.
+  // T6 asks for solid boxes that hold the insides of the cells in theirs. That of a flat cell, a segment or a point may lie in the
+  // border of the box; then that side is moved out by an eighth, or by as little as doubles can. So is one of no width.
   Bounds around_insides(std::span<const std::uint32_t> cells, const Bounds& b) const {
     constexpr double kMost = std::numeric_limits<double>::max();
     Bounds around = b;
+    double widest = 0;
+    for (std::size_t i = 0; i < 3; ++i) widest = std::max(widest, b.high[i] / 8 - b.low[i] / 8);
     for (std::size_t i = 0; i < 3; ++i) {
-      if (b.low[i] == b.high[i]) continue;  // all lie in the plane of the box
-      const double by = b.high[i] / 8 - b.low[i] / 8;
+      const double by = b.low[i] == b.high[i] ? widest : b.high[i] / 8 - b.low[i] / 8;
       for (const auto c : cells) {
         if (bounds_[c].low[i] != bounds_[c].high[i]) continue;
         if (bounds_[c].low[i] == b.low[i]) around.low[i] = std::min(b.low[i] - by, std::nextafter(b.low[i], -kMost));

@@ -119,6 +119,26 @@ TEST(Contours, SeedsComeBackInTheirComponents) {
   }
 }
 
+// And for a solid P, or one of C's dimension: from the line of two curtains one sees between them, and from beside it not.
+TEST(ContourCommands, ASegmentInAFlatParentIsRefused) {
+  const tests::TestFolder folder;
+  folder.write("curtains.obj",
+               "v -5 0 0\nv 5 0 0\nv 0 -3 3\nv 0 3 3\nv -0.25 -0.25 1\nv 0.25 -0.25 1\nv 0 0.25 1\n"
+               "f 1 2 3\nf 1 2 4\nf 5 6 7\n");
+  const auto contours = [&](const std::string& parent) {
+    return tests::run_clues(
+        {"delta", "contours", "curtains.obj", "--parent", parent, "--cells", "grid:1x1x1:box:-1,0,0,1,0,0"},
+        folder.path());
+  };
+  const auto refused = contours("box:-2,-2,0,2,2,0");
+  EXPECT_EQ(refused.exit_code, 2) << refused.out;
+  EXPECT_NE(refused.err.find("has fewer dimensions than --parent"), std::string::npos) << refused.err;
+  for (const char* taken : {"box:-2,-2,-1,2,2,1", "box:-2,0,0,2,0,0"}) {
+    const auto ran = contours(taken);
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  }
+}
+
 // T6 asks for int C in int P: of a parent's border nothing is known from its map.
 TEST(ContourCommands, ACellInTheBorderOfItsParentIsRefused) {
   const tests::TestFolder folder;

@@ -86,7 +86,7 @@ TEST(InsideCorners, HazardB25TheLineContinuesBothWedges) {
 TEST(InsideCorners, NothingBecomesHiddenInRandomScenes) {
   std::uint64_t corners = 0, taken = 0, before = 0, after = 0;
   for (const fuzz::Kind kind : fuzz::all_kinds) {
-    for (std::uint64_t i = 0; i < 2; ++i) {
+    for (std::uint64_t i = 0; i < 5; ++i) {
       const auto scene = fuzz::generate(kind, 20261121, i);
       if (scene.mesh.triangles.size() > 30) continue;
       SCOPED_TRACE(scene.name);
