@@ -17,6 +17,7 @@
 #include "app/progress.h"
 #include "app/stream/number_between.h"
 #include "app/stream/served_cells.h"
+#include "app/stream/within_range.h"
 #include "reference/contours/contour_maker.h"
 #include "reference/contours/list_contour.h"
 #include "reference/delta/delta.h"
@@ -184,6 +185,8 @@ int run_contours(const ContoursRequest& request) {
   scene::TriangleMesh mesh;
   const auto sha256 = sha256_around(request.scene, [&] { mesh = scene::read_plain_scene(request.scene); });
   const auto cells = placed_cells(request);
+  require_within_range(request.scene, mesh.points);
+  for (const auto& cell : cells) require_within_range("cell " + cell.spec.name, cell.spec.points);
   for (const auto& cell : cells) {
     if (cell.within != 0) require_within(cell, cells);
   }

@@ -12,6 +12,7 @@
 #include "app/common.h"
 #include "app/map/umbra_output.h"
 #include "app/progress.h"
+#include "app/stream/within_range.h"
 #include "reference/delta/virtual_occluders.h"
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
@@ -104,6 +105,8 @@ int run_occluders(const OccludersRequest& request) {
   check_outputs(request);
   const auto mesh = scene::read_plain_scene(request.scene);
   const auto spec = scene::parse_cell(request.cell);
+  require_within_range(request.scene, mesh.points);
+  require_within_range("--cell", spec.points);
   const auto cell = exact::ConvexCell::from_doubles(spec.points);
   std::vector<VirtualOccluder> occluders;
   std::optional<std::vector<std::uint32_t>> visible;

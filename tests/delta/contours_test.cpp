@@ -119,6 +119,21 @@ TEST(Contours, SeedsComeBackInTheirComponents) {
   }
 }
 
+// Beyond 2^256 arrangements of the library crashed, or lost what is visible (found by a reader).
+TEST(ContourCommands, CoordinatesBeyondTheirRangeAreRefused) {
+  const tests::TestFolder folder;
+  folder.write("huge.off", "OFF\n3 1 0\n0 0 2e102\n1e102 0 2e102\n0 1e102 2e102\n3 0 1 2\n");
+  for (const auto& command :
+       {std::vector<std::string>{"delta", "contours", "huge.off", "--parent", "box:-2,-2,-2,2,2,2", "--cells",
+                                 "grid:2x1x1:box:-1,-1,-1,1,1,1", "-o", "c"},
+        {"occluders", "huge.off", "--cell", "box:0,0,0,1,1,1", "--plane", "z=2", "-o", "c.json"}}) {
+    const auto refused = tests::run_clues(command, folder.path());
+    EXPECT_EQ(refused.exit_code, 2) << refused.out;
+    EXPECT_NE(refused.err.find("coordinates beyond 2^256"), std::string::npos) << refused.err;
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"huge.off"});
+  }
+}
+
 // And for a solid P, or one of C's dimension: from the line of two curtains one sees between them, and from beside it not.
 TEST(ContourCommands, ASegmentInAFlatParentIsRefused) {
   const tests::TestFolder folder;
