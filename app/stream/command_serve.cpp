@@ -52,16 +52,18 @@ void answer_packets(const reference::StreamStore& store, const scene::StreamHead
   reference::StreamSession session(store, header);
   say(session.greeting());
   std::array<char, 65536> buffer;
-  for (bool more = true; more && !session.is_over();) {
+  while (!session.is_over()) {
     const auto got = read(STDIN_FILENO, buffer.data(), buffer.size());
     if (got < 0 && errno == EINTR) continue;
     if (got < 0)
       throw scene::Error(scene::ErrorCode::file_unreadable,
                          "cannot read standard input: " + std::generic_category().message(errno));
-    more = got > 0;
+    if (got == 0) {
+      say(session.finish());
+      break;
+    }
     session.feed({buffer.data(), static_cast<std::size_t>(got)});
     for (std::string answer = session.answer_next(); !answer.empty(); answer = session.answer_next()) say(answer);
-    if (!more) say(session.finish());
   }
   if (session.is_over()) throw scene::Error(scene::ErrorCode::malformed, session.why_over());
 }

@@ -297,9 +297,7 @@ GeneratedScene irises(std::uint64_t seed, std::uint64_t index) {
     return dimension >= least_dimension ? extent : 0.0;
   };
   const double dx = size(1), dy = size(2), dz = size(3);
-  scene.cell = box_of(point(x, y, z), point(x + dx, y + dy, z + dz));
-  std::sort(scene.cell.begin(), scene.cell.end());
-  scene.cell.erase(std::unique(scene.cell.begin(), scene.cell.end()), scene.cell.end());
+  scene.cell = distinct_corners(point(x, y, z), point(x + dx, y + dy, z + dz));
   if (index / dials % 2 == 1) {
     const Point& from = any(scene.cell, random);  // towards the middle of the window, which is the origin
     for (int n = random.between(1, 2); n > 0; --n) {

@@ -1,6 +1,4 @@
 // Scenes whose cell lies in the plane of geometry (D5, T10): a floor in several triangles, walls on its seams, and small things right above and below it.
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -61,15 +59,12 @@ class Floors {
   void add_cell() {
     const double x = random_.one_in(4) ? 0 : random_.between(1, 8) / 4.0,
                  y = random_.one_in(3) ? 0 : random_.between(1, 8) / 4.0;
-    scene_.cell = box_of({-x, -y, 0}, {x, y, random_.one_in(8) ? 1.0 : 0.0});  // seldom a solid that stands on it
-    std::sort(scene_.cell.begin(), scene_.cell.end());
-    scene_.cell.erase(std::unique(scene_.cell.begin(), scene_.cell.end()), scene_.cell.end());
+    scene_.cell =
+        distinct_corners({-x, -y, 0}, {x, y, random_.one_in(8) ? 1.0 : 0.0});  // seldom a solid that stands on it
   }
 
   void turn() {
-    std::array<std::size_t, 3> axes{0, 1, 2};
-    for (std::size_t i = 2; i > 0; --i)
-      std::swap(axes[i], axes[static_cast<std::size_t>(random_.between(0, static_cast<int>(i)))]);
+    const auto axes = shuffled_axes(random_);
     for (auto* points : {&scene_.mesh.points, &scene_.cell}) {
       for (Point& p : *points) {
         const Point q = p;

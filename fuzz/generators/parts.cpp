@@ -1,7 +1,9 @@
 #include "fuzz/generators/parts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace clues::fuzz {
 
@@ -46,6 +48,20 @@ std::vector<Point> box_of(const Point& lo, const Point& hi) {
   for (unsigned i = 0; i < 8; ++i)
     corners.push_back({i & 1 ? hi[0] : lo[0], i & 2 ? hi[1] : lo[1], i & 4 ? hi[2] : lo[2]});
   return corners;
+}
+
+std::vector<Point> distinct_corners(const Point& lo, const Point& hi) {
+  auto corners = box_of(lo, hi);
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+std::array<std::size_t, 3> shuffled_axes(Random& random) {
+  std::array<std::size_t, 3> axes{0, 1, 2};
+  for (std::size_t i = 2; i > 0; --i)
+    std::swap(axes[i], axes[static_cast<std::size_t>(random.between(0, static_cast<int>(i)))]);
+  return axes;
 }
 
 bool is_closed(const scene::TriangleMesh& mesh) {

@@ -37,6 +37,10 @@ void add_quad(scene::TriangleMesh& mesh, const scene::Point& a, const scene::Poi
 void add_receiver(scene::TriangleMesh& mesh, double x);
 
 std::vector<scene::Point> box_of(const scene::Point& lo, const scene::Point& hi);  // its corners, x fastest
+// The same in order and each once, for boxes that are flat, segments or points.
+std::vector<scene::Point> distinct_corners(const scene::Point& lo, const scene::Point& hi);
+
+std::array<std::size_t, 3> shuffled_axes(Random& random);
 
 // Whether each edge of the mesh is met once in each direction: closed and consistently oriented.
 bool is_closed(const scene::TriangleMesh& mesh);

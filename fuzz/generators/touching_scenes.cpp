@@ -280,7 +280,6 @@ class Grooves {
     add_inside();
     add_cell();
     turn();
-    scene_.cell.erase(std::unique(scene_.cell.begin(), scene_.cell.end()), scene_.cell.end());
     return std::move(scene_);
   }
 
@@ -331,14 +330,11 @@ class Grooves {
       b[1] = 0;
       a[2] = b[2] = -std::ldexp(1, -random_.between(1, 6));
     }
-    scene_.cell = box_of(a, b);
-    std::sort(scene_.cell.begin(), scene_.cell.end());
+    scene_.cell = distinct_corners(a, b);
   }
 
   void turn() {
-    std::array<std::size_t, 3> axes{0, 1, 2};
-    for (std::size_t i = 2; i > 0; --i)
-      std::swap(axes[i], axes[static_cast<std::size_t>(random_.between(0, static_cast<int>(i)))]);
+    const auto axes = shuffled_axes(random_);
     const bool mirror = random_.one_in(2);
     const int shear = random_.one_in(2) ? 0 : random_.between(-2, 2), along = random_.between(-1, 1);
     for (auto* points : {&scene_.mesh.points, &scene_.cell}) {

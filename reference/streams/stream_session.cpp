@@ -7,7 +7,7 @@
 namespace clues::reference {
 
 std::string StreamSession::answer_next() {
-  if (over_) return {};
+  if (is_over()) return {};
   try {
     if (resumed_) return resume_some();
     const auto packet = reader_.next();
@@ -26,13 +26,12 @@ std::string StreamSession::answer_next() {
 }
 
 std::string StreamSession::finish() {
-  if (over_ || reader_.empty()) return {};
+  if (is_over() || reader_.empty()) return {};
   return refuse("client: the input ends inside a request");
 }
 
 std::string StreamSession::refuse(const std::string& why) {
-  over_ = true;
-  why_over_ = why;
+  refused_ = why;
   return scene::refusal_packet(why);
 }
 

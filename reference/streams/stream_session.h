@@ -26,8 +26,8 @@ class StreamSession {
   std::string answer_next();
   // The client sends no more, and what it sent is answered: a refusal where that ends inside a request; else empty.
   std::string finish();
-  bool is_over() const { return over_; }
-  const std::string& why_over() const { return why_over_; }
+  bool is_over() const { return refused_.has_value(); }
+  const std::string& why_over() const { return *refused_; }
 
  private:
   std::string refuse(const std::string& why);
@@ -43,8 +43,7 @@ class StreamSession {
   std::optional<Resumed> resumed_;
   const scene::StreamHeader* header_;
   scene::PacketReader reader_{scene::most_request_bytes, "client"};
-  bool over_ = false;
-  std::string why_over_;
+  std::optional<std::string> refused_;  // why
 };
 
 }  // namespace clues::reference

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <random>
 #include <utility>
@@ -145,17 +146,20 @@ void compare(std::uint64_t begin, std::uint64_t end) {
 TEST(SeeThrough, ListsAreTheDefinitionOneTriangleAtATime) { compare(0, 8); }
 TEST(SeeThroughLong, ListsAreTheDefinitionOneTriangleAtATime) { compare(1000, 1300); }
 
+void add_triangle(FlaggedMesh& scene, const std::array<Point, 3>& corners, bool blocks, bool counts) {
+  const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
+  scene.mesh.points.insert(scene.mesh.points.end(), corners.begin(), corners.end());
+  scene.mesh.triangles.push_back({first, first + 1, first + 2});
+  scene.mesh.face_of.push_back(static_cast<std::uint32_t>(scene.blocks.size()));
+  scene.blocks.push_back(blocks ? 1 : 0);
+  scene.counts.push_back(counts ? 1 : 0);
+}
+
 // A wall behind two panes, and a small pane that only the wall hides.
 FlaggedMesh panes() {
   FlaggedMesh scene;
   const auto add = [&](double size, double z, bool blocks, bool counts) {
-    const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
-    for (const Point& p : {Point{-size, -size, z}, Point{size, -size, z}, Point{0, size, z}})
-      scene.mesh.points.push_back(p);
-    scene.mesh.triangles.push_back({first, first + 1, first + 2});
-    scene.mesh.face_of.push_back(static_cast<std::uint32_t>(scene.blocks.size()));
-    scene.blocks.push_back(blocks ? 1 : 0);
-    scene.counts.push_back(counts ? 1 : 0);
+    add_triangle(scene, {{{-size, -size, z}, {size, -size, z}, {0, size, z}}}, blocks, counts);
   };
   add(90, 2, false, true);     // 0: a pane
   add(90, 3, false, true);     // 1: another one behind it
@@ -171,12 +175,7 @@ FlaggedMesh panes() {
 TEST(SeeThrough, AFloorInThePlaneOfTheCellDivides) {
   FlaggedMesh scene;
   const auto add = [&](const std::array<Point, 3>& corners, bool blocks) {
-    const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
-    scene.mesh.points.insert(scene.mesh.points.end(), corners.begin(), corners.end());
-    scene.mesh.triangles.push_back({first, first + 1, first + 2});
-    scene.mesh.face_of.push_back(static_cast<std::uint32_t>(scene.blocks.size()));
-    scene.blocks.push_back(blocks ? 1 : 0);
-    scene.counts.push_back(1);
+    add_triangle(scene, corners, blocks, true);
   };
   const Point left{-64, 4, 0}, right{64, 4, 0};
   add({left, right, {0, -64, 0}}, true);  // 0, 1: the floor

@@ -28,6 +28,11 @@ bool plane_may_touch(const Corners& t, const Box& b) {
   return negative && positive;
 }
 
+// Whether all of the cell is in the plane of the triangle.
+bool is_edge_on(const Corners& t, std::span<const Point> cell) {
+  return std::all_of(cell.begin(), cell.end(), [&](const Point& v) { return side_of_plane(t, v) == 0; });
+}
+
 std::vector<std::uint32_t> with_edge_on(const Bvh& scene, std::span<const std::uint32_t> part,
                                         std::span<const std::uint32_t> visible, std::span<const Point> cell) {
   std::vector<std::uint32_t> all(visible.begin(), visible.end());
@@ -41,10 +46,6 @@ constexpr std::array<std::array<double, 3>, 3> kInside{
     {{0.3125, 0.375, 0.3125}, {0.25, 0.25, 0.5}, {0.5, 0.1875, 0.3125}}};
 
 }  // namespace
-
-bool is_edge_on(const Corners& t, std::span<const Point> cell) {
-  return std::all_of(cell.begin(), cell.end(), [&](const Point& v) { return side_of_plane(t, v) == 0; });
-}
 
 Dividers::Dividers(const Bvh& bvh, const std::vector<std::uint32_t>& ids) {
   std::vector<CGAL::Bbox_3> boxes;

@@ -11,9 +11,6 @@
 
 namespace clues::fastpath {
 
-// Whether all of the cell is in the plane of the triangle.
-bool is_edge_on(const Corners& t, std::span<const Point> cell);
-
 // What divides lit space from dark in K, but for wedge pieces: the triangles of K that are lit, and those edge-on to all of V (their planes
 // hold V, which is flat). Of any other triangle a side that is lit faces V, so that the triangle is lit, or has V on its plane and
 // a wedge piece upon it. Light is never on an edge-on one, as viewers in its plane see past it on both sides (T10): so it stops
