@@ -25,7 +25,7 @@ CELL
   box:x0,y0,z0,x1,y1,z1   the closed box between two corners (x0 <= x1, ...); equal bounds make it flat, or a point
   FILE                    an OBJ, OFF, PLY or STL file: the cell is the convex hull of its vertices)";
 
-void MethodOptions::add_to(CLI::App& command) {
+void MethodOptions::add_to(CLI::App& command, Kernels kernels) {
   command
       .add_option(
           "--mode", mode,
@@ -39,7 +39,9 @@ void MethodOptions::add_to(CLI::App& command) {
       ->type_name("NAME");
   command
       .add_option("--kernel", kernel,
-                  "exact (default), or fast: doubles with exact decisions where these do not suffice")
+                  kernels == Kernels::both
+                      ? "exact (default), or fast: doubles with exact decisions where these do not suffice"
+                      : "exact; the fast one is for clues map, bake and iut")
       ->type_name("NAME");
   command
       .add_option("--formulation", formulation,

@@ -12,6 +12,7 @@
 #include "reference/visibility/refinement/subdivision.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_identity.h"
 #include "validate/verdicts/precision.h"
 
 namespace clues::app {
@@ -24,7 +25,8 @@ struct MethodOptions {
   std::string formulation = "plain";
   int threads = 0;
 
-  void add_to(CLI::App& command);
+  enum class Kernels : std::uint8_t { exact, both };  // that the command has
+  void add_to(CLI::App& command, Kernels kernels = Kernels::exact);
   void check() const;                       // throws Error bad_argument, unsupported
   reference::Options to_reference() const;  // the same; unsupported for the fast kernel
 };
@@ -60,9 +62,9 @@ void require_apart(const std::vector<const std::string*>& outputs, const std::ve
 // The SHA-256 of the file, which read() reads in between; throws Error file_unreadable where it has another one afterwards, so that a result never names a scene that it is not of.
 template <class Read>
 std::string sha256_around(const std::filesystem::path& file, const Read& read) {
-  const auto sha256 = scene::sha256_of_file(file);
+  const auto sha256 = scene::sha256_of_scene(file);
   read();
-  if (scene::sha256_of_file(file) != sha256)
+  if (scene::sha256_of_scene(file) != sha256)
     throw scene::Error(scene::ErrorCode::file_unreadable,
                        file.string() + ": changes while it is read; wait until it is written");
   return sha256;

@@ -23,6 +23,7 @@
 #include "scene/levels/bsp_scene.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_identity.h"
 #include "scene/scenes/scene_io.h"
 #include "validate/cells/judge_cell.h"
 #include "validate/verdicts/judge_report.h"
@@ -236,7 +237,7 @@ int exit_code_of(const Asked& asked, const Totals& t) {
 int check_all_cells(const CheckCellsRequest& request) {
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.bake});
-  const auto sha256 = scene::sha256_of_file(request.scene);
+  const auto sha256 = scene::sha256_of_scene(request.scene);
   const auto level = scene::read_level(request.scene);
   if (!level && request.bake.empty())
     throw Error(ErrorCode::bad_argument,

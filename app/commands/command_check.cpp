@@ -15,6 +15,7 @@
 #include "scene/levels/bsp_scene.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_identity.h"
 #include "scene/scenes/scene_io.h"
 #include "validate/certificates/chain_search.h"
 #include "validate/see_through/judge_layers.h"
@@ -60,7 +61,7 @@ struct SceneAndList {
 SceneAndList read_what_is_judged(const CheckRequest& request, const std::vector<scene::Point>& cell) {
   const auto list_for = [&](const scene::FlaggedMesh& scene) {
     return scene::read_pvs(
-        request.pvs, {scene.mesh.triangles.size(), scene::sha256_of_file(request.scene), request.method.mode, cell});
+        request.pvs, {scene.mesh.triangles.size(), scene::sha256_of_scene(request.scene), request.method.mode, cell});
   };
   const auto level = scene::read_level(request.scene);
   if (!level) {

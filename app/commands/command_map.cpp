@@ -244,7 +244,7 @@ void add_map_command(CLI::App& program, int& status) {
   command->add_option("--cell", request->cell, "One view cell")->type_name("SPEC");
   command->add_option("--cells", request->cells, "Many view cells: grid:NXxNYxNZ:box:x0,y0,z0,x1,y1,z1")
       ->type_name("SPEC");
-  request->method.add_to(*command);
+  request->method.add_to(*command, MethodOptions::Kernels::both);
   command
       ->add_option("--overlap-graph", request->overlap_graph,
                    "Write here, for GraphViz, which occluders overlap which as the cell sees them, and the cycles")

@@ -10,6 +10,7 @@
 #include "scene/cell_spec.h"
 #include "scene/files/atomic_file.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_identity.h"
 #include "scene/scenes/scene_io.h"
 #include "validate/verdicts/precision.h"
 
@@ -35,7 +36,7 @@ int run_precision(const PrecisionRequest& request) {
   reference::Bounds bounds(mesh, cell, options);
   const auto report = validate::refine(bounds, refinement, refine);
   const std::string text = validate::to_json_text(report, std::filesystem::path(request.scene).filename().string(),
-                                                  scene::sha256_of_file(request.scene));
+                                                  scene::sha256_of_scene(request.scene));
   if (!request.out.empty()) scene::write_file_atomically(request.out, text);
   if (!request.svg.empty()) scene::write_file_atomically(request.svg, validate::to_svg(report));
   request.json.write(text);

@@ -16,6 +16,7 @@
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_identity.h"
 #include "scene/scenes/scene_io.h"
 #include "scene/stream/contour_file.h"
 #include "validate/stream/compare_contours.h"
@@ -97,7 +98,7 @@ int run_decode(const DecodeRequest& request) {
   require_apart({&request.out, &request.fragments}, {&request.scene, &request.contours});
   const auto mesh = scene::read_plain_scene(request.scene);
   const auto file = scene::read_contours(request.contours);
-  if (file.scene_sha256 != scene::sha256_of_file(request.scene) || file.scene_triangles != mesh.triangles.size())
+  if (file.scene_sha256 != scene::sha256_of_scene(request.scene) || file.scene_triangles != mesh.triangles.size())
     throw Error(ErrorCode::bad_argument, request.contours + ": is of another scene than " + request.scene);
   if (!request.cell) {
     print(table_of(file));

@@ -23,6 +23,7 @@
 #include "scene/files/atomic_file.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_identity.h"
 #include "scene/scenes/scene_io.h"
 #include "validate/stream/judge_delta.h"
 #include "validate/verdicts/area.h"
@@ -105,7 +106,7 @@ int run_delta(const DeltaRequest& request) {
   if (!request.out.empty() || request.json.asked()) {
     auto record = validate::record_of(delta, request.fragments);
     record.scene_file = std::filesystem::path(request.scene).filename().string();
-    record.scene_sha256 = scene::sha256_of_file(request.scene);
+    record.scene_sha256 = scene::sha256_of_scene(request.scene);
     record.mode = request.method.mode;
     record.from.cell = from.points;
     record.to.cell = to.points;
@@ -135,7 +136,7 @@ int run_delta_check(const DeltaCheckRequest& request) {
   const auto mesh = scene::read_plain_scene(request.scene);
   const auto triangles = mesh.triangles.size();
   const auto delta = validate::read_delta(request.delta, triangles);
-  if (delta.scene_sha256 != scene::sha256_of_file(request.scene))
+  if (delta.scene_sha256 != scene::sha256_of_scene(request.scene))
     throw Error(ErrorCode::bad_argument, request.delta + ": is of another scene than " + request.scene);
   const auto from = validate::read_map_file(request.from_map, triangles);
   const auto to = validate::read_map_file(request.to_map, triangles);

@@ -20,6 +20,7 @@
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_identity.h"
 #include "scene/scenes/scene_io.h"
 
 namespace clues::app {
@@ -73,7 +74,7 @@ std::string to_json_text(const std::vector<VirtualOccluder>& occluders, const Oc
   const json out = {{"format", "clues-occluders/1"},
                     {"scene",
                      {{"file", fs::path(request.scene).filename().string()},
-                      {"sha256", scene::sha256_of_file(request.scene)},
+                      {"sha256", scene::sha256_of_scene(request.scene)},
                       {"triangles", mesh.triangles.size()}}},
                     {"cell", {{"vertices", cell.points}}},
                     {"slices", std::move(slices)}};

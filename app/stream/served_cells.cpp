@@ -15,6 +15,7 @@
 #include "scene/bakes/bake_store.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_identity.h"
 #include "scene/scenes/scene_io.h"
 #include "scene/stream/list_file.h"
 #include "scene/stream/route.h"
@@ -129,7 +130,7 @@ ServedCells served_cells(const CellsChoice& choice) {
   } else {
     served.scene.mesh = scene::read_plain_scene(choice.scene);
   }
-  served.header.scene_sha256 = scene::sha256_of_file(choice.scene);
+  served.header.scene_sha256 = scene::sha256_of_scene(choice.scene);
   served.header.scene_triangles = served.scene.mesh.triangles.size();
   if (choice.has_lists()) {
     if (choice.lists.empty()) {

@@ -19,6 +19,7 @@
 #include "scene/json_reader.h"
 #include "scene/messages/error.h"
 #include "scene/multires/hierarchy_file.h"
+#include "scene/scenes/scene_identity.h"
 #include "scene/scenes/scene_io.h"
 #include "validate/certificates/umbra_file.h"
 #include "validate/stream/delta_file.h"
@@ -93,7 +94,7 @@ struct ViewData::Parts {
   std::size_t read_scene(const fs::path& file) {
     read.insert(fs::weakly_canonical(file));
     const scene::FlaggedMesh mesh = scene::read_scene(file);
-    const std::string name = file.filename().string(), sha256 = scene::sha256_of_file(file);
+    const std::string name = file.filename().string(), sha256 = scene::sha256_of_scene(file);
     page.put({{"path", name}, {"sha256", sha256}, {"mesh", mesh_for_page(mesh)}});
     scenes.push_back({name, sha256, mesh.mesh.triangles.size()});
     return scenes.size() - 1;
@@ -101,7 +102,7 @@ struct ViewData::Parts {
   // Of a scene that is named without its hash: that of the file, where all files are looked for.
   std::string hash_of(const std::string& file) const {
     std::error_code error;
-    return !root.empty() && fs::is_regular_file(file, error) ? scene::sha256_of_file(file) : "";
+    return !root.empty() && fs::is_regular_file(file, error) ? scene::sha256_of_scene(file) : "";
   }
   // One that was given, by its hash or else its name; or the file itself, where it is named or beside.
   const KnownScene& scene_of(const Named& named, const fs::path& about) {
@@ -120,7 +121,7 @@ struct ViewData::Parts {
     for (const fs::path& place : {about.parent_path() / name, fs::path(named.file)}) {
       std::error_code error;
       if (!fs::is_regular_file(place, error)) continue;
-      if (!named.sha256.empty() && scene::sha256_of_file(place) != named.sha256) continue;
+      if (!named.sha256.empty() && scene::sha256_of_scene(place) != named.sha256) continue;
       return scenes[read_scene(place)];
     }
     throw Error(ErrorCode::file_not_found,

@@ -6,6 +6,7 @@
 #include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_identity.h"
 #include "scene/scenes/scene_io.h"
 #include "validate/vectors/reader.h"
 
@@ -93,7 +94,7 @@ GivenScenes read_given_levels(const std::vector<std::string>& paths) {
         throw Error(ErrorCode::bad_argument,
                     file.string() + ": is no level; this subject takes levels (bsp), glTF scenes and meshes");
       out.levels.push_back(level_of(file));
-      out.hashes += scene::sha256_of_file(file);
+      out.hashes += scene::sha256_of_scene(file);
     }
   }
   return out;

@@ -75,6 +75,15 @@ bool stays_below(const std::filesystem::path& path) {
   return std::none_of(path.begin(), path.end(), [](const std::filesystem::path& part) { return part == ".."; });
 }
 
+// Nothing for a URI that names no such file.
+std::optional<std::string> path_of(const std::string& uri) {
+  auto path = without_percents(uri);
+  if (!path || !stays_below(*path) || uri.find("://") != std::string::npos) return std::nullopt;
+  return path;
+}
+
+bool has_data(const std::string& uri) { return uri.starts_with("data:"); }
+
 // What a file may require without a change of its geometry.
 bool is_harmless(const std::string& extension) {
   static const std::set<std::string> harmless{"KHR_lights_punctual",   "KHR_texture_basisu", "KHR_texture_transform",
@@ -158,6 +167,16 @@ void GltfDocument::check_extensions() const {
   }
 }
 
+std::vector<std::string> GltfDocument::files_of_buffers() const {
+  std::vector<std::string> files;
+  for (const GltfObject& buffer : buffers_) {
+    const std::string uri = buffer.text("uri", "");
+    if (uri.empty() || has_data(uri)) continue;
+    if (auto path = path_of(uri)) files.push_back(std::move(*path));
+  }
+  return files;
+}
+
 std::string_view GltfDocument::bytes_of_buffer(std::uint32_t buffer) {
   const GltfObject& about = buffers_[buffer];
   const auto length = static_cast<std::size_t>(about.needed_whole("byteLength", most_buffer_bytes));
@@ -171,7 +190,7 @@ std::string_view GltfDocument::bytes_of_buffer(std::uint32_t buffer) {
   }
   if (is_loaded_[buffer]) return checked(loaded_[buffer]);
   const std::string uri = about.text("uri", "");
-  if (uri.starts_with("data:")) {
+  if (has_data(uri)) {
     const auto comma = uri.find(',');
     if (comma == std::string::npos || !std::string_view(uri).substr(0, comma).ends_with(";base64"))
       about.fail("its data URI is not of the form data:...;base64,...");
@@ -179,10 +198,8 @@ std::string_view GltfDocument::bytes_of_buffer(std::uint32_t buffer) {
     if (!decoded) about.fail("its data URI is no base64");
     loaded_[buffer] = std::move(*decoded);
   } else {
-    const auto path = without_percents(uri);
-    if (!path || !stays_below(*path) || uri.find("://") != std::string::npos) {
-      about.fail("its URI " + excerpt(uri) + " is no file in the folder of the document or below");
-    }
+    const auto path = path_of(uri);
+    if (!path) about.fail("its URI " + excerpt(uri) + " is no file in the folder of the document or below");
     loaded_[buffer] = load_(*path);
   }
   is_loaded_[buffer] = true;

@@ -29,6 +29,8 @@ class GltfDocument {
   const std::vector<GltfObject>& buffers() const { return buffers_; }
   // Read when it is first asked for: what only textures use is never read.
   std::string_view bytes_of_buffer(std::uint32_t buffer);
+  // Those of all buffers that are files of their own and may be read, relative, in the order of "buffers"; whether they exist is not asked.
+  std::vector<std::string> files_of_buffers() const;
 
  private:
   std::string_view take_chunks(std::string_view bytes);
