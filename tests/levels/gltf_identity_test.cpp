@@ -26,7 +26,8 @@ struct GltfIdentity : testing::Test {
     json document = json::parse(made.text());
     document["buffers"][0]["uri"] = "target.bin";
     document["buffers"].push_back({{"uri", "the%20wall.bin"}, {"byteLength", 36}});
-    document["bufferViews"][document["accessors"][1]["bufferView"]] = {{"buffer", 1}, {"byteLength", 36}};
+    document["bufferViews"][document["accessors"][1]["bufferView"].get<std::size_t>()] = {{"buffer", 1},
+                                                                                          {"byteLength", 36}};
     folder.write("scene.gltf", document.dump());
     folder.write("target.bin", made.buffer);
     put_wall(0);
