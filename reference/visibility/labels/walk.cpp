@@ -19,11 +19,12 @@ using exact::Point3;
 
 namespace {
 
-constexpr std::int64_t kLongestWalk = 64;  // legs; what is longer has lost its way in a corner of several walls
-constexpr int kDeep = 6;                   // from this leg on it is looked for light close by
-constexpr std::size_t kBeside = 4;         // in so many directions
-constexpr int kCoincidences = 4;           // this many in a row, and a plane in common may be the reason
-constexpr int kDoubtful = 12;              // walks to a point before it counts as visible
+// Legs, besides the least that are asked for. What is longer has lost its way in a corner of several walls: of those that end, none was seen with more than ten.
+constexpr std::int64_t kLongestWalk = 24;
+constexpr int kDeep = 6;            // from this leg on it is looked for light close by
+constexpr std::size_t kBeside = 4;  // in so many directions
+constexpr int kCoincidences = 4;    // this many in a row, and a plane in common may be the reason
+constexpr int kDoubtful = 12;       // walks to a point before it counts as visible
 constexpr int kAttempts = 200;  // sight lines in special position come from coincidences; this many in a row mean a bug
 
 }  // namespace
@@ -192,7 +193,7 @@ Walk Walker::walk(const Start& start, std::uint64_t seed, std::size_t least) con
       walk.legs.push_back(*leg);
       return walk;
     }
-    if (depth == longest_) {
+    if (depth == longest_ + static_cast<std::int64_t>(least)) {
       walk.unresolved = true;
       return walk;
     }

@@ -5,9 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <map>
-#include <mutex>
 
 #include "reference/visibility/labels/walk.h"
 #include "reference/visibility/map/side_faces.h"
@@ -25,6 +23,11 @@ using exact::Point3;
 namespace {
 
 constexpr std::size_t kSamples = 8;  // points of a region that are asked before it counts as visible
+// Where walks lose their way they do so in hundreds of regions. When so many count as visible for want of an answer, of this side and of those that were
+// done when it was begun, one point of each is asked, and the walk from it is short. So many sides are begun at once, whatever the number of threads.
+constexpr std::uint64_t kPatience = 16;
+constexpr std::size_t kSidesAtOnce = 16;
+constexpr std::int64_t kShortWalk = 8;  // legs
 constexpr std::uint64_t kRegionSeed = 0x1d, kSecondSeed = 0x7a3;
 
 using Segment3 = std::pair<Point3, Point3>;
@@ -69,7 +72,10 @@ class SideMapper {
         fixpoint_(fixpoint),
         visited_(visited),
         options_(options),
-        walker_(scene, options.dials.longest_walk) {
+        walker_(scene, options.dials.longest_walk),
+        short_walker_(scene, options.dials.longest_walk == exact::Dials::kOwn
+                                 ? kShortWalk
+                                 : std::min(kShortWalk, options.dials.longest_walk)) {
     for (const ValidPiece& piece : fixpoint.wedges.pieces()) {
       const Wedge& w = piece.wedge;
       if (!w.unbounded) {
@@ -81,11 +87,12 @@ class SideMapper {
   }
 
   struct Output : SideFaces {
-    std::uint64_t walks = 0, disagreements = 0, fallbacks = 0;
+    std::uint64_t walks = 0, disagreements = 0, fallbacks = 0, fallbacks_before = 0;
   };
 
-  Output map_side(std::uint32_t t, bool front) const {
+  Output map_side(std::uint32_t t, bool front, std::uint64_t fallbacks_before) const {
     Output out;
+    out.fallbacks_before = fallbacks_before;
     const exact::Complex& complex = scene_.complex();
     const TriangleFrame flat_triangle(complex, t);
     const auto& p = flat_triangle.corners();
@@ -213,23 +220,26 @@ class SideMapper {
       r.sample = lift(inner_point(rings, 0));
       return;
     }
+    const bool has_patience = out.fallbacks_before + out.fallbacks < kPatience;
+    const Walker& walker = has_patience ? walker_ : short_walker_;
+    const std::size_t samples = has_patience ? kSamples : 0;
     for (std::size_t which = 0;; ++which) {
       r.sample = lift(inner_point(rings, which));
       const Start start{r.sample, SurfaceSide{r.piece, r.front}, nullptr};
       ++out.walks;
       try {
-        const Walker::Label label = walker_.label(start, fixpoint_.wedges, fixpoint_.left_out, kRegionSeed + which);
-        if (label.fallback && which < kSamples) continue;  // another point of the region may be easier to decide
+        const Walker::Label label = walker.label(start, fixpoint_.wedges, fixpoint_.left_out, kRegionSeed + which);
+        if (label.fallback && which < samples) continue;  // another point of the region may be easier to decide
         r.visible = label.visible;
         out.fallbacks += label.fallback;
         if (options_.check_two_walks) {
           ++out.walks;
-          const Walker::Label second = walker_.label(start, fixpoint_.wedges, fixpoint_.left_out, kSecondSeed + which);
+          const Walker::Label second = walker.label(start, fixpoint_.wedges, fixpoint_.left_out, kSecondSeed + which);
           out.disagreements +=
               !fixpoint_.in_doubt && !label.fallback && !second.fallback && second.visible != label.visible;
         }
       } catch (const scene::Error&) {
-        if (which < kSamples) continue;  // the sample itself lies in special position: take another
+        if (which < samples) continue;  // the sample itself lies in special position: take another
         r.visible = true;
         ++out.fallbacks;
       }
@@ -241,7 +251,7 @@ class SideMapper {
   const Fixpoint& fixpoint_;
   const std::vector<bool>& visited_;
   const Options& options_;
-  Walker walker_;
+  Walker walker_, short_walker_;
   std::map<SideKey, std::vector<Segment3>> traces_;
 };
 
@@ -259,22 +269,20 @@ void make_regions(const exact::SceneQuery& scene, const Fixpoint& fixpoint, cons
     }
   }
   std::vector<SideMapper::Output> outputs(sides.size());
-  std::atomic<std::size_t> done{0};
-  std::mutex report;
-  tbb::parallel_for(std::size_t{0}, sides.size(), [&](std::size_t i) {
-    outputs[i] = mapper.map_side(sides[i].first, sides[i].second);
-    const std::size_t n = ++done;
-    if (options.progress && (n % 64 == 0 || n == sides.size())) {
-      const std::scoped_lock lock(report);
-      options.progress("regions", n, sides.size());
-    }
-  });
+  std::uint64_t fallbacks = 0;
+  for (std::size_t first = 0; first < sides.size(); first += kSidesAtOnce) {
+    const std::size_t end = std::min(first + kSidesAtOnce, sides.size());
+    tbb::parallel_for(first, end,
+                      [&](std::size_t i) { outputs[i] = mapper.map_side(sides[i].first, sides[i].second, fallbacks); });
+    if (options.progress) options.progress("regions", end, sides.size());
+    for (std::size_t i = first; i < end; ++i) fallbacks += outputs[i].fallbacks;
+  }
   for (SideMapper::Output& out : outputs) {
     map.statistics.walks += out.walks;
     map.statistics.walk_disagreements += out.disagreements;
-    map.statistics.conservative_fallbacks += out.fallbacks;
     out.move_to(map);
   }
+  map.statistics.conservative_fallbacks += fallbacks;
 }
 
 }  // namespace clues::reference
