@@ -1,4 +1,4 @@
-// The identity of a scene file (D1): SHA-256 of its bytes.
+// SHA-256 of bytes and of files; that of a scene (D1) is made of these in scene/scenes/scene_identity.cpp.
 #include <fmt/format.h>
 #include <openssl/evp.h>
 

@@ -5,7 +5,6 @@
 #include "scene/formats/file_bytes.h"
 #include "scene/gltf/gltf_document.h"
 #include "scene/mesh_io.h"
-#include "scene/messages/error.h"
 #include "scene/result.h"
 
 namespace clues::scene {
