@@ -212,6 +212,13 @@ Crossing Walker::visible_by_last_leg(const Walk& walk, std::size_t first) const 
   return walk.ends_in_the_dark() ? leg_crossed(walk.legs.back(), first) : Crossing::no;
 }
 
+bool Walker::is_met(const Walk& walk, std::size_t first) const {
+  return std::any_of(walk.legs.begin(), walk.legs.end(), [&](const Leg& leg) {
+    return leg_crossed(leg, first) != Crossing::no ||
+           (leg.next && pieces_->may_meet(*leg.next, *leg.p, first, kNothing));
+  });
+}
+
 bool Walker::last_leg_is_in_doubt(const Walk& walk) const {
   return walk.ends_in_the_dark() && pieces_->may_leave(*walk.legs.back().m, *walk.legs.back().p);
 }

@@ -70,11 +70,14 @@ class Walker {
   // The same by a last leg that comes out of the dark. A sight line that comes into a beam stays in it, as V is on H+ of every wedge; this leg may leave it again.
   // Then a piece is crossed from H- to H+, and it is in doubt whether the start is visible.
   Crossing visible_by_last_leg(const Walk& walk, std::size_t first) const;
+  // Whether the pieces from number `first` on cross a leg from H+ to H-, or divide a place of the walk from the point before, or may. If not, neither of the above says anything but no by them.
+  bool is_met(const Walk& walk, std::size_t first) const;
   // Whether one is, or may be; the pieces are complete.
   bool last_leg_is_in_doubt(const Walk& walk) const;
   // Walks until a walk is in general position, and keeps out of what was left out where it follows no sight line. Needs RoundedUp in scope.
   Label label(const ExactPoint* p, const LeftOut& left_out, Pool& pool, std::uint64_t seed) const;
 
+  const PieceSet& pieces() const { return *pieces_; }
   // A point of int V for candidate number i.
   const ExactPoint* viewpoint(std::uint64_t i) const { return viewpoints_[i % viewpoints_.size()]; }
 

@@ -1,17 +1,17 @@
 #include "fastpath/visibility/search/search.h"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <map>
 #include <memory>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "fastpath/visibility/scene/surface_vertices.h"
 #include "fastpath/visibility/search/circles.h"
+#include "fastpath/visibility/search/coplanar_cuts.h"
 #include "fastpath/visibility/search/doubtful_sources.h"
+#include "fastpath/visibility/search/pieces_before.h"
 #include "fastpath/visibility/search/sources.h"
 #include "fastpath/visibility/wedges/contacts.h"
 
@@ -28,11 +28,13 @@ class Search::Work {
         is_vertex(surface_vertices(s)),
         contours(contour_edges(s, w)),
         walker(s, set, o.dials.longest_walk),
+        fresh_walker(s, fresh, o.dials.longest_walk),
         contacts(s, workers),
         sources(s, is_vertex, contours, set, walker, contacts, workers),
         edge_wedges(contours.size()),
         is_contour(s.edges.size(), false),
         cuts(s.edges.size()),
+        coplanar_cuts(s, is_contour, w),
         doubtful_sources(s, contours, sources, contacts, left_out) {}
 
   void run() {
@@ -68,41 +70,28 @@ class Search::Work {
     new_cuts.assign(scene.edges.size(), {});
     spread(Sources::Light::sure);
     spread(Sources::Light::in_doubt);
+    sources.end_light();
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     std::vector<ValidPiece> merged = build(merged_jobs());
-    cut_coplanar(merged);
+    for (const auto& [e, p] : coplanar_cuts.of(merged)) new_cuts[e].push_back(p);
 
     bool changed = false;
     for (std::uint32_t e = 0; e < cuts.size(); ++e) {
       if (!is_contour[e]) continue;
       for (const ExactPoint* p : new_cuts[e]) changed |= insert_cut(e, p);
     }
-    PieceSet fresh;
-    fresh.add(not_there_before(merged));
+    fresh.clear();
+    fresh.add(pieces_before.others(merged));
+    const bool all_still_there = pieces_before.replace(merged);
     set.clear();
     set.add(std::move(merged));
-    if (sources.ask_nearer(fresh)) changed = true;
+    if (sources.ask_nearer(fresh_walker, all_still_there)) changed = true;
     if (!changed) {
       for (const auto& [e, p] : cuts_of_circles(scene, contours, sources.of_edges(), workers))
         changed |= insert_cut(e, p);
     }
     if (changed) set.clear();
     return changed;
-  }
-
-  using PieceName =
-      std::tuple<const OnWedge*, const ExactPoint*, const ExactPoint*, const ExactPoint*, const ExactPoint*, int>;
-  static PieceName name_of(const ValidPiece& p) { return {p.on, p.ray0, p.ray1, p.near0, p.near1, p.blocker}; }
-  // Of all pieces of a round, those that were none at the end of the one before. What they are made of is kept from round to round, so the same ones have the same addresses.
-  std::vector<ValidPiece> not_there_before(const std::vector<ValidPiece>& merged) {
-    std::vector<ValidPiece> fresh;
-    std::copy_if(merged.begin(), merged.end(), std::back_inserter(fresh), [&](const ValidPiece& p) {
-      return !std::binary_search(pieces_before.begin(), pieces_before.end(), name_of(p));
-    });
-    pieces_before.clear();
-    for (const ValidPiece& p : merged) pieces_before.push_back(name_of(p));
-    std::sort(pieces_before.begin(), pieces_before.end());
-    return fresh;
   }
 
   // D17b.
@@ -118,14 +107,19 @@ class Search::Work {
     contacts.start_round();
     csvs_met.clear();
     too_intricate.clear();
+    fresh.clear();
   }
 
   // Lights sources, and all that follows from it.
   void spread(Sources::Light light_that_spreads) {
     light_of = light_that_spreads;
+    first_fresh = fresh.pieces().size();
     for (std::vector<Job> waiting = light(set.pieces().size()); !waiting.empty();) {
       const std::size_t first = set.pieces().size();
-      set.add(build(next_batch(waiting)));
+      std::vector<ValidPiece> batch = build(next_batch(waiting));
+      first_fresh = fresh.pieces().size();
+      fresh.add(pieces_before.others(batch));
+      set.add(std::move(batch));
       meet_edges(first);
       const std::vector<Job> jobs = light(first);
       waiting.insert(waiting.end(), jobs.begin(), jobs.end());
@@ -167,7 +161,7 @@ class Search::Work {
 
   // The wedges that sources make which the pieces from number `first` on light: their own (D10, D11), and those at the contour vertices they light (D12).
   std::vector<Job> light(std::size_t first) {
-    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first, light_of);
+    const auto [newly_lit_edges, newly_lit_vertices] = sources.newly_lit(first, {fresh_walker, first_fresh}, light_of);
     const auto is_doubtful = [this](const auto& source) {
       return in_doubt() || source.walk.end == Walk::End::unresolved;
     };
@@ -385,73 +379,6 @@ class Search::Work {
     }
   }
 
-  // The outline of a piece that runs over an edge in its plane changes the label along that edge. Outlines are parts of rays: what a ray meets before the near edge,
-  // or beyond what ends the piece there, the piece does not touch.
-  void cut_coplanar(const std::vector<ValidPiece>& merged) {
-    struct Cut {
-      const ValidPiece* piece = nullptr;
-      const ExactPoint* ray = nullptr;
-      std::uint32_t edge = 0;
-      const ExactPoint** at = nullptr;
-    };
-    std::vector<std::vector<Cut>> found(merged.size());
-    workers.for_each(merged.size(), [&](std::size_t i, Workers::Worker&) {
-      const ValidPiece& piece = merged[i];
-      for (const std::uint32_t e : piece.on->coplanar_edges) {
-        if (!is_contour[e]) continue;
-        const ExactPoint &a = scene.points[scene.edges[e].a], &b = scene.points[scene.edges[e].b];
-        if (!may_touch(piece, a, b)) continue;
-        for (const ExactPoint* ray : {piece.ray0, piece.ray1}) {
-          if (crosses_ray(*piece.on, ray, a, b)) found[i].push_back({&piece, ray, e, nullptr});
-        }
-      }
-    });
-    std::vector<Cut> all, fresh;
-    for (const auto& list : found) {
-      for (Cut cut : list) {
-        const auto [known, is_fresh] = coplanar_cuts.try_emplace({cut.piece->on, cut.ray, cut.edge}, nullptr);
-        cut.at = &known->second;
-        all.push_back(cut);
-        if (is_fresh) fresh.push_back(cut);
-      }
-    }
-    workers.for_each(fresh.size(), [&](std::size_t i, Workers::Worker& worker) {
-      const Cut& c = fresh[i];
-      const LocalEdge& e = scene.edges[c.edge];
-      *c.at = worker.pool.keep(crossing_in_plane(*c.piece->on, *c.ray, scene.points[e.a], scene.points[e.b]));
-    });
-    for (const Cut& c : all) {
-      if (reaches(*c.piece, *c.at)) new_cuts[c.edge].push_back(*c.at);
-    }
-  }
-
-  // Whether q, on one of the piece's rays, is neither before its near edge nor beyond its blocker.
-  static bool reaches(const ValidPiece& piece, const ExactPoint* q) {
-    return !is_before(piece, q) && piece.on->reaches(piece.blocker, q);
-  }
-  // False only if all of the segment ab, in the plane, is before the near edge or beyond the blocker.
-  static bool may_touch(const ValidPiece& piece, const ExactPoint& a, const ExactPoint& b) {
-    return !(is_before(piece, &a) && is_before(piece, &b)) &&
-           (piece.on->reaches(piece.blocker, &a) || piece.on->reaches(piece.blocker, &b));
-  }
-  static bool is_before(const ValidPiece& piece, const ExactPoint* q) {
-    return piece.near0 && piece.on->turn(piece.near0, piece.near1, q) > 0;
-  }
-
-  // Whether the inside of the edge ab, in the plane, crosses the ray in one point, in front of the centre.
-  static bool crosses_ray(const OnWedge& on, const ExactPoint* ray, const ExactPoint& a, const ExactPoint& b) {
-    const int from_a = on.turn(&a, ray);
-    return from_a != 0 && from_a == on.turn(ray, &b) && from_a == on.turn(&a, &b);
-  }
-  // Where the edge crosses the plane through the ray that is normal to the wedge.
-  static ExactPoint crossing_in_plane(const OnWedge& on, const ExactPoint& ray, const ExactPoint& a,
-                                      const ExactPoint& b) {
-    const Exact3 &c = on.center->exact(), &n = on.plane->normal_exact();
-    const Exact3 beside = cross(n, ray.exact() - c);
-    const Rational at_a = dot(beside, a.exact() - c), at_b = dot(beside, b.exact() - c);
-    return ExactPoint(a.exact() + Rational(at_a / (at_a - at_b)) * (b.exact() - a.exact()));
-  }
-
   void count() {
     contacts.for_all([&](const Contact& c) {
       counts.apexes += c.apex ? 1 : 0;
@@ -470,6 +397,9 @@ class Search::Work {
   std::vector<ContourEdge> contours;
   PieceSet set;
   Walker walker;
+  PieceSet fresh;  // those of the set that are no part of what there was at the end of the round before
+  Walker fresh_walker;
+  std::size_t first_fresh = 0;  // of the newest batch
   Contacts contacts;
   Sources sources;
   std::vector<std::vector<std::unique_ptr<OnWedge>>> edge_wedges;  // per contour edge and touching vertex
@@ -477,9 +407,9 @@ class Search::Work {
   Sources::Light light_of = Sources::Light::sure;              // that spreads now
   std::vector<Contact*> too_intricate;                         // lit in this round
   std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
-  std::map<std::tuple<const OnWedge*, const ExactPoint*, std::uint32_t>, const ExactPoint*> coplanar_cuts;
-  std::set<const Contact*> csvs_met;     // in this round
-  std::vector<PieceName> pieces_before;  // at the end of the round before
+  CoplanarCuts coplanar_cuts;
+  std::set<const Contact*> csvs_met;  // in this round
+  PiecesBefore pieces_before;
   std::set<const Contact*> left_out_contacts;
   LeftOut left_out;
   DoubtfulSources doubtful_sources;

@@ -69,8 +69,9 @@ Sources::OfVertex Sources::towards(std::uint32_t v, const ExactPoint& view, Pool
 }
 
 // Of those that do not only separate (T10): they hold V, and may hold the way into V.
-bool Sources::piece_between(const ExactPoint& beside, const ExactPoint& x, std::size_t first) const {
-  return pieces_.may_meet(beside, x, first, [&](const Plane& h) { return scene_.cell.lies_in(h); });
+bool Sources::piece_between(const ExactPoint& beside, const ExactPoint& x, const PieceSet& by,
+                            std::size_t first) const {
+  return by.may_meet(beside, x, first, [&](const Plane& h) { return scene_.cell.lies_in(h); });
 }
 
 // From level s.level on. Without a place the source counts as visible.
@@ -81,11 +82,12 @@ void Sources::place(OfVertex& s, Pool& pool) {
   try {
     beside = near_enough(s.level, x, *s.view, [&](const ExactPoint& p) {
       return !equal(p, x) && !scene_.may_meet(p, x) && !scene_.is_on_surface(p) && apex.in_one_face(p, *s.view) &&
-             !piece_between(p, x, 0);
+             !piece_between(p, x, pieces_, 0);
     });
   } catch (const scene::Error& error) {  // the vertex is too intricate
     if (error.code() != scene::ErrorCode::internal) throw;
   }
+  s.unmet = s.confirmed = s.alone = false;
   s.beside = beside ? pool.keep(*beside) : s.view;
   if (beside) {
     walk_from_place(s, pool);
@@ -112,7 +114,8 @@ void Sources::walk_from_place(OfEdge& s, Pool& pool) {
   while (true) {
     ++walks_;
     s.walk = walker_.walk(s.beside, pool, s.manner, next_to_edge);
-    s.stale = false;
+    s.stale = s.unmet = s.confirmed = false;
+    s.alone = pieces_.pieces().empty();
     if (!s.walk.from_nowhere) return;
     ++s.level;
     find_place(s, pool);
@@ -123,7 +126,8 @@ void Sources::walk_from_place(OfEdge& s, Pool& pool) {
 void Sources::walk_from_place(OfVertex& s, Pool& pool) {
   ++walks_;
   s.walk = walker_.walk(s.beside, pool, s.manner);
-  s.stale = false;
+  s.stale = s.unmet = s.confirmed = false;
+  s.alone = pieces_.pieces().empty();
 }
 
 void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cuts) {
@@ -167,7 +171,7 @@ Sources::Place& Sources::place_of(std::size_t i) {
 void Sources::find_place(OfEdge& s, Pool& pool) {
   const std::optional<ExactPoint> beside = beside_edge(scene_, pieces_, contours_[s.contour], s.part, s.level);
   s.beside = beside ? pool.keep(*beside) : nullptr;
-  s.is_clear = false;
+  s.is_clear = s.unmet = s.confirmed = s.alone = false;
   s.stale = beside.has_value();
   if (beside) return;
   s.walk = Walk{};
@@ -198,6 +202,16 @@ bool Sources::is_cut_off(const OfEdge& s, const PieceSet& by, std::size_t first)
   return s.beside && by.may_meet(*s.beside, *s.part.y, first, holds_edge(scene_, contours_[s.contour].edge));
 }
 
+// Whether one of these pieces meets what the label of the source hangs on.
+bool Sources::is_met(const OfEdge& s, const Fresh& by) const {
+  return is_cut_off(s, by.walker.pieces(), by.first) || by.walker.is_met(s.walk, by.first);
+}
+
+bool Sources::is_met(const OfVertex& s, const Fresh& by) const {
+  return by.walker.is_met(s.walk, by.first) ||
+         (s.view && piece_between(*s.beside, scene_.points[s.point], by.walker.pieces(), by.first));
+}
+
 bool Sources::newly_visible(OfEdge& s, std::size_t first, Pool& pool) {
   if (is_cut_off(s, pieces_, first)) {
     ++s.level;
@@ -211,18 +225,18 @@ bool Sources::newly_visible(OfEdge& s, std::size_t first, Pool& pool) {
 bool Sources::newly_visible(OfVertex& s, std::size_t first, Pool& pool) {
   if (newly_visible_by_walk(s, first, pool)) return true;
   if (!s.view) return false;
-  if (!piece_between(*s.beside, scene_.points[s.point], first)) return false;
+  if (!piece_between(*s.beside, scene_.points[s.point], pieces_, first)) return false;
   ++s.level;
   place(s, pool);
   return newly_visible_by_walk(s, 0, pool);
 }
 
-Sources::Numbers Sources::newly_lit(std::size_t first, Light light) {
+Sources::Numbers Sources::newly_lit(std::size_t first, const Fresh& fresh, Light light) {
   const std::size_t edges = of_edges_.size();
   std::vector<char> visible(edges + of_vertices_.size(), 0);
   workers_.for_each(visible.size(), [&](std::size_t i, Workers::Worker& worker) {
     const auto look = [&](auto& s) {
-      if (s.lit) return;
+      if (s.lit || (light != Light::known && s.unmet && !is_met(s, fresh))) return;
       const bool lit = light == Light::known
                            ? s.known && walker_.visible(s.walk, first) == Crossing::yes
                            : newly_visible(s, first, worker.pool) && (light == Light::in_doubt || !is_in_doubt(s));
@@ -239,19 +253,26 @@ Sources::Numbers Sources::newly_lit(std::size_t first, Light light) {
   return lit;
 }
 
-bool Sources::ask_nearer(const PieceSet& fresh) {
+void Sources::end_light() {
+  for (OfEdge& s : of_edges_) s.unmet = !s.lit;
+  for (OfVertex& s : of_vertices_) s.unmet = !s.lit;
+}
+
+bool Sources::ask_nearer(const Walker& fresh, bool all_still_there) {
   const std::size_t edges = of_edges_.size();
   std::vector<char> nearer(edges + of_vertices_.size(), 0);
   workers_.for_each(nearer.size(), [&](std::size_t i, Workers::Worker& worker) {
     Place& s = place_of(i);
     OfEdge* e = i < edges ? &of_edges_[i] : nullptr;
-    if (e) e->is_clear = e->lit && !is_cut_off(*e, e->is_clear ? fresh : pieces_, 0);
+    if (e) e->is_clear = e->lit && !is_cut_off(*e, e->is_clear ? fresh.pieces() : pieces_, 0);
     if (!s.lit) return;
     if (e && !e->is_clear) {
       ++s.level;
       find_place(*e, worker.pool);  // where none of the pieces that are there now is between
     } else {
-      if (!s.walk.has_places() || walker_.visible(s.walk, 0) == Crossing::yes) return;
+      if (!s.walk.has_places() || (s.confirmed && all_still_there && !fresh.is_met(s.walk, 0))) return;
+      s.confirmed = walker_.visible(s.walk, 0) == Crossing::yes;
+      if (s.confirmed) return;
       ++s.manner.seed;
       s.stale = ++s.manner.near < kPointNearLevels;
       if (!s.stale) s.walk.end = Walk::End::unresolved;
@@ -265,6 +286,7 @@ bool Sources::ask_nearer(const PieceSet& fresh) {
     Place& s = place_of(i);
     const bool has_place =
         i < edges ? s.beside != nullptr : of_vertices_[i - edges].view && s.beside != of_vertices_[i - edges].view;
+    if (s.alone && s.manner.least == 0) continue;  // the same walk would come of it
     if (!has_place || s.walk.end != Walk::End::unresolved || s.manner.near >= kPointNearLevels) continue;
     s.stale = true;
     s.manner.least = 0;

@@ -34,6 +34,9 @@ class Sources {
     bool lit = false;
     bool stale = false;  // the walk has to be made anew
     bool known = false;  // see start_known()
+    bool alone = false;  // the walk was made when there was no piece
+    bool unmet = false;  // no piece of the round before met the walk, or came between a place and what it stands for
+    bool confirmed = false;  // it was lit when the round before had all its pieces
   };
 
   // A part of a contour edge, seen from one supporting plane, with a point beside it.
@@ -66,7 +69,8 @@ class Sources {
 
   const std::vector<OfEdge>& of_edges() const { return of_edges_; }
   const std::vector<OfVertex>& of_vertices() const { return of_vertices_; }
-  // Those that become visible by the pieces from number `first` on, ascending; from here on they are lit.
+  // Those that become visible by the pieces from number `first` on, ascending; from here on they are lit. What no piece of the round before met is asked about the newest of the round's
+  // fresh pieces alone.
   enum class Light : std::uint8_t {
     sure,      // what is visible
     in_doubt,  // and what counts as visible
@@ -75,10 +79,17 @@ class Sources {
   struct Numbers {
     std::vector<std::size_t> of_edges, of_vertices;
   };
-  Numbers newly_lit(std::size_t first, Light light);
+  // Those that are no part of a piece that there was at the end of the round before, as a walker sees them; the newest are those from number `first` on.
+  struct Fresh {
+    const Walker& walker;
+    std::size_t first = 0;
+  };
+  Numbers newly_lit(std::size_t first, const Fresh& fresh, Light light);
+  // All pieces of the round have been asked about: what is not lit is met by none.
+  void end_light();
   // When a round has all its pieces: what is lit though a piece divides one of its places from what that stands for is asked nearer in the next round. Whether there is any. Then the round had
-  // light that is not there, and what it left undecided is asked again, too; the first few times. `fresh`: those of the pieces that were not there at the end of the round before.
-  bool ask_nearer(const PieceSet& fresh);
+  // light that is not there, and what it left undecided is asked again, too; the first few times. `fresh`: all of them; `all_still_there`: what there was at the end of the round before.
+  bool ask_nearer(const Walker& fresh, bool all_still_there);
 
   // When the rounds are over and all pieces there (D17b): nothing is lit. From here on only that can be which was, which keeps out of all that was left out, with its place and where its walk goes
   // beside a sight line, which no piece divides, and which sight lines show. Needs RoundedUp in scope. O(sources * what is left out).
@@ -101,8 +112,10 @@ class Sources {
   std::vector<OfVertex> beside_vertex(std::uint32_t vertex, Pool& pool);
   OfVertex towards(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
   void place(OfVertex& source, Pool& pool);
-  bool piece_between(const ExactPoint& beside, const ExactPoint& x, std::size_t first) const;
+  bool piece_between(const ExactPoint& beside, const ExactPoint& x, const PieceSet& by, std::size_t first) const;
   static OfVertex unresolved(std::uint32_t vertex, const ExactPoint& view, Pool& pool);
+  bool is_met(const OfEdge& source, const Fresh& by) const;
+  bool is_met(const OfVertex& source, const Fresh& by) const;
   bool newly_visible(OfEdge& source, std::size_t first, Pool& pool);
   bool newly_visible(OfVertex& source, std::size_t first, Pool& pool);
   template <class Source>
