@@ -19,10 +19,11 @@ namespace clues::exact {
 using Interval = CGAL::Interval_nt<false>;
 
 // True unless the closed segment (a,b) certainly misses the box. Separating axes: x, y, z and the three cross products of
-// the segment with them. Needs the rounding mode set by BoxTree::visit.
+// the segment with them. It can be made with any rounding; to ask it needs the rounding mode set by BoxTree::visit.
 class SegmentBoxTest {
  public:
   SegmentBoxTest(const Point3& a, const Point3& b) : box_(a.bbox() + b.bbox()) {
+    const CGAL::Protect_FPU_rounding<true> rounded_up;
     for (int i = 0; i < 3; ++i) {
       a_[i] = Interval(CGAL::to_interval(a[i]));
       d_[i] = Interval(CGAL::to_interval(b[i])) - a_[i];

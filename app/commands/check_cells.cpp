@@ -18,7 +18,9 @@
 #include "app/common.h"
 #include "app/progress.h"
 #include "app/whole_level.h"
+#include "exact/cell/convex_cell.h"
 #include "exact/threads.h"
+#include "scene/bakes/bake_deltas.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/levels/bsp_scene.h"
 #include "scene/messages/error.h"
@@ -64,6 +66,18 @@ Asked shipped_with(const scene::BspFile& level, const scene::LevelScene& scene) 
   return asked;
 }
 
+// D23: what an inner cell sees the cell sees, as it lies in it.
+void require_inner_within(const scene::BakePlace& cell, const std::string& bake) {
+  if (cell.inner.empty()) return;
+  const auto outer = exact::ConvexCell::from_doubles(cell.points);
+  const bool within = std::all_of(cell.inner.begin(), cell.inner.end(), [&](const scene::Point& p) {
+    return outer.contains(exact::Point3(p[0], p[1], p[2]));
+  });
+  if (!within)
+    throw Error(ErrorCode::malformed,
+                fmt::format("{}: the inner cell of cell {} is not within it; the store was damaged", bake, cell.name));
+}
+
 Asked baked_in(const CheckCellsRequest& request, const std::string& sha256, std::size_t triangles) {
   const scene::FinishedBake bake(request.bake);
   if (bake.plan().scene_sha256 != sha256)
@@ -72,9 +86,11 @@ Asked baked_in(const CheckCellsRequest& request, const std::string& sha256, std:
   if (bake.plan().triangles != triangles)
     throw Error(ErrorCode::bad_argument, fmt::format("{}: is of {} triangles, and {} has {}; bake it again",
                                                      request.bake, bake.plan().triangles, request.scene, triangles));
+  scene::require_deltas_of_lists(request.bake);
   Asked asked;
   for (std::uint32_t c = 0; c < bake.plan().cells.size(); ++c) {
     const auto& cell = bake.plan().cells[c];
+    require_inner_within(cell, request.bake);
     asked.cells.push_back(
         {cell.name, cell.group, cell.inner.empty() ? cell.points : cell.inner, bake.cell(c).list, {}});
   }

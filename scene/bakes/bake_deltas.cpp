@@ -55,6 +55,29 @@ void write_deltas(const Database& db, const std::vector<BakePlace>& cells, std::
   }
 }
 
+void require_deltas_of_lists(const std::filesystem::path& file) {
+  const FinishedBake bake(file);
+  const Database db(file, Database::Access::read, "the bake", "name a bake");
+  if (!Statement(db, "SELECT 1 FROM sqlite_master WHERE name = 'deltas'").next()) return;
+  const std::uint32_t triangles = bake.plan().triangles;
+  std::vector<Ids> lists;
+  for (std::size_t c = 0; c < bake.plan().cells.size(); ++c) lists.push_back(list_of(db, c, triangles));
+  for (Statement row(db, "SELECT cell, neighbour, appears, disappears FROM deltas ORDER BY cell, neighbour");
+       row.next();) {
+    const auto where = fmt::format("{}: from cell {} to cell {}", db.file(), row.number(0), row.number(1));
+    const auto list = [&](int column) -> const Ids& {
+      const auto cell = static_cast<std::uint64_t>(row.number(column));
+      if (cell >= lists.size())
+        throw Error(ErrorCode::malformed, where + ": there is no such cell; the store was damaged");
+      return lists[cell];
+    };
+    const Ids &from = list(0), &to = list(1);
+    if (unpacked_list(row.bytes(2), triangles, where) != without(to, from) ||
+        unpacked_list(row.bytes(3), triangles, where) != without(from, to))
+      throw Error(ErrorCode::malformed, where + ": the delta is not what the two lists say; bake it anew");
+  }
+}
+
 BakeDeltas::BakeDeltas(const std::filesystem::path& file)
     : db_(file, Database::Access::read, "the bake", "name a bake") {
   const FinishedBake bake(file);

@@ -11,7 +11,7 @@ namespace clues::scene {
 
 std::string sha256_of_scene(const std::filesystem::path& path) {
   const std::string bytes = read_file_bytes(path), file = path.string();
-  if (lower_case_extension(path) != ".gltf") return sha256_of(bytes);
+  if (const std::string kind = lower_case_extension(path); kind != ".gltf" && kind != ".glb") return sha256_of(bytes);
   const auto buffers = GltfDocument(bytes, file, {}).files_of_buffers();
   if (buffers.empty()) return sha256_of(bytes);
   std::string lines = sha256_of(bytes) + '\n';

@@ -137,5 +137,27 @@ TEST(SpoiltBake, OfAnotherNumberOfTrianglesIsNotJudged) {
                  "b.bake: is of 6 triangles, and scene.off has 5");
 }
 
+// A judge that looks from elsewhere accuses nobody; and who goes by deltas has other lists than those that are judged.
+TEST(SpoiltBake, WithInnerCellsElsewhereOrOtherDeltasIsNotJudged) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  ASSERT_EQ(run_clues(baking("b.bake"), folder.path()).exit_code, 0);
+  struct Spoilt {
+    const char *sql, *complaint;
+  };
+  for (const auto& [sql, complaint] :
+       {Spoilt{"UPDATE cells SET inner = (SELECT points FROM cells WHERE id = 1) WHERE id = 0", "is not within it"},
+        {"UPDATE deltas SET appears = (SELECT list FROM cells WHERE id = 0)", "is not what the two lists say"},
+        {"UPDATE deltas SET neighbour = 77 WHERE cell = 0 AND neighbour = 1", "there is no such cell"}}) {
+    std::filesystem::copy(folder.path() / "b.bake", folder.path() / "spoilt.bake",
+                          std::filesystem::copy_options::overwrite_existing);
+    scene::Database(folder.path() / "spoilt.bake", scene::Database::Access::write, "the bake", "name another").run(sql);
+    expect_refused(folder, {"check", "scene.off", "--all-cells", "--bake", "spoilt.bake"}, complaint);
+  }
+  scene::Database(folder.path() / "b.bake", scene::Database::Access::write, "the bake", "name another")
+      .run("UPDATE cells SET inner = points WHERE id = 0");
+  EXPECT_EQ(run_clues({"check", "scene.off", "--all-cells", "--bake", "b.bake"}, folder.path()).exit_code, 0);
+}
+
 }  // namespace
 }  // namespace clues::tests

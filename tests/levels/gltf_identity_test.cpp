@@ -1,4 +1,4 @@
-// D1: a .gltf whose buffer beside it was exchanged is another scene, whatever names the first one.
+// D1: a .gltf or .glb whose buffer beside it was exchanged is another scene, whatever names the first one.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -29,6 +29,8 @@ struct GltfIdentity : testing::Test {
                                                                                           {"byteLength", 36}};
     folder.write("scene.gltf", document.dump());
     folder.write("target.bin", made.buffer);
+    document["buffers"][0].erase("uri");
+    folder.write("scene.glb", glb_of(document.dump(), made.buffer));
     put_wall(0);
   }
   void put_wall(double aside) const {
@@ -51,6 +53,11 @@ TEST_F(GltfIdentity, IsOfAllFilesOfBuffers) {
   EXPECT_EQ(identity(), scene::sha256_of(sum("scene.gltf") + "missing\n" + sum("the wall.bin")));
 }
 
+TEST_F(GltfIdentity, IsOfTheFilesBesideABinaryOneToo) {
+  const auto sum = [&](const char* file) { return scene::sha256_of_file(folder.file(file)) + "\n"; };
+  EXPECT_EQ(scene::sha256_of_scene(folder.file("scene.glb")), scene::sha256_of(sum("scene.glb") + sum("the wall.bin")));
+}
+
 TEST_F(GltfIdentity, IsOfTheFileWhereAllIsInIt) {
   for (const auto& [name, bytes] :
        {std::pair("whole.gltf", one_triangle().text()), {"whole.glb", one_triangle().glb()}}) {
@@ -64,23 +71,27 @@ TEST_F(GltfIdentity, IsOfTheFileWhereAllIsInIt) {
   EXPECT_EQ(scene::sha256_of_scene(folder.file("whole.gltf")), scene::sha256_of(outside.dump()));
 }
 
-TEST_F(GltfIdentity, WhatWasMadeOfTheSceneBeforeIsRefused) {
+class GltfIdentityOf : public GltfIdentity, public testing::WithParamInterface<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Both, GltfIdentityOf, testing::Values("scene.gltf", "scene.glb"));
+
+TEST_P(GltfIdentityOf, WhatWasMadeOfTheSceneBeforeIsRefused) {
+  const std::string file = GetParam();
   const std::string grid = "grid:2x1x1:" + cell;
   const std::vector<std::vector<std::string>> makers{
-      {"map", "scene.gltf", "--cell", cell, "-o", "list.clues.json"},
-      {"map", "scene.gltf", "--cells", grid, "-o", "maps"},
-      {"bake", "scene.gltf", "--cells", grid, "-o", "all.bake"},
-      {"walk", "scene.gltf", "--bake", "all.bake", "--steps", "3", "-o", "walk.stream.jsonl"},
-      {"delta", "contours", "scene.gltf", "--parent", cell, "--cells", grid, "-o", "all.contours"},
+      {"map", file, "--cell", cell, "-o", "list.clues.json"},
+      {"map", file, "--cells", grid, "-o", "maps"},
+      {"bake", file, "--cells", grid, "-o", "all.bake"},
+      {"walk", file, "--bake", "all.bake", "--steps", "3", "-o", "walk.stream.jsonl"},
+      {"delta", "contours", file, "--parent", cell, "--cells", grid, "-o", "all.contours"},
   };
   const std::vector<std::vector<std::string>> users{
-      {"check", "scene.gltf", "--cell", cell, "--pvs", "list.clues.json"},
-      {"check", "scene.gltf", "--all-cells", "--bake", "all.bake"},
-      {"map", "scene.gltf", "--cells", grid, "-o", "maps", "--resume"},
-      {"bake", "scene.gltf", "--cells", grid, "-o", "all.bake"},
-      {"walk", "scene.gltf", "--bake", "all.bake", "--steps", "3"},
-      {"conform", "--stream", "walk.stream.jsonl", "--scene", "scene.gltf", "--bake", "all.bake"},
-      {"delta", "decode", "scene.gltf", "--contours", "all.contours", "--cell", "1"},
+      {"check", file, "--cell", cell, "--pvs", "list.clues.json"},
+      {"check", file, "--all-cells", "--bake", "all.bake"},
+      {"map", file, "--cells", grid, "-o", "maps", "--resume"},
+      {"bake", file, "--cells", grid, "-o", "all.bake"},
+      {"walk", file, "--bake", "all.bake", "--steps", "3"},
+      {"conform", "--stream", "walk.stream.jsonl", "--scene", file, "--bake", "all.bake"},
+      {"delta", "decode", file, "--contours", "all.contours", "--cell", "1"},
   };
   const auto expect_all = [&](const std::vector<std::vector<std::string>>& commands, int exit_code) {
     for (const auto& words : commands) {

@@ -88,7 +88,11 @@ std::string MadeGltf::text() const {
 std::string MadeGltf::glb() const {
   nlohmann::json out = json;
   out["buffers"] = {{{"byteLength", buffer.size()}}};
-  const std::string text = padded(out.dump(), ' '), binary = padded(buffer, '\0');
+  return glb_of(out.dump(), buffer);
+}
+
+std::string glb_of(const std::string& document, const std::string& buffer) {
+  const std::string text = padded(document, ' '), binary = padded(buffer, '\0');
   std::string bytes = "glTF";
   append(bytes, 2, 4);
   append(bytes, static_cast<std::uint32_t>(28 + text.size() + binary.size()), 4);

@@ -26,6 +26,8 @@ struct MadeGltf {
   std::string glb() const;
 };
 
+// A .glb file of a JSON document and what its first buffer has, if that has no URI.
+std::string glb_of(const std::string& document, const std::string& buffer);
 std::string base64(const std::string& bytes);
 std::string floats(const std::vector<double>& values);
 std::string numbers(const std::vector<std::uint32_t>& values, int component);

@@ -123,6 +123,28 @@ TEST_F(PointQueryTest, ASegmentInASurfaceAndOneOutOfTheCell) {
   EXPECT_EQ(up[1].sight, PartSight::hidden);
 }
 
+// D17: wedges that a limit left out cut nothing. The middle of this segment is outside of all that they could show, and its end is seen from the cell; all of it was called hidden for that of
+// the middle.
+TEST(PointQueryLimits, APartOfASegmentIsHiddenAsAWholeOnly) {
+  const scene::TriangleMesh mesh{
+      {{-18, 60, 4}, {18, -60, 4}, {-120, -36, 4}, {-60, -18, 12}, {60, 18, 12}, {36, -120, 12}},
+      {{0, 1, 2}, {3, 4, 5}},
+      {0, 1}};
+  const auto cell = exact::ConvexCell::from_doubles(
+      {{-1, -1, -1}, {-1, -1, 0}, {-1, 1, -1}, {-1, 1, 0}, {1, -1, -1}, {1, -1, 0}, {1, 1, -1}, {1, 1, 0}});
+  reference::Options options;
+  options.dials.csv_limit = options.dials.csv_limit_per_edge = 0;
+  const reference::Omega omega(mesh, cell, options);
+  const PointQuery query(mesh, omega, CGAL::Bbox_3(-50, -50, -50, 50, 50, 50));
+  const Point3 a(FT(-321) / 25, FT(-607) / 200, FT(5)), b(-3.040573065902578, -2.200401146131805, 30.0);
+  const auto at = [&](const FT& share) { return a + share * (b - a); };
+  EXPECT_FALSE(query.ask(at(FT(3) / 7)).answers.at(0).first_order);
+  EXPECT_TRUE(query.ask(at(FT(99) / 100)).answers.at(0).v);
+  const auto parts = ask_segment(query, omega, a, b);
+  for (const SegmentPart& part : parts)
+    EXPECT_NE(part.sight, PartSight::hidden) << CGAL::to_double(part.from) << " " << CGAL::to_double(part.to);
+}
+
 TEST(PointQueryRandom, ProofsHoldAndLabelsAreSound) {
   constexpr std::uint64_t kSeed = 20261121;
   std::uint64_t visible = 0, occluded = 0, only_first_order = 0;

@@ -96,7 +96,9 @@ bool PointQuery::in_visible_region(std::uint32_t triangle, bool front, const Poi
                      [&](std::uint32_t i) { return in_region(map.regions[i], *planes_[triangle], p); });
 }
 
-PointReport PointQuery::ask(const Point3& p) const {
+PointReport PointQuery::ask(const Point3& p) const { return ask(p, {p}); }
+
+PointReport PointQuery::ask(const Point3& p, const std::vector<Point3>& corners) const {
   PointReport report;
   const reference::VisibilityMap& map = omega_.map();
   report.in_cell = map.cell.contains(p);
@@ -119,7 +121,7 @@ PointReport PointQuery::ask(const Point3& p) const {
   }
   if (on_surface) return report;
   PointAnswer answer = look(p, std::nullopt);
-  const reference::Walker::Label label = labels_(p);
+  const reference::Walker::Label label = labels_(p, corners);
   answer.first_order = label.visible;
   answer.fallback = label.fallback;
   answer.contradiction = answer.v && !label.visible;

@@ -44,6 +44,8 @@ class PointQuery {
   // Throws Error internal if two oracles contradict each other on the way. One pass of plain rationals over all triangles for each triangle that
   // gets in the way.
   PointReport ask(const exact::Point3& p) const;
+  // The same at a point p of the hull of `corners`, which nothing cuts: in space it is in Omega, too, if what a limit left out may show any of it (D17).
+  PointReport ask(const exact::Point3& p, const std::vector<exact::Point3>& corners) const;
 
  private:
   PointAnswer look(const exact::Point3& p, const std::optional<exact::Plane3>& side) const;

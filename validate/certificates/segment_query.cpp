@@ -94,8 +94,9 @@ std::vector<SegmentPart> ask_segment(const PointQuery& query, const reference::O
   const std::vector<FT> stops = cuts(omega, a, b);
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     SegmentPart part{stops[i], stops[i + 1], PartSight::hidden, {}, std::nullopt, false};
-    part.at = exact::collapsed(a + (FT(4) * part.from + FT(3) * part.to) / FT(7) * (b - a));
-    const PointReport report = query.ask(part.at);
+    const auto at = [&](const FT& share) { return exact::collapsed(a + share * (b - a)); };
+    part.at = at((FT(4) * part.from + FT(3) * part.to) / FT(7));
+    const PointReport report = query.ask(part.at, {at(part.from), at(part.to)});
     if (report.in_cell) part.sight = PartSight::visible;
     for (const PointAnswer& answer : report.answers) {
       part.contradiction |= answer.contradiction;
