@@ -1,9 +1,12 @@
 #include "scene/levels/rounding.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "scene/mesh/bounds.h"
 
@@ -39,10 +42,56 @@ Bounds box_around(const RationalPoint& p, int units = 1) {
   return box;
 }
 
-// For each vertex a double point near it that is in none of the half spaces of its faces but on their planes, with the coordinates
-// of the vertex that are doubles: their hull most often holds the polytope, and none of them is beyond a side across an axis that
-// its vertex is in. A vertex without such a point has the corners of a box around it.
-std::set<Point> points_beyond(const Polytope& polytope, int most_units) {
+// Which points are in none of the half spaces of the faces at a vertex but on their planes.
+using IsBeyond = std::function<bool(const Point&)>;
+
+// The nearest point to p on the grid of multiples of 2^-exponent, a few steps around it, that is beyond. Coordinates that are doubles stay.
+std::optional<Point> on_grid_beyond(const RationalPoint& p, int exponent, const IsBeyond& is_beyond) {
+  constexpr int around = 3;
+  std::array<std::vector<double>, 3> places;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (const auto [low, high] = neighbours(p[axis]); low == high) {
+      places[axis] = {low};
+      continue;
+    }
+    const auto shift = static_cast<mp_bitcnt_t>(exponent);
+    mpz_class below;  // in steps
+    mpz_fdiv_q(below.get_mpz_t(), mpz_class(p[axis].get_num() << shift).get_mpz_t(), p[axis].get_den_mpz_t());
+    if (mpz_sizeinbase(below.get_mpz_t(), 2) > 50) return std::nullopt;  // doubles are no finer than that
+    for (int i = 1 - around; i <= around; ++i)
+      places[axis].push_back(std::ldexp(mpz_class(below + i).get_d(), -exponent));
+  }
+  std::vector<std::pair<double, Point>> candidates;
+  for (const double x : places[0]) {
+    for (const double y : places[1]) {
+      for (const double z : places[2]) {
+        const std::array<double, 3> off{mpq_class(x - p[0]).get_d(), mpq_class(y - p[1]).get_d(),
+                                        mpq_class(z - p[2]).get_d()};
+        candidates.push_back({off[0] * off[0] + off[1] * off[1] + off[2] * off[2], {x, y, z}});
+      }
+    }
+  }
+  std::sort(candidates.begin(), candidates.end());
+  const auto found = std::find_if(candidates.begin(), candidates.end(),
+                                  [&](const auto& candidate) { return is_beyond(candidate.second); });
+  return found == candidates.end() ? std::nullopt : std::optional(found->second);
+}
+
+// The same by units in the last place, away from p in all coordinates that are no doubles.
+std::optional<Point> next_to_it_beyond(const RationalPoint& p, const IsBeyond& is_beyond) {
+  constexpr int most_units = 64;
+  for (int units = 1; units <= most_units; units *= 2) {
+    for (const Point& corner : corners_of(box_around(p, units))) {
+      if (is_beyond(corner)) return corner;
+    }
+  }
+  return std::nullopt;
+}
+
+// For each vertex a double point near it that is beyond, with the coordinates of the vertex that are doubles: their hull most often
+// holds the polytope, and none of them is beyond a side across an axis that its vertex is in. A vertex without such a point has the
+// corners of a box around it. `exponent`: of the grid, if one is wanted.
+std::vector<Point> points_beyond(const Polytope& polytope, std::optional<int> exponent) {
   std::vector<std::vector<const HalfSpace*>> faces_at(polytope.vertices.size());
   for (const auto& face : polytope.faces) {
     for (const auto v : face.vertices) faces_at[v].push_back(&face.half_space);
@@ -55,19 +104,28 @@ std::set<Point> points_beyond(const Polytope& polytope, int most_units) {
                          [&](const HalfSpace* face) { return sgn(face->height(exact)) >= 0; });
     };
     std::optional<Point> found;
-    for (int units = 1; !found && units <= most_units; units *= 2) {
-      const Bounds box = box_around(polytope.vertices[v], units);
-      for (unsigned i = 0; i < 8 && !found; ++i) {
-        if (is_beyond(corner_of(box, i))) found = corner_of(box, i);
-      }
-    }
+    if (exponent) found = on_grid_beyond(polytope.vertices[v], *exponent, is_beyond);
+    if (!found) found = next_to_it_beyond(polytope.vertices[v], is_beyond);
     if (found) {
       points.insert(*found);
     } else {
       for (const auto& corner : corners_of(box_around(polytope.vertices[v]))) points.insert(corner);
     }
   }
-  return points;
+  return {points.begin(), points.end()};
+}
+
+// A grid that is fine beside the polytope and beside what planes in a file of floats are off, and coarse beside doubles.
+int grid_exponent(const Polytope& polytope) {
+  constexpr int coarsest = 14, finer_than_it = 18;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [low, high] =
+        std::minmax_element(polytope.vertices.begin(), polytope.vertices.end(),
+                            [axis](const RationalPoint& a, const RationalPoint& b) { return a[axis] < b[axis]; });
+    least = std::min(least, mpq_class((*high)[axis] - (*low)[axis]).get_d());
+  }
+  return std::max(coarsest, finer_than_it - std::ilogb(least));
 }
 
 RationalPoint center_of(const Polytope& polytope) {
@@ -164,16 +222,16 @@ std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope) {
 
 std::vector<Point> outer_points(const Polytope& polytope) {
   constexpr std::size_t most_for_hull = 24;  // beyond, a box around each vertex is cheaper than a proof
-  constexpr int most_units = 64;
   if (std::all_of(polytope.vertices.begin(), polytope.vertices.end(), is_double)) {
     std::set<Point> exact;
     for (const auto& v : polytope.vertices) exact.insert(nearest_corner(v));
     return {exact.begin(), exact.end()};
   }
   if (polytope.vertices.size() <= most_for_hull) {
-    const auto beyond = points_beyond(polytope, most_units);
-    std::vector<Point> points(beyond.begin(), beyond.end());
-    if (points.size() <= most_for_hull && hull_holds(points, polytope)) return points;
+    for (const std::optional<int> exponent : {std::optional(grid_exponent(polytope)), std::optional<int>{}}) {
+      const auto points = points_beyond(polytope, exponent);
+      if (points.size() <= most_for_hull && hull_holds(points, polytope)) return points;
+    }
   }
   std::set<Point> corners;
   for (const auto& v : polytope.vertices) {
