@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace clues::fastpath {
@@ -73,12 +74,18 @@ unsigned bits(const Integer3& v) {
   return most;
 }
 
-// Without the common power of two.
-void shorten(Integer3& v) {
+// Of all coordinates that are not 0; if there is none it is ~0U.
+unsigned trailing_zeros(const Integer3& v) {
   unsigned zeros = ~0U;
   for (const Integer* c : {&v.x, &v.y, &v.z}) {
     if (c->sign() != 0) zeros = std::min(zeros, static_cast<unsigned>(lsb(abs(*c))));
   }
+  return zeros;
+}
+
+// Without the common power of two.
+void shorten(Integer3& v) {
+  const unsigned zeros = trailing_zeros(v);
   if (zeros == 0 || zeros == ~0U) return;
   for (Integer* c : {&v.x, &v.y, &v.z}) *c >>= zeros;
 }
@@ -86,6 +93,10 @@ void shorten(Integer3& v) {
 Integer3 shifted(const Integer3& v, unsigned by) {
   return {Integer(v.x << by), Integer(v.y << by), Integer(v.z << by)};
 }
+
+const Integer& coordinate(const Integer3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+Integer shifted(const Integer& x, int by) { return Integer(x << static_cast<unsigned>(by)); }
 
 double size_of(const Vec3<Interval>& v) {
   double most = 0;
@@ -95,9 +106,47 @@ double size_of(const Vec3<Interval>& v) {
 
 }  // namespace
 
+// With h(x) = n . (x - c), for points x = v / (w 2^e), let H(x) = h(x) w 2^e times what is the same for all x. Then (H(a) v(b) - H(b) v(a)) / (H(a) w(b) 2^e(b) - H(b) w(a) 2^e(a)).
+std::optional<Homogeneous> ExactPoint::crossing_in_whole_numbers() const {
+  constexpr unsigned kLongest = 448;
+  const Integer3& n = plane_->normal_direction();
+  const Homogeneous &a = a_->homogeneous(), &b = b_->homogeneous(), &c = plane_->base().homogeneous();
+  if (std::max({bits(a.v), bits(b.v), bits(c.v), bits(n)}) > kLongest) return std::nullopt;
+  const int least = std::min({a.e, b.e, c.e});
+  const Integer at_c = dot(n, c.v);
+  const auto height = [&](const Homogeneous& x) {
+    return Integer(shifted(dot(n, x.v) * c.w, c.e - least) - shifted(at_c * x.w, x.e - least));
+  };
+  const Integer at_a = height(a), at_b = height(b);
+  Homogeneous out;
+  out.v = at_a * b.v - at_b * a.v;
+  out.w = shifted(at_a * b.w, b.e - least) - shifted(at_b * a.w, a.e - least);
+  out.e = least;
+  if (out.w.sign() < 0) {
+    out.v = Integer(-1) * out.v;
+    out.w = -out.w;
+  }
+  const unsigned zeros = std::min(trailing_zeros(out.v), static_cast<unsigned>(lsb(out.w)));
+  for (Integer* x : {&out.v.x, &out.v.y, &out.v.z, &out.w}) *x >>= zeros;
+  out.whole = out.w == 1;
+  if (std::max(bits(out.v), static_cast<unsigned>(msb(out.w)) + 1) > kLongest) return std::nullopt;
+  return out;
+}
+
 const Homogeneous& ExactPoint::homogeneous() const {
   if (const Homogeneous* known = homogeneous_.load(std::memory_order_acquire)) return *known;
+  if (kind_ == Kind::on_plane && !is_double() && !exact_.load(std::memory_order_acquire)) {
+    if (auto crossing = crossing_in_whole_numbers()) return keep_first(homogeneous_, *std::move(crossing));
+  }
   return keep_first(homogeneous_, homogeneous_of(*this));
+}
+
+int compare_exactly(const ExactPoint& p, const ExactPoint& q, int axis) {
+  const Homogeneous &a = p.homogeneous(), &b = q.homogeneous();
+  const int least = std::min(a.e, b.e);
+  const Integer left = shifted(coordinate(a.v, axis) * b.w, b.e - least),
+                right = shifted(coordinate(b.v, axis) * a.w, a.e - least);
+  return (left > right) - (left < right);
 }
 
 template <>

@@ -16,6 +16,9 @@ inline Vec3<Interval> direction<Interval>(const ExactPoint& from, const ExactPoi
 template <>
 Vec3<Integer> direction<Integer>(const ExactPoint& from, const ExactPoint& to);
 
+// The sign of the difference of coordinate `axis`.
+int compare_exactly(const ExactPoint& a, const ExactPoint& b, int axis);
+
 // A positive multiple of the plane's normal.
 template <class NT>
 Vec3<NT> normal_direction(const Plane& h);

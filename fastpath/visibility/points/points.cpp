@@ -240,7 +240,7 @@ int compare_coordinate(const ExactPoint& a, const ExactPoint& b, int axis) {
   const int s = filtered_sign(coordinate(a.approximate(), axis) - coordinate(b.approximate(), axis));
   if (s != kUnsure) return s;
   ++exact_decisions();
-  return cmp(coordinate(a.exact(), axis), coordinate(b.exact(), axis));
+  return compare_exactly(a, b, axis);
 }
 
 bool equal(const ExactPoint& a, const ExactPoint& b) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <optional>
 #include <utility>
 
 #include "fastpath/predicates/filter.h"
@@ -63,6 +64,7 @@ class ExactPoint {
 
  private:
   enum class Kind : std::uint8_t { given, on_plane, between, reflected };
+  std::optional<Homogeneous> crossing_in_whole_numbers() const;  // nothing reduced; none if the numbers get long
   Kind kind_ = Kind::given;
   Vec3<Interval> near_{};
   const ExactPoint *a_ = nullptr, *b_ = nullptr;

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 
+#include "fastpath/visibility/points/integers.h"
+
 namespace clues::fastpath {
 
 namespace {
 
 const Interval& at(const Vec3<Interval>& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-const Rational& at(const Exact3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+const Integer& at(const Integer3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 struct Flat {
   Interval x, y;
@@ -21,19 +23,11 @@ Flat flat(const Plane& h, const ExactPoint& center, const ExactPoint& p) {
   return {at(q, i) - at(c, i), at(q, j) - at(c, j)};
 }
 
-// Both products are multiplied by the denominators of both: no fraction is reduced.
-int exact_turn(const Plane& h, const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
+[[gnu::noinline]] int exact_turn(const Plane& h, const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
   ++exact_decisions();
   const auto& [i, j] = h.axes();
-  const Exact3 &p = a.exact(), &q = b.exact(), &r = c.exact();
-  const auto minus = [](const Rational& x, const Rational& y) {
-    return mpz_class(x.get_num() * y.get_den() - y.get_num() * x.get_den());
-  };
-  const mpz_class left =
-      minus(at(q, i), at(p, i)) * minus(at(r, j), at(p, j)) * at(q, j).get_den() * at(r, i).get_den();
-  const mpz_class right =
-      minus(at(q, j), at(p, j)) * minus(at(r, i), at(p, i)) * at(q, i).get_den() * at(r, j).get_den();
-  return (left > right) - (left < right);
+  const Integer3 u = direction<Integer>(a, b), w = direction<Integer>(a, c);
+  return sign_of(Integer(at(u, i) * at(w, j) - at(u, j) * at(w, i)));
 }
 
 [[gnu::flatten]] int filtered_turn(const Flat& u, const Flat& w) { return filtered_sign(u.x * w.y - u.y * w.x); }
