@@ -57,6 +57,13 @@ TEST(Found, AnUmbraThatEndsBesideAnEdge) {
   expect_list("an-umbra-that-ends-beside-an-edge.obj", "box:-1,-1,-2,1,1,-1", {0, 1});
 }
 
+// Ten triangles of a level. A part of an edge is lit in the second round only, and by its wedge a source that was dark in the first one. A search that asked such sources once lost triangle 4, and no
+// generated scene showed it.
+TEST(Found, LightOfALaterRound) {
+  expect_list("light-of-a-later-round.obj", "box:-1,-1,-1,1,1,1", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9});
+  expect_regions("light-of-a-later-round.obj", "box:-1,-1,-1,1,1,1");
+}
+
 // Three plates about a window, each under the next, as in an iris: each long edge was asked under the next plate, where it is dark, and not at the window, where the light is
 // that cuts it. So no wedge of the window was made, and the triangle behind it was missing, in every kernel. With a vertex more on each edge it was not.
 TEST(Found, ThreePlatesAboutAWindow) {
