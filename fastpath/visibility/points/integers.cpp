@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace clues::fastpath {
@@ -135,7 +134,8 @@ std::optional<Homogeneous> ExactPoint::crossing_in_whole_numbers() const {
 
 const Homogeneous& ExactPoint::homogeneous() const {
   if (const Homogeneous* known = homogeneous_.load(std::memory_order_acquire)) return *known;
-  if (kind_ == Kind::on_plane && !is_double() && !exact_.load(std::memory_order_acquire)) {
+  // Whether or not another thread has already asked for the fractions: directions are multiples that depend on these numbers, and what is chosen by their sizes must not hang on that.
+  if (kind_ == Kind::on_plane && !is_double()) {
     if (auto crossing = crossing_in_whole_numbers()) return keep_first(homogeneous_, *std::move(crossing));
   }
   return keep_first(homogeneous_, homogeneous_of(*this));
