@@ -86,13 +86,15 @@ Asked baked_in(const CheckCellsRequest& request, const std::string& sha256, std:
   if (bake.plan().triangles != triangles)
     throw Error(ErrorCode::bad_argument, fmt::format("{}: is of {} triangles, and {} has {}; bake it again",
                                                      request.bake, bake.plan().triangles, request.scene, triangles));
-  scene::require_deltas_of_lists(request.bake);
+  std::vector<std::vector<std::uint32_t>> lists;
+  for (std::uint32_t c = 0; c < bake.plan().cells.size(); ++c) lists.push_back(bake.cell(c).list);
+  scene::require_deltas_of_lists(request.bake, lists, bake.plan().triangles);
   Asked asked;
   for (std::uint32_t c = 0; c < bake.plan().cells.size(); ++c) {
     const auto& cell = bake.plan().cells[c];
     require_inner_within(cell, request.bake);
     asked.cells.push_back(
-        {cell.name, cell.group, cell.inner.empty() ? cell.points : cell.inner, bake.cell(c).list, {}});
+        {cell.name, cell.group, cell.inner.empty() ? cell.points : cell.inner, std::move(lists[c]), {}});
   }
   return asked;
 }

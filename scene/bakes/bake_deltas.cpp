@@ -23,6 +23,10 @@ Ids list_of(const Database& db, std::size_t cell, std::uint32_t triangles) {
   return unpacked_list(row.bytes(0), triangles, where);
 }
 
+bool has_deltas(const Database& db) {
+  return Statement(db, "SELECT 1 FROM sqlite_master WHERE name = 'deltas'").next();
+}
+
 Ids without(const Ids& list, const Ids& other) {
   Ids rest;
   std::set_difference(list.begin(), list.end(), other.begin(), other.end(), std::back_inserter(rest));
@@ -55,13 +59,10 @@ void write_deltas(const Database& db, const std::vector<BakePlace>& cells, std::
   }
 }
 
-void require_deltas_of_lists(const std::filesystem::path& file) {
-  const FinishedBake bake(file);
+void require_deltas_of_lists(const std::filesystem::path& file, const std::vector<Ids>& lists,
+                             std::uint32_t triangles) {
   const Database db(file, Database::Access::read, "the bake", "name a bake");
-  if (!Statement(db, "SELECT 1 FROM sqlite_master WHERE name = 'deltas'").next()) return;
-  const std::uint32_t triangles = bake.plan().triangles;
-  std::vector<Ids> lists;
-  for (std::size_t c = 0; c < bake.plan().cells.size(); ++c) lists.push_back(list_of(db, c, triangles));
+  if (!has_deltas(db)) return;
   for (Statement row(db, "SELECT cell, neighbour, appears, disappears FROM deltas ORDER BY cell, neighbour");
        row.next();) {
     const auto where = fmt::format("{}: from cell {} to cell {}", db.file(), row.number(0), row.number(1));
@@ -83,8 +84,7 @@ BakeDeltas::BakeDeltas(const std::filesystem::path& file)
   const FinishedBake bake(file);
   triangles_ = bake.plan().triangles;
   cells_ = bake.plan().cells.size();
-  if (!Statement(db_, "SELECT 1 FROM sqlite_master WHERE name = 'deltas'").next())
-    throw Error(ErrorCode::malformed, db_.file() + ": has no deltas; bake it anew");
+  if (!has_deltas(db_)) throw Error(ErrorCode::malformed, db_.file() + ": has no deltas; bake it anew");
 }
 
 Ids BakeDeltas::neighbours_of(std::uint32_t cell) const {

@@ -20,9 +20,10 @@ struct BakeDelta {
 // Makes the table `deltas` from the lists of all cells, within the caller's transaction. O(cells^2) boxes, and for each pair the length of two lists.
 void write_deltas(const Database& db, const std::vector<BakePlace>& cells, std::uint32_t triangles);
 
-// Whether the deltas of a finished store say what its lists say; a store without the table has none to ask. Throws Error malformed where they do not, besides what FinishedBake throws.
+// Whether the deltas of a finished store say what the lists of all its cells say; a store without the table has none to ask. Throws Error malformed where they do not.
 // O(neighbours * length of two lists).
-void require_deltas_of_lists(const std::filesystem::path& file);
+void require_deltas_of_lists(const std::filesystem::path& file, const std::vector<std::vector<std::uint32_t>>& lists,
+                             std::uint32_t triangles);
 
 class BakeDeltas {
  public:

@@ -48,27 +48,29 @@ using IsBeyond = std::function<bool(const Point&)>;
 // The nearest point to p on the grid of multiples of 2^-exponent, a few steps around it, that is beyond. Coordinates that are doubles stay.
 std::optional<Point> on_grid_beyond(const RationalPoint& p, int exponent, const IsBeyond& is_beyond) {
   constexpr int around = 3;
-  std::array<std::vector<double>, 3> places;
+  struct Place {
+    double at, off_squared;
+  };
+  std::array<std::vector<Place>, 3> places;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (const auto [low, high] = neighbours(p[axis]); low == high) {
-      places[axis] = {low};
+      places[axis] = {{low, 0}};
       continue;
     }
     const auto shift = static_cast<mp_bitcnt_t>(exponent);
     mpz_class below;  // in steps
     mpz_fdiv_q(below.get_mpz_t(), mpz_class(p[axis].get_num() << shift).get_mpz_t(), p[axis].get_den_mpz_t());
     if (mpz_sizeinbase(below.get_mpz_t(), 2) > 50) return std::nullopt;  // doubles are no finer than that
-    for (int i = 1 - around; i <= around; ++i)
-      places[axis].push_back(std::ldexp(mpz_class(below + i).get_d(), -exponent));
+    for (int i = 1 - around; i <= around; ++i) {
+      const double at = std::ldexp(mpz_class(below + i).get_d(), -exponent), off = mpq_class(at - p[axis]).get_d();
+      places[axis].push_back({at, off * off});
+    }
   }
   std::vector<std::pair<double, Point>> candidates;
-  for (const double x : places[0]) {
-    for (const double y : places[1]) {
-      for (const double z : places[2]) {
-        const std::array<double, 3> off{mpq_class(x - p[0]).get_d(), mpq_class(y - p[1]).get_d(),
-                                        mpq_class(z - p[2]).get_d()};
-        candidates.push_back({off[0] * off[0] + off[1] * off[1] + off[2] * off[2], {x, y, z}});
-      }
+  for (const Place& x : places[0]) {
+    for (const Place& y : places[1]) {
+      for (const Place& z : places[2])
+        candidates.push_back({x.off_squared + y.off_squared + z.off_squared, {x.at, y.at, z.at}});
     }
   }
   std::sort(candidates.begin(), candidates.end());
