@@ -9,8 +9,6 @@ namespace {
 
 double middle(const Interval& x) { return x.inf() / 2 + x.sup() / 2; }
 
-const Interval& coordinate(const Box3& box, int axis) { return axis == 0 ? box.x : axis == 1 ? box.y : box.z; }
-
 Interval cross2(const FlatBox& a, const FlatBox& b) { return a.x * b.y - a.y * b.x; }
 Interval dot2(const FlatBox& a, const FlatBox& b) { return a.x * b.x + a.y * b.y; }
 

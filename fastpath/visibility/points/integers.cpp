@@ -93,8 +93,6 @@ Integer3 shifted(const Integer3& v, unsigned by) {
   return {Integer(v.x << by), Integer(v.y << by), Integer(v.z << by)};
 }
 
-const Integer& coordinate(const Integer3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 Integer shifted(const Integer& x, int by) { return Integer(x << static_cast<unsigned>(by)); }
 
 double size_of(const Vec3<Interval>& v) {

@@ -58,6 +58,15 @@ struct Vec3 {
 };
 
 template <class NT>
+const NT& coordinate(const Vec3<NT>& v, int axis) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+template <class NT>
+NT& coordinate(Vec3<NT>& v, int axis) {
+  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+template <class NT>
 NT dot(const Vec3<NT>& a, const Vec3<NT>& b) {
   return NT(NT(a.x * b.x) + NT(a.y * b.y)) + NT(a.z * b.z);
 }

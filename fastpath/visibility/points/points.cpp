@@ -42,9 +42,6 @@ Rational rounded_down(const Rational& x, long exponent) {
   return times_power(Rational(whole), exponent);
 }
 
-const Interval& coordinate(const Vec3<Interval>& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-const Rational& coordinate(const Exact3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 }  // namespace
 
 std::uint64_t& exact_decisions() {

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "fastpath/visibility/points/near_enough.h"
 #include "scene/messages/error.h"
@@ -106,16 +107,20 @@ Sources::OfVertex Sources::unresolved(std::uint32_t v, const ExactPoint& view, P
   return s;
 }
 
+void Sources::set_walk(Place& s, Walk made) {
+  ++walks_;
+  s.walk = std::move(made);
+  s.stale = s.unmet = s.confirmed = false;
+  s.alone = pieces_.pieces().empty();
+}
+
 void Sources::walk_from_place(OfEdge& s, Pool& pool) {
   const ContourEdge& contour = contours_[s.contour];
   Walker::MayCome next_to_edge;
   if (!contour.holds_cell)
     next_to_edge = [&](const ExactPoint& v) { return comes_next_to_edge(scene_, contour, s.part, v, *s.beside); };
   while (true) {
-    ++walks_;
-    s.walk = walker_.walk(s.beside, pool, s.manner, next_to_edge);
-    s.stale = s.unmet = s.confirmed = false;
-    s.alone = pieces_.pieces().empty();
+    set_walk(s, walker_.walk(s.beside, pool, s.manner, next_to_edge));
     if (!s.walk.from_nowhere) return;
     ++s.level;
     find_place(s, pool);
@@ -123,12 +128,7 @@ void Sources::walk_from_place(OfEdge& s, Pool& pool) {
   }
 }
 
-void Sources::walk_from_place(OfVertex& s, Pool& pool) {
-  ++walks_;
-  s.walk = walker_.walk(s.beside, pool, s.manner);
-  s.stale = s.unmet = s.confirmed = false;
-  s.alone = pieces_.pieces().empty();
-}
+void Sources::walk_from_place(OfVertex& s, Pool& pool) { set_walk(s, walker_.walk(s.beside, pool, s.manner)); }
 
 void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cuts) {
   std::map<std::tuple<std::size_t, const ExactPoint*, const ExactPoint*>, OfEdge> known;

@@ -104,6 +104,7 @@ class Sources {
   static bool is_in_doubt(const OfVertex& s) { return s.walk.end == Walk::End::unresolved && !s.separates; }
 
  private:
+  void set_walk(Place& source, Walk made);  // what was known of another walk is forgotten
   // Of an edge: from a nearer place where no sight line to this one comes next to the edge.
   void walk_from_place(OfEdge& source, Pool& pool);
   void walk_from_place(OfVertex& source, Pool& pool);

@@ -10,9 +10,6 @@ namespace clues::fastpath {
 
 namespace {
 
-const Interval& at(const Vec3<Interval>& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-const Integer& at(const Integer3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 struct Flat {
   Interval x, y;
 };
@@ -20,14 +17,14 @@ struct Flat {
 Flat flat(const Plane& h, const ExactPoint& center, const ExactPoint& p) {
   const auto& [i, j] = h.axes();
   const auto &c = center.approximate(), &q = p.approximate();
-  return {at(q, i) - at(c, i), at(q, j) - at(c, j)};
+  return {coordinate(q, i) - coordinate(c, i), coordinate(q, j) - coordinate(c, j)};
 }
 
 [[gnu::noinline]] int exact_turn(const Plane& h, const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
   ++exact_decisions();
   const auto& [i, j] = h.axes();
   const Integer3 u = direction<Integer>(a, b), w = direction<Integer>(a, c);
-  return sign_of(Integer(at(u, i) * at(w, j) - at(u, j) * at(w, i)));
+  return sign_of(Integer(coordinate(u, i) * coordinate(w, j) - coordinate(u, j) * coordinate(w, i)));
 }
 
 [[gnu::flatten]] int filtered_turn(const Flat& u, const Flat& w) { return filtered_sign(u.x * w.y - u.y * w.x); }

@@ -6,12 +6,6 @@ namespace clues::fastpath {
 
 namespace {
 
-Interval& component(IntervalBox& b, int axis) { return axis == 0 ? b.x : axis == 1 ? b.y : b.z; }
-template <class NT>
-const NT& component(const Vec3<NT>& b, int axis) {
-  return axis == 0 ? b.x : axis == 1 ? b.y : b.z;
-}
-
 const Blocker& blocker_of(const ValidPiece& piece) {
   return piece.on->blockers[static_cast<std::size_t>(piece.blocker)];
 }
@@ -23,8 +17,8 @@ NT crossing(const ValidPiece& piece, const ExactPoint* on_ray) {
   const auto& axes = piece.on->plane->axes();
   const auto flat = [&](const ExactPoint& x, const ExactPoint& from) {
     const Vec3<NT>&p = coordinates<NT>(x), &q = coordinates<NT>(from);
-    return std::pair<NT, NT>(component(p, axes[0]) - component(q, axes[0]),
-                             component(p, axes[1]) - component(q, axes[1]));
+    return std::pair<NT, NT>(coordinate(p, axes[0]) - coordinate(q, axes[0]),
+                             coordinate(p, axes[1]) - coordinate(q, axes[1]));
   };
   const auto det = [](const auto& x, const auto& y) { return NT(x.first * y.second - x.second * y.first); };
   const ExactPoint& c = *piece.on->center;
@@ -60,7 +54,7 @@ Point far_end_estimate(const ValidPiece& piece, const ExactPoint* on_ray) {
   Point middle{};
   bool narrow = true;
   for (int i = 0; i < 3; ++i) {
-    const Interval &x = component(near, i), &side = component(all, i);
+    const Interval &x = coordinate(near, i), &side = coordinate(all, i);
     middle[static_cast<std::size_t>(i)] = x.inf() + (x.sup() - x.inf()) / 2;
     narrow &= x.sup() - x.inf() <= 0x1p-40 * (side.sup() - side.inf()) || x.is_point();
   }
@@ -79,10 +73,10 @@ void set_box(ValidPiece& piece, const IntervalBox& bounds) {
     return;
   }
   for (int i = 0; i < 3; ++i) {
-    Interval& side = component(piece.box, i);
-    const Interval& limit = component(bounds, i);
+    Interval& side = coordinate(piece.box, i);
+    const Interval& limit = coordinate(bounds, i);
     for (const ExactPoint* r : {piece.ray0, piece.ray1}) {
-      const Interval way = component(r->approximate(), i) - component(c, i);
+      const Interval way = coordinate(r->approximate(), i) - coordinate(c, i);
       if (way.sup() > 0) side = Interval(side.inf(), std::max(side.sup(), limit.sup()));
       if (way.inf() < 0) side = Interval(std::min(side.inf(), limit.inf()), side.sup());
     }
