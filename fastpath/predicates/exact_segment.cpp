@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -56,16 +57,19 @@ mpz_class dot(const Whole& a, const Whole& b) { return a[0] * b[0] + a[1] * b[1]
 bool is_zero(const Whole& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0; }
 
 __extension__ using Wide = __int128;
-using Small = std::array<std::int64_t, 3>;
+// Of 1024 bits, in place: no memory is asked for.
+using Long = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
+    1024, 1024, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
+template <class Number>
+using Numbers3 = std::array<Number, 3>;
 
-// The same when the points are multiples of one power of two by whole numbers below 2^40, as they are on grids and in meshes of floats. O(1), no
-// memory: the usual way of being degenerate is cheap.
-std::optional<std::array<Small, 5>> small_numbers(const std::array<const Point*, 5>& points) {
-  constexpr int kBits = 40;
-  std::array<Small, 5> out{};
-  std::array<std::array<int, 3>, 5> exponents{};
+// The same when the points are multiples of one power of two by whole numbers below 2^kBits, none of them subnormal. O(1), no memory: the usual way of being degenerate is cheap.
+template <class Number, int kBits, std::size_t N>
+std::optional<std::array<Numbers3<Number>, N>> short_numbers(const std::array<const Point*, N>& points) {
+  std::array<Numbers3<std::int64_t>, N> mantissas{};
+  std::array<Numbers3<int>, N> exponents{};
   int least = std::numeric_limits<int>::max(), most = std::numeric_limits<int>::min();
-  for (std::size_t i = 0; i < 5; ++i) {
+  for (std::size_t i = 0; i < N; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double x = (*points[i])[k];
       if (x == 0) continue;
@@ -75,47 +79,101 @@ std::optional<std::array<Small, 5>> small_numbers(const std::array<const Point*,
       auto mantissa = static_cast<std::int64_t>((bits & 0xfffffffffffffU) | 0x10000000000000U);
       const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
       mantissa >>= zeros;
-      out[i][k] = x < 0 ? -mantissa : mantissa;
+      mantissas[i][k] = x < 0 ? -mantissa : mantissa;
       exponents[i][k] = exponent + zeros;
       least = std::min(least, exponent + zeros);
       most = std::max(most, exponent + 53);
     }
   }
-  if (most - least > kBits) return most < least ? std::optional(out) : std::nullopt;
-  for (std::size_t i = 0; i < 5; ++i) {
+  std::array<Numbers3<Number>, N> out{};
+  if (most < least) return out;
+  if (most - least > kBits) return std::nullopt;
+  for (std::size_t i = 0; i < N; ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (out[i][k] != 0) out[i][k] *= std::int64_t{1} << static_cast<unsigned>(exponents[i][k] - least);
+      if (mantissas[i][k] == 0) continue;
+      out[i][k] = Number(mantissas[i][k]) * (Number(1) << static_cast<unsigned>(exponents[i][k] - least));
     }
   }
   return out;
 }
 
-// Differences below 2^41, products of two below 2^82, their differences below 2^83, times 2^41, three of those: below 2^126.
-int orientation(const Small& a, const Small& b, const Small& c, const Small& d) {
-  std::array<std::array<Wide, 3>, 3> m{};
+// Whole numbers below 2^40, as on grids and in meshes of floats, and twice the determinant of three differences of them: these are below 2^41, products of
+// two below 2^82, their differences below 2^83, times 2^41, three of those: below 2^126.
+constexpr int kSmallBits = 40;
+// And those below 2^110, as nearly all points of scenes are: the determinant is below 2^336, a product of two sums of two below 2^675.
+constexpr int kLongBits = 110;
+
+template <class Wider, class Number>
+Wider determinant(const Numbers3<Number>& a, const Numbers3<Number>& b, const Numbers3<Number>& c,
+                  const Numbers3<Number>& d) {
+  std::array<std::array<Wider, 3>, 3> m{};
   for (std::size_t k = 0; k < 3; ++k) {
     m[0][k] = b[k] - a[k];
     m[1][k] = c[k] - a[k];
     m[2][k] = d[k] - a[k];
   }
-  const Wide value = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
-                     m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
-                     m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) + m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+template <class Number>
+int sign_of(const Number& value) {
   return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
 
 // Unsure only in the plane of the triangle.
-Meets meets_small(const std::array<Small, 5>& p) {
-  const int at_a = orientation(p[0], p[1], p[2], p[3]), at_b = orientation(p[0], p[1], p[2], p[4]);
+template <class Wider, class Number>
+Meets meets_short(const std::array<Numbers3<Number>, 5>& p) {
+  const auto orientation = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+    return sign_of(determinant<Wider>(p[a], p[b], p[c], p[d]));
+  };
+  const int at_a = orientation(0, 1, 2, 3), at_b = orientation(0, 1, 2, 4);
   if (at_a == 0 && at_b == 0) return Meets::unsure;
   if (at_a * at_b >= 0) return Meets::no;
   bool left = false, right = false;
   for (std::size_t i = 0; i < 3; ++i) {
-    const int side = orientation(p[3], p[4], p[i], p[(i + 1) % 3]);
+    const int side = orientation(3, 4, i, (i + 1) % 3);
     left = left || side > 0;
     right = right || side < 0;
   }
   return left && right ? Meets::no : Meets::yes;
+}
+
+// As CGAL::orientation; none where points are too long.
+std::optional<int> side_of(const Corners& t, const Point& p) {
+  const FilteredSign sign = orient3d_filtered(t[0], t[1], t[2], p);
+  if (sign.certain) return static_cast<int>(sign.sign);
+  const std::array<const Point*, 4> points{&t[0], &t[1], &t[2], &p};
+  const auto side = [](const auto& n, auto wider) {
+    return sign_of(determinant<decltype(wider)>(n[0], n[1], n[2], n[3]));
+  };
+  if (const auto small = short_numbers<std::int64_t, kSmallBits>(points)) return side(*small, Wide{});
+  if (const auto longer = short_numbers<Long, kLongBits>(points)) return side(*longer, Long{});
+  return std::nullopt;
+}
+
+// Where two planes are crossed, each between the ends: a point each, so whatever the cell is.
+std::optional<int> compare_crossings(const Segment& s, const Corners& x, const Corners& y) {
+  const auto p = short_numbers<Long, kLongBits, 8>({&x[0], &x[1], &x[2], &y[0], &y[1], &y[2], &s.a, &s.b});
+  if (!p) return std::nullopt;
+  struct Crossing {
+    Long before, all;  // of the way, as a fraction
+  };
+  const auto crossing = [&](std::size_t first) -> std::optional<Crossing> {
+    Long at_a = determinant<Long>((*p)[first], (*p)[first + 1], (*p)[first + 2], (*p)[6]);
+    Long at_b = determinant<Long>((*p)[first], (*p)[first + 1], (*p)[first + 2], (*p)[7]);
+    if (sign_of(at_a) * sign_of(at_b) >= 0) return std::nullopt;
+    if (at_a < 0) {
+      at_a = -at_a;
+    } else {
+      at_b = -at_b;
+    }
+    return Crossing{at_a, at_a + at_b};
+  };
+  const auto at_x = crossing(0), at_y = crossing(3);
+  if (!at_x || !at_y) return std::nullopt;
+  const Long left = at_x->before * at_y->all, right = at_y->before * at_x->all;
+  return left < right ? -1 : left > right ? 1 : 0;
 }
 
 // A set of parameters: an interval with or without its ends.
@@ -232,16 +290,34 @@ bool degenerate_exact(const Corners& t) {
 }
 
 bool meets_exact(const Segment& s, const Corners& t) {
-  if (const auto small = small_numbers({&t[0], &t[1], &t[2], &s.a, &s.b})) {
-    const Meets meets = meets_small(*small);
-    if (meets != Meets::unsure) return meets == Meets::yes;
+  const std::array<const Point*, 5> points{&t[0], &t[1], &t[2], &s.a, &s.b};
+  Meets meets = Meets::unsure;
+  if (const auto small = short_numbers<std::int64_t, kSmallBits>(points)) {
+    meets = meets_short<Wide>(*small);
+  } else if (const auto longer = short_numbers<Long, kLongBits>(points)) {
+    meets = meets_short<Long>(*longer);
   }
+  if (meets != Meets::unsure) return meets == Meets::yes;
   return met_part(s, t).has_value();
+}
+
+// int V is the inside of the hull of the vertices.
+bool misses_inside_of(const Corners& t, const Cell& cell) {
+  bool negative = false, positive = false;
+  for (const Point& v : cell.vertices()) {
+    const auto side = side_of(t, v);
+    if (!side) return false;
+    negative = negative || *side < 0;
+    positive = positive || *side > 0;
+    if (negative && positive) return false;
+  }
+  return true;
 }
 
 bool blocks_exact(const Segment& s, const Corners& t, const Cell& cell) { return first_block(s, t, &cell).has_value(); }
 
 int compare_first_exact(const Segment& s, const Corners& x, const Corners& y, const Cell* cell) {
+  if (const auto order = compare_crossings(s, x, y)) return *order;
   const int order = cmp(surely(first_block(s, x, cell)), surely(first_block(s, y, cell)));
   return order < 0 ? -1 : order > 0 ? 1 : 0;
 }

@@ -13,6 +13,9 @@ bool degenerate_exact(const Corners& t);
 // Whether the open segment meets the closed triangle, which has area.
 bool meets_exact(const Segment& s, const Corners& t);
 
+// Whether the plane of the triangle, which has area, misses int V: then whatever meets the triangle meets it outside. False may also mean that points are too long for a quick answer.
+bool misses_inside_of(const Corners& t, const Cell& cell);
+
 // Whether it meets a point of the triangle outside int V.
 bool blocks_exact(const Segment& s, const Corners& t, const Cell& cell);
 

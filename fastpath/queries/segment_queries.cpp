@@ -59,7 +59,8 @@ bool SegmentQueries::blocks(const Query& query, std::uint32_t triangle, bool kno
     if (meets == Meets::no) return false;
     if (meets == Meets::unsure) {
       ++counts_.exact;
-      return query.cell != nullptr ? blocks_exact(s, t, *query.cell) : meets_exact(s, t);
+      return query.cell != nullptr && !misses_inside_of(t, *query.cell) ? blocks_exact(s, t, *query.cell)
+                                                                        : meets_exact(s, t);
     }
   }
   if (query.cell == nullptr) return true;
@@ -68,7 +69,7 @@ bool SegmentQueries::blocks(const Query& query, std::uint32_t triangle, bool kno
   if (apart(where, query.inside.outer)) return true;
   if (contains(query.inside.inner, where)) return false;
   ++counts_.exact;
-  return blocks_exact(s, t, *query.cell);
+  return misses_inside_of(t, *query.cell) || blocks_exact(s, t, *query.cell);
 }
 
 template <class Found>

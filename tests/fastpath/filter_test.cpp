@@ -185,6 +185,24 @@ TEST(Filter, TheCrossingParameterIsInItsInterval) {
   EXPECT_GT(narrow, 500);
 }
 
+// Multiples of 0.1 as a double, of a power of two, of numbers just within and just beyond 2^40 times another, and some coordinates so small that all have just less and just more than 110 bits.
+double unit_of(int i, fuzz::Random& random) {
+  switch (i % 6) {
+    case 0:
+      return 0.1;
+    case 1:
+      return 0x1p-60;
+    case 2:
+      return 0x1.0000000002p0;
+    case 3:
+      return 0x1.0000000001p0;
+    case 4:
+      return random.one_in(3) ? 0x1p-107 : 1;
+    default:
+      return random.one_in(3) ? 0x1p-112 : 1;
+  }
+}
+
 // Stage 3 is whole numbers, the oracle is CGAL: all positions of small grids, most of them degenerate.
 TEST(ExactStage, AgreesWithTheOracleOnGrids) {
   fuzz::Random random(kSeed);
@@ -193,9 +211,7 @@ TEST(ExactStage, AgreesWithTheOracleOnGrids) {
     Corners t{};
     Segment s;
     for (Point* q : {&t[0], &t[1], &t[2], &s.a, &s.b}) {
-      // Multiples of 0.1 as a double, of a power of two, and of numbers just within and just beyond 2^40 times another.
-      const double unit = i % 4 == 0 ? 0.1 : i % 4 == 1 ? 0x1p-60 : i % 4 == 2 ? 0x1.0000000002p0 : 0x1.0000000001p0;
-      for (double& x : *q) x = random.between(-1, 1) * unit;
+      for (double& x : *q) x = random.between(-1, 1) * unit_of(i, random);
     }
     if (degenerate_exact(t)) continue;
     const bool expected = oracle_meets(s, t);
@@ -215,21 +231,24 @@ TEST(ExactStage, AgreesWithTheOracleOnGrids) {
 TEST(ExactStage, OrdersBlockersLikeTheOracle) {
   fuzz::Random random(kSeed);
   int same = 0, pairs = 0;
-  for (int i = 0; i < 40000; ++i) {
+  std::array<int, 6> pairs_of{};
+  for (int i = 0; i < 60000; ++i) {
     Corners t{}, r{};
     Segment s;
     for (Point* q : {&t[0], &t[1], &t[2], &r[0], &r[1], &r[2], &s.a, &s.b}) {
-      for (double& x : *q) x = random.between(-2, 2);
+      for (double& x : *q) x = random.between(-2, 2) * unit_of(i, random);
     }
     if (degenerate_exact(t) || degenerate_exact(r)) continue;
     const auto x = oracle_first_block(s, t, nullptr), y = oracle_first_block(s, r, nullptr);
     if (!x || !y) continue;
+    pairs_of[static_cast<std::size_t>(i % 6)] += 1;
     ASSERT_EQ(compare_first_exact(s, t, r, nullptr), *x < *y ? -1 : *x > *y ? 1 : 0) << i;
     ++pairs;
     same += *x == *y ? 1 : 0;
   }
   EXPECT_GT(pairs, 300);
   EXPECT_GT(same, 20);
+  for (const int count : pairs_of) EXPECT_GT(count, 50);
 }
 
 TEST(FloatRules, HoldInThisProgram) { EXPECT_NO_THROW(require_float_rules()); }
