@@ -2,6 +2,7 @@
 
 #include "exact/sight/witness.h"
 #include "scene/levels/bsp_scene.h"
+#include "validate/cells/near_segment.h"
 #include "validate/see_through/layers.h"
 
 namespace clues::app {
@@ -18,11 +19,12 @@ WholeLevel::WholeLevel(const scene::BspFile& level)
     : whole_(scene::scene_of_level(level, scene::HullSides::all).scene), brushes_(level) {}
 
 bool WholeLevel::confirms(const std::vector<scene::Point>& cell, const validate::Witness& witness) const {
+  if (!is_free_of_brushes(witness)) return false;
   const validate::AskedAlone alone = validate::asked_alone(whole_, witness.triangle);
-  return exact::check_witness(alone.mesh, exact::ConvexCell::from_doubles(cell), alone.triangle, witness.front,
-                              witness.v, witness.p)
-             .valid &&
-         is_free_of_brushes(witness);
+  const validate::NearSegment near = validate::near_segment(alone.mesh, alone.triangle, witness.v, witness.p);
+  return exact::check_witness(near.mesh, exact::ConvexCell::from_doubles(cell), near.triangle, witness.front, witness.v,
+                              witness.p)
+      .valid;
 }
 
 void WholeLevel::take_back(validate::Judgement& judgement) const {

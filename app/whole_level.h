@@ -21,12 +21,13 @@ class WholeLevel {
   // Whether the sight line from this cell is free in the whole level.
   bool confirms(const std::vector<scene::Point>& cell, const validate::Witness& witness) const;
 
+  // One of the two halves of that: of the brushes, before the end.
+  bool is_free_of_brushes(const validate::Witness& witness) const;
+
   // For who was judged in scene(): what is seen only through brushes becomes undecided, missing or listed.
   void take_back(validate::Judgement& judgement) const;
 
  private:
-  bool is_free_of_brushes(const validate::Witness& witness) const;
-
   scene::FlaggedMesh whole_;
   scene::SolidBrushes brushes_;
 };

@@ -99,8 +99,8 @@ Asked baked_in(const CheckCellsRequest& request, const std::string& sha256, std:
   return asked;
 }
 
-void judge(Asked& asked, const scene::FlaggedMesh& mesh, int threads) {
-  const fastpath::SeeThroughScene scene(mesh);
+template <class JudgeOne>
+void for_each_cell(Asked& asked, int threads, const JudgeOne& judge_one) {
   ProgressBar bar("clues check");
   bar.show("cells", 0, asked.cells.size());
   std::mutex mutex;
@@ -108,17 +108,14 @@ void judge(Asked& asked, const scene::FlaggedMesh& mesh, int threads) {
   exact::by_threads(threads, [&] {
     tbb::parallel_for(std::size_t{0}, asked.cells.size(), [&](std::size_t i) {
       auto& cell = asked.cells[i];
-      cell.judgement = exact::by_threads(1, [&] { return validate::judge_cell(scene, cell.points, cell.list); });
+      cell.judgement = exact::by_threads(1, [&] { return judge_one(cell); });
       const std::lock_guard lock(mutex);
       bar.show("cells", ++done, asked.cells.size());
     });
   });
 }
 
-void confirm_in_the_whole_level(Asked& asked, const scene::BspFile& level) {
-  if (std::all_of(asked.cells.begin(), asked.cells.end(), [](const auto& c) { return c.judgement.holes.empty(); }))
-    return;
-  const WholeLevel whole(level);
+void confirm(Asked& asked, const WholeLevel& whole) {
   for (auto& cell : asked.cells) {
     std::erase_if(cell.judgement.holes, [&](const validate::Witness& w) {
       if (whole.confirms(cell.points, w)) return false;
@@ -127,6 +124,20 @@ void confirm_in_the_whole_level(Asked& asked, const scene::BspFile& level) {
     });
     std::sort(cell.judgement.undecided.begin(), cell.judgement.undecided.end());
   }
+}
+
+void judge(Asked& asked, const scene::FlaggedMesh& mesh, const std::optional<scene::BspFile>& level,
+           const CheckCellsRequest& request) {
+  const fastpath::SeeThroughScene scene(mesh);
+  std::optional<WholeLevel> whole;
+  if (level) whole.emplace(*level);
+  validate::Accuses accuses;
+  if (whole) accuses = [&](const validate::Witness& w) { return whole->is_free_of_brushes(w); };
+  for_each_cell(asked, request.threads, [&](const JudgedCell& cell) {
+    const auto judge_one = request.sight_lines_only ? validate::search_cell : validate::judge_cell;
+    return judge_one(scene, cell.points, cell.list, accuses);
+  });
+  if (whole) confirm(asked, *whole);
 }
 
 struct Hole {
@@ -190,7 +201,8 @@ nlohmann::json json_of(const JudgedCell& cell, const scene::FlaggedMesh& mesh) {
           {"cluster", cell.group},
           {"points", cell.points},
           {"listed", cell.judgement.listed},
-          {"may_be_seen", cell.judgement.may_be_seen.size()},
+          {"may_be_seen",
+           cell.judgement.by_lines_alone ? nlohmann::json() : nlohmann::json(cell.judgement.may_be_seen.size())},
           {"witnessed", cell.judgement.witnessed},
           {"fallbacks", cell.judgement.fallbacks},
           {"holes", json_of(cell.judgement.holes, mesh)},
@@ -217,16 +229,18 @@ std::string json_text(const CheckCellsRequest& request, const std::string& sha25
          "\n";
 }
 
-std::string table_of(const Asked& asked, const scene::FlaggedMesh& mesh, const Totals& t) {
+std::string table_of(const Asked& asked, const scene::FlaggedMesh& mesh, const Totals& t, bool by_lines_alone) {
   const auto cells = static_cast<double>(std::max<std::size_t>(asked.cells.size(), 1));
   const auto average = [&](std::uint64_t n) { return static_cast<double>(n) / cells; };
   std::string text = fmt::format(
-      "{:>7}  {:>9}  {:>11}  {:>9}  {:>10}  {:>7}  {:>9}\n{:>7}  {:>9.1f}  {:>11.1f}  {:>9.1f}  {:>10}  {:>7}  {:>9}\n",
+      "{:>7}  {:>9}  {:>11}  {:>9}  {:>10}  {:>7}  {:>9}\n{:>7}  {:>9.1f}  {:>11}  {:>9.1f}  {:>10}  {:>7}  {:>9}\n",
       "cells", "listed", "may be seen", "witnessed", "with holes", "holes", "undecided", asked.cells.size(),
-      average(t.listed), average(t.ours), average(t.witnessed), t.with_holes, t.holes, t.undecided);
+      average(t.listed), by_lines_alone ? "-" : fmt::format("{:.1f}", average(t.ours)), average(t.witnessed),
+      t.with_holes, t.holes, t.undecided);
   if (asked.cells.empty()) text += "no cell was judged\n";
   if (asked.slivers > 0) text += fmt::format("{} slivers without an inner cell were not judged\n", asked.slivers);
-  text += fmt::format("{} sight lines decided exactly\n", t.sight_lines);
+  text += fmt::format("{} sight lines decided exactly{}\n", t.sight_lines,
+                      by_lines_alone ? ", and nothing else: where they found no hole, nothing is proved" : "");
   if (t.contradictions > 0)
     text += fmt::format(
         "CONTRADICTION: {} triangles that the fast kernel calls hidden are seen; please report this scene (--json has "
@@ -243,11 +257,11 @@ std::string table_of(const Asked& asked, const scene::FlaggedMesh& mesh, const T
   return text;
 }
 
-// What nobody looked at is not fine: a sliver, or a level or bake without cells.
-int exit_code_of(const Asked& asked, const Totals& t) {
+// What nobody looked at is not fine: a sliver, or a level or bake without cells; and sight lines alone prove no list.
+int exit_code_of(const Asked& asked, const Totals& t, bool by_lines_alone) {
   if (t.contradictions > 0) return oracle_contradiction;
   if (t.holes > 0) return findings;
-  return t.undecided > 0 || asked.slivers > 0 || asked.cells.empty() ? not_everything_ran : fine;
+  return by_lines_alone || t.undecided > 0 || asked.slivers > 0 || asked.cells.empty() ? not_everything_ran : fine;
 }
 
 }  // namespace
@@ -264,12 +278,11 @@ int check_all_cells(const CheckCellsRequest& request) {
   const auto mesh = level ? of_level.scene : scene::read_scene(request.scene);
   Asked asked =
       request.bake.empty() ? shipped_with(*level, of_level) : baked_in(request, sha256, mesh.mesh.triangles.size());
-  judge(asked, mesh, request.threads);
-  if (level) confirm_in_the_whole_level(asked, *level);
+  judge(asked, mesh, level, request);
   const Totals totals = totals_of(asked.cells);
   if (request.json.asked()) request.json.write(json_text(request, sha256, asked, mesh, totals));
-  if (!request.json.on_stdout()) print(table_of(asked, mesh, totals));
-  return exit_code_of(asked, totals);
+  if (!request.json.on_stdout()) print(table_of(asked, mesh, totals, request.sight_lines_only));
+  return exit_code_of(asked, totals, request.sight_lines_only);
 }
 
 }  // namespace clues::app

@@ -10,6 +10,7 @@ namespace clues::app {
 struct CheckCellsRequest {
   std::string scene, bake;  // bake: a store of `clues bake`, or none: the lists that a level was shipped with
   int threads = 0;
+  bool sight_lines_only = false;  // without the kernel
   JsonOutput json;
 };
 

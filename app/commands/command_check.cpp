@@ -28,7 +28,7 @@ namespace {
 
 struct CheckRequest {
   std::string scene, cell, pvs, bake;
-  bool all_cells = false;
+  bool all_cells = false, sight_lines_only = false;
   JsonOutput json;
   MethodOptions method;
 };
@@ -84,8 +84,11 @@ int run_check(const CheckRequest& request) {
                          "--all-cells judges lists of many cells; leave out --cell and --pvs");
     if (request.method.mode == "solid" || request.method.formulation != "plain")
       throw scene::Error(scene::ErrorCode::unsupported, "--all-cells: leave out --mode and --formulation");
-    return check_all_cells({request.scene, request.bake, request.method.threads, request.json});
+    return check_all_cells(
+        {request.scene, request.bake, request.method.threads, request.sight_lines_only, request.json});
   }
+  if (request.sight_lines_only)
+    throw scene::Error(scene::ErrorCode::bad_argument, "--sight-lines-only needs --all-cells");
   if (!request.bake.empty())
     throw scene::Error(scene::ErrorCode::bad_argument, "--bake names the lists of many cells; it needs --all-cells");
   if (request.cell.empty() || request.pvs.empty())
@@ -149,6 +152,8 @@ void add_check_command(CLI::App& program, int& status) {
   command->add_flag("--all-cells", request->all_cells,
                     "Judge the lists of all cells: those that a level was shipped with, or those of --bake");
   command->add_option("--bake", request->bake, "With --all-cells: a store of clues bake")->type_name("FILE.bake");
+  command->add_flag("--sight-lines-only", request->sight_lines_only,
+                    "With --all-cells: look for holes by sight lines alone: quick, but no list is proved");
   request->method.add_to(*command);
   request->json.add_to(*command, "The judgement");
   command->footer(
@@ -180,7 +185,12 @@ void add_check_command(CLI::App& program, int& status) {
           "  none is undecided. Lines are aimed at what the kernel calls hidden, too: one that arrives is exit code 4. "
           "A table, "
           "and\n"
-          "  the longest sight lines; --json has all of them.\n\n") +
+          "  the longest sight lines; --json has all of them. With --sight-lines-only there is no kernel: what lines "
+          "reach "
+          "from\n"
+          "  the cell is seen, what of that is not listed is confirmed as above, and where no hole was found nothing "
+          "is "
+          "proved.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt\n"

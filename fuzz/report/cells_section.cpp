@@ -24,21 +24,29 @@ std::string lines_of(const json& witnesses) {
   return text;
 }
 
+// Of the kernel; without it (null) nobody knows.
+std::uint64_t may_be_seen(const json& cell) {
+  return cell.at("may_be_seen").is_null() ? 0 : whole_number<std::uint64_t>(cell, "may_be_seen");
+}
+
 ReportRow row_of(const json& cell) {
   const json &holes = cell.at("holes"), &contradictions = cell.at("contradictions");
   const auto undecided = cell.at("undecided").size();
+  const bool by_lines_alone = cell.at("may_be_seen").is_null();
   ReportRow row;
   row.verdict = !contradictions.empty() ? "contradiction"
                 : !holes.empty()        ? "holes"
                 : undecided > 0         ? "undecided"
+                : by_lines_alone        ? "nothing found"
                                         : "sound";
   row.bad = !contradictions.empty() || !holes.empty();
   row.name = "cell " + cell.at("cell").get<std::string>();
   if (const auto cluster = cell.at("cluster").get<std::int64_t>(); cluster >= 0)
     row.name += fmt::format(", cluster {}", cluster);
-  row.note = fmt::format("{} listed, {} may be seen, {} witnessed; {} holes, {} undecided",
-                         whole_number<std::uint64_t>(cell, "listed"), whole_number<std::uint64_t>(cell, "may_be_seen"),
-                         whole_number<std::uint64_t>(cell, "witnessed"), holes.size(), undecided);
+  row.note =
+      fmt::format("{} listed, {}{} witnessed; {} holes, {} undecided", whole_number<std::uint64_t>(cell, "listed"),
+                  by_lines_alone ? std::string() : fmt::format("{} may be seen, ", may_be_seen(cell)),
+                  whole_number<std::uint64_t>(cell, "witnessed"), holes.size(), undecided);
   row.details = lines_of(holes);
   if (!contradictions.empty())
     row.details += "called hidden by clues, and seen; please report:\n" + lines_of(contradictions);
@@ -51,9 +59,11 @@ ReportSection cells_section(const json& report) {
   const json& cells = report.at("cells");
   ReportSection section;
   std::uint64_t listed = 0, seen = 0, witnessed = 0;
+  bool by_lines_alone = false;
   for (const json& cell : cells) {
     listed += whole_number<std::uint64_t>(cell, "listed");
-    seen += whole_number<std::uint64_t>(cell, "may_be_seen");
+    seen += may_be_seen(cell);
+    by_lines_alone = by_lines_alone || cell.at("may_be_seen").is_null();
     witnessed += whole_number<std::uint64_t>(cell, "witnessed");
     section.rows.push_back(row_of(cell));
   }
@@ -61,12 +71,14 @@ ReportSection cells_section(const json& report) {
     return cells.empty() ? 0.0 : static_cast<double>(n) / static_cast<double>(cells.size());
   };
   section.summary = fmt::format(
-      "scene: {}\nlists: {}\n{} cells: on average {:.1f} triangles listed, {:.1f} may be seen, {:.1f} witnessed\n"
-      "{} holes in {} cells, {} undecided; {} sight lines decided exactly\n",
+      "scene: {}\nlists: {}\n{} cells: on average {:.1f} triangles listed, {}{:.1f} witnessed\n"
+      "{} holes in {} cells, {} undecided; {} sight lines decided exactly{}\n",
       report.at("scene").at("file").get<std::string>(), report.at("lists").get<std::string>(), cells.size(),
-      average(listed), average(seen), average(witnessed), whole_number<std::uint64_t>(report, "holes"),
+      average(listed), by_lines_alone ? std::string() : fmt::format("{:.1f} may be seen, ", average(seen)),
+      average(witnessed), whole_number<std::uint64_t>(report, "holes"),
       whole_number<std::uint64_t>(report, "cells_with_holes"), whole_number<std::uint64_t>(report, "undecided"),
-      whole_number<std::uint64_t>(report, "sight_lines"));
+      whole_number<std::uint64_t>(report, "sight_lines"),
+      by_lines_alone ? ", and nothing else: where they found no hole, nothing is proved" : "");
   return section;
 }
 

@@ -1,6 +1,7 @@
 #include "scene/levels/bsp_solids.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "scene/levels/bsp_flags.h"
@@ -25,12 +26,31 @@ struct Meeting {
   bool with_p_in_it = true;  // not on its boundary
 };
 
-// Of the segment with the closed solid; none where they do not meet.
-std::optional<Meeting> meeting(const std::vector<HalfSpace>& sides, const RationalPoint& v, const RationalPoint& p) {
+Point to_doubles(const RationalPoint& p) { return {p[0].get_d(), p[1].get_d(), p[2].get_d()}; }
+
+// Whether the point is certainly in front of the plane. Coordinates are cut off by less than a relative 2^-52 (or by 2^-1074); products, sums and the difference round
+// five times more: below 2^-48 of the sum of the absolute values, and 2^-1000 for what underflows.
+bool is_beyond(const Point& normal, double distance, const Point& at) {
+  double sizes = std::fabs(distance), height = -distance;
+  for (std::size_t i = 0; i < 3; ++i) {
+    height += normal[i] * at[i];
+    sizes += std::fabs(normal[i] * at[i]);
+  }
+  return height > 0x1p-48 * sizes + 0x1p-1000;
+}
+
+// Of the segment with the closed solid; none where they do not meet. The ends also in doubles.
+template <class Sides>
+std::optional<Meeting> meeting(const Sides& sides, const RationalPoint& v, const RationalPoint& p, const Point& near_v,
+                               const Point& near_p) {
+  for (const auto& side : sides) {
+    if (is_beyond(side.normal, side.distance, near_v) && is_beyond(side.normal, side.distance, near_p))
+      return std::nullopt;
+  }
   Meeting found;
   mpq_class leaves = 1;
   for (const auto& side : sides) {
-    const mpq_class at_v = side.height(v), at_p = side.height(p);
+    const mpq_class at_v = side.exact.height(v), at_p = side.exact.height(p);
     if (sgn(at_v) > 0 && sgn(at_p) > 0) return std::nullopt;
     if (sgn(at_p) >= 0) found.with_p_in_it = false;
     if (sgn(at_v) <= 0 && sgn(at_p) <= 0) continue;
@@ -68,14 +88,17 @@ SolidBrushes::SolidBrushes(const BspFile& level) {
     const auto& brush = level.brushes[world.first + i];
     if (!is_structural(level.shaders[brush.shader])) continue;
     auto& sides = brushes_.emplace_back();
-    for (std::uint32_t k = 0; k < brush.sides.count; ++k)
-      sides.push_back(half_space_of(level.planes[level.sides[brush.sides.first + k].plane]));
+    for (std::uint32_t k = 0; k < brush.sides.count; ++k) {
+      const auto& plane = level.planes[level.sides[brush.sides.first + k].plane];
+      sides.push_back({half_space_of(plane), plane.normal, plane.distance});
+    }
   }
 }
 
 bool SolidBrushes::block(const RationalPoint& v, const RationalPoint& p, const std::array<Point, 3>& drawn) const {
-  return std::any_of(brushes_.begin(), brushes_.end(), [&](const std::vector<HalfSpace>& sides) {
-    const auto met = meeting(sides, v, p);
+  const Point near_v = to_doubles(v), near_p = to_doubles(p);
+  return std::any_of(brushes_.begin(), brushes_.end(), [&](const std::vector<Side>& sides) {
+    const auto met = meeting(sides, v, p, near_v, near_p);
     if (!met || met->share == 1) return false;
     if (!met->with_p_in_it) return true;
     RationalPoint entry = v;

@@ -23,7 +23,12 @@ class SolidBrushes {
   bool block(const RationalPoint& v, const RationalPoint& p, const std::array<Point, 3>& drawn) const;
 
  private:
-  std::vector<std::vector<HalfSpace>> brushes_;  // the sides of each
+  struct Side {
+    HalfSpace exact;
+    Point normal;  // the same in doubles, exactly
+    double distance = 0;
+  };
+  std::vector<std::vector<Side>> brushes_;  // the sides of each
 };
 
 }  // namespace clues::scene

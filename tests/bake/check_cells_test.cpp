@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "scene/bakes/bake_store.h"
 #include "tests/app/program.h"
@@ -14,6 +18,7 @@ namespace clues::tests {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 // What a level was shipped with: room 0 without the floor of room 1, which is seen through the glass.
 TEST(CheckCells, JudgesWhatALevelWasShippedWith) {
@@ -81,6 +86,45 @@ TEST(CheckCells, FindsNoHoleInABakeAndEveryOneThatIsMade) {
   }
 }
 
+// Without the kernel: a hole has a sight line as ever, and where none was found nothing is proved.
+TEST(CheckCells, LooksForHolesBySightLinesAlone) {
+  const TestFolder folder;
+  folder.write("made.bsp", two_rooms().bytes());
+  const auto holes_of = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"check", "made.bsp", "--all-cells", "--json"});
+    const auto ran = run_clues(words, folder.path());
+    EXPECT_EQ(ran.exit_code, 1) << ran.err;
+    std::map<std::string, std::set<std::uint32_t>> holes;
+    const auto json = nlohmann::json::parse(ran.out);
+    for (const auto& cell : json["cells"]) {
+      for (const auto& hole : cell["holes"]) holes[cell["cell"]].insert(hole["triangle"].get<std::uint32_t>());
+    }
+    return holes;
+  };
+  const auto found = holes_of({"--sight-lines-only"});
+  EXPECT_FALSE(found.empty());
+  EXPECT_EQ(found, holes_of({})) << "so little is hard to find in two rooms";
+
+  ASSERT_EQ(run_clues({"bake", "made.bsp", "--cells", "leaves", "-o", "made.bake"}, folder.path()).exit_code, 0);
+  std::filesystem::create_directory(folder.path() / "results");
+  const auto fine = run_clues(
+      {"check", "made.bsp", "--all-cells", "--bake", "made.bake", "--sight-lines-only", "--json=results/made.json"},
+      folder.path());
+  EXPECT_EQ(fine.exit_code, 3) << fine.err;
+  EXPECT_THAT(fine.out, HasSubstr("where they found no hole, nothing is proved"));
+  const auto json = nlohmann::json::parse(read_all(folder.path() / "results/made.json"));
+  for (const auto& cell : json["cells"]) {
+    EXPECT_TRUE(cell["may_be_seen"].is_null());
+    EXPECT_LE(cell["witnessed"], cell["listed"]);
+    EXPECT_GT(cell["witnessed"], 0);
+  }
+  ASSERT_EQ(run_clues({"report", "results"}, folder.path()).exit_code, 0);
+  const std::string page = read_all(folder.path() / "results/report.html");
+  EXPECT_THAT(page, HasSubstr("<td>nothing found</td><td>cell 0, cluster 0</td>"));
+  EXPECT_THAT(page, HasSubstr("nothing is proved"));
+  EXPECT_THAT(page, Not(HasSubstr("<td>sound</td>")));
+}
+
 TEST(CheckCells, SaysWhatItNeeds) {
   const TestFolder folder;
   folder.write("scene.off", screen_scene);
@@ -94,6 +138,7 @@ TEST(CheckCells, SaysWhatItNeeds) {
   refused({"scene.off", "--all-cells"}, "no lists were shipped");
   refused({"scene.off"}, "give --cell and --pvs, or --all-cells");
   refused({"scene.off", "--bake", "x"}, "needs --all-cells");
+  refused({"scene.off", "--cell", "box:0,0,0,1,1,1", "--pvs", "x", "--sight-lines-only"}, "needs --all-cells");
   refused({"scene.off", "--all-cells", "--cell", "box:0,0,0,1,1,1"}, "leave out --cell and --pvs");
   refused({"scene.off", "--all-cells", "--bake", "missing.bake"}, "missing.bake: no such file");
   ASSERT_EQ(run_clues({"bake", "made.bsp", "--cells", "leaves", "-o", "l.bake"}, folder.path()).exit_code, 0);

@@ -9,11 +9,14 @@
 #include <iterator>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include "exact/cell/convex_cell.h"
 #include "exact/sight/witness.h"
 #include "fastpath/queries/segment_queries.h"
+#include "fastpath/visibility/closure/sight_rays.h"
 #include "fastpath/visibility/refinement/sight_lines.h"
+#include "validate/cells/near_segment.h"
 
 namespace clues::validate {
 namespace {
@@ -21,7 +24,7 @@ namespace {
 using scene::Point;
 using Ids = std::vector<std::uint32_t>;
 
-constexpr int lines_to_listed = 64, lines_to_missing = 4096, lines_to_hidden = 128;
+constexpr int lines_to_listed = 64, lines_to_missing = 4096, lines_to_hidden = 128, lines_to_passing = 8;
 
 class CellJudge {
  public:
@@ -46,12 +49,13 @@ class CellJudge {
     sight_lines += walls;  // at least: those that reached nothing are not counted
     std::atomic<std::uint64_t> others{0};
     tbb::parallel_for(std::size_t{0}, passing.size(), [&](std::size_t i) {
-      if (reaches_passing(passing[i], sight_lines)) ++others;
+      if (reaches_passing(passing[i], lines_to_listed, sight_lines)) ++others;
     });
     return walls + others;
   }
 
-  std::optional<Witness> find_witness(std::uint32_t id, int tries, std::atomic<std::uint64_t>& sight_lines) const {
+  std::optional<Witness> find_witness(std::uint32_t id, int tries, const Accuses& accuses,
+                                      std::atomic<std::uint64_t>& sight_lines) const {
     const auto t = corners_of(id);
     fastpath::SegmentQueries queries(scene_.blocking());
     const auto at = scene_.find_blocking(id);
@@ -61,9 +65,41 @@ class CellJudge {
       const Line line = line_to(t, i, random);
       ++sight_lines;
       if (queries.any_hit({line.v, line.p}, {itself, &lines_.cell()})) continue;
-      if (auto witness = confirmed(id, line.v, line.p)) return witness;
+      if (auto witness = confirmed(id, line.v, line.p, accuses)) return witness;
     }
     return std::nullopt;
+  }
+
+  // What sight lines find, ascending: walls from neighbour to neighbour, each with the line that found it; the others by lines to each.
+  struct Found {
+    std::uint32_t id = 0;
+    std::optional<fastpath::Segment> ray;
+  };
+  std::vector<Found> find_by_lines(std::atomic<std::uint64_t>& sight_lines) const {
+    const auto sights = fastpath::sights_from(scene_.blocking(), lines_.cell());
+    sight_lines += sights.shot;
+    std::vector<Found> found;
+    for (std::size_t i = 0; i < sights.triangles.size(); ++i) {
+      const auto id = scene_.blocking_id(sights.triangles[i]);
+      if (scene_.scene().counting(id)) found.push_back({id, sights.rays[i]});
+    }
+    std::vector<std::uint8_t> reached(scene_.passing().mesh().triangles.size(), 0);
+    tbb::parallel_for(std::size_t{0}, reached.size(), [&](std::size_t i) {
+      reached[i] = reaches_passing(scene_.passing_id(static_cast<std::uint32_t>(i)), lines_to_passing, sight_lines);
+    });
+    for (std::uint32_t i = 0; i < reached.size(); ++i) {
+      if (reached[i] != 0) found.push_back({scene_.passing_id(i), std::nullopt});
+    }
+    std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.id < b.id; });
+    return found;
+  }
+
+  std::optional<Witness> find_witness(const Found& found, const Accuses& accuses,
+                                      std::atomic<std::uint64_t>& sight_lines) const {
+    if (found.ray) {
+      if (auto witness = confirmed(found.id, found.ray->a, found.ray->b, accuses)) return witness;
+    }
+    return find_witness(found.id, lines_to_missing, accuses, sight_lines);
   }
 
  private:
@@ -91,11 +127,11 @@ class CellJudge {
     return t;
   }
 
-  bool reaches_passing(std::uint32_t id, std::atomic<std::uint64_t>& sight_lines) const {
+  bool reaches_passing(std::uint32_t id, int tries, std::atomic<std::uint64_t>& sight_lines) const {
     const auto t = corners_of(id);
     fastpath::SegmentQueries walls(scene_.blocking()), others(scene_.passing());
     std::mt19937_64 random(id);
-    for (int i = 0; i < lines_to_listed && !viewpoints_.empty(); ++i) {
+    for (int i = 0; i < tries && !viewpoints_.empty(); ++i) {
       const Line line = line_to(t, i, random);
       ++sight_lines;
       if (walls.any_hit({line.v, line.p}, {{}, &lines_.cell()})) continue;
@@ -107,7 +143,7 @@ class CellJudge {
   }
 
   // Where the line from v through p crosses the triangle, if the witness checker agrees.
-  std::optional<Witness> confirmed(std::uint32_t id, const Point& v, const Point& p) const {
+  std::optional<Witness> confirmed(std::uint32_t id, const Point& v, const Point& p, const Accuses& accuses) const {
     const auto& corners = scene_.scene().mesh.triangles[id];
     std::array<exact::Point3, 3> t;
     for (std::size_t i = 0; i < 3; ++i) t[i] = exact::to_exact(scene_.scene().mesh.points[corners[i]]);
@@ -118,6 +154,9 @@ class CellJudge {
     const exact::FT s = n * (t[0] - from) / slope;
     if (s <= 0 || s > 1) return std::nullopt;
     const exact::Point3 at = from + s * (to - from);
+    const bool front = n * (from - t[0]) > 0;
+    const Witness witness{id, front, from, at};
+    if (accuses && !accuses(witness)) return std::nullopt;
     // All that blocks, and the triangle itself where it does not.
     scene::TriangleMesh mesh = scene_.blocking().mesh();
     std::uint32_t place = 0;
@@ -133,9 +172,9 @@ class CellJudge {
       mesh.triangles.push_back(own);
       mesh.face_of.push_back(place);
     }
-    const bool front = n * (from - t[0]) > 0;
-    if (!exact::check_witness(mesh, cell_, place, front, from, at).valid) return std::nullopt;
-    return Witness{id, front, from, at};
+    const NearSegment near = near_segment(mesh, place, from, at);
+    if (!exact::check_witness(near.mesh, cell_, near.triangle, front, from, at).valid) return std::nullopt;
+    return witness;
   }
 
   const fastpath::SeeThroughScene& scene_;
@@ -146,7 +185,8 @@ class CellJudge {
 
 }  // namespace
 
-CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vector<Point>& cell, const Ids& list) {
+CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vector<Point>& cell, const Ids& list,
+                         const Accuses& accuses) {
   const auto seen = fastpath::visible_through(scene, cell, {});
   CellJudgement out;
   out.listed = list.size();
@@ -158,13 +198,13 @@ CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vect
   Ids missing;
   std::set_difference(out.may_be_seen.begin(), out.may_be_seen.end(), list.begin(), list.end(),
                       std::back_inserter(missing));
-  const auto search = [&](const Ids& ids, int tries) {
+  const auto search = [&](const Ids& ids, int tries, const Accuses& of) {
     std::vector<std::optional<Witness>> found(ids.size());
     tbb::parallel_for(std::size_t{0}, ids.size(),
-                      [&](std::size_t i) { found[i] = judge.find_witness(ids[i], tries, sight_lines); });
+                      [&](std::size_t i) { found[i] = judge.find_witness(ids[i], tries, of, sight_lines); });
     return found;
   };
-  const auto found = search(missing, lines_to_missing);
+  const auto found = search(missing, lines_to_missing, accuses);
   for (std::size_t i = 0; i < missing.size(); ++i) {
     if (found[i]) {
       out.holes.push_back(*found[i]);
@@ -177,8 +217,32 @@ CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vect
     if (scene.scene().counting(t) && !std::binary_search(out.may_be_seen.begin(), out.may_be_seen.end(), t))
       hidden.push_back(t);
   }
-  for (const auto& witness : search(hidden, lines_to_hidden)) {
+  for (const auto& witness : search(hidden, lines_to_hidden, {})) {
     if (witness) out.contradictions.push_back(*witness);
+  }
+  out.sight_lines = sight_lines;
+  return out;
+}
+
+CellJudgement search_cell(const fastpath::SeeThroughScene& scene, const std::vector<Point>& cell, const Ids& list,
+                          const Accuses& accuses) {
+  CellJudgement out;
+  out.listed = list.size();
+  std::atomic<std::uint64_t> sight_lines{0};
+  const CellJudge judge(scene, cell);
+  auto found = judge.find_by_lines(sight_lines);
+  out.by_lines_alone = true;
+  out.witnessed = found.size();
+  std::erase_if(found, [&](const auto& one) { return std::binary_search(list.begin(), list.end(), one.id); });
+  std::vector<std::optional<Witness>> witnesses(found.size());
+  tbb::parallel_for(std::size_t{0}, found.size(),
+                    [&](std::size_t i) { witnesses[i] = judge.find_witness(found[i], accuses, sight_lines); });
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (witnesses[i]) {
+      out.holes.push_back(*witnesses[i]);
+    } else {
+      out.undecided.push_back(found[i].id);
+    }
   }
   out.sight_lines = sight_lines;
   return out;

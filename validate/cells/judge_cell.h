@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "fastpath/visibility/see_through.h"
@@ -19,10 +20,19 @@ struct CellJudgement {
   std::vector<Witness> contradictions;  // hidden, says the kernel, and yet with a confirmed sight line. Must stay empty
   std::uint64_t sight_lines = 0;        // decided exactly
   std::uint64_t fallbacks = 0;          // of the kernel
+  bool by_lines_alone = false;          // nobody knows what else may be seen
 };
+
+// What else a sight line that accuses somebody has to pass; asked before the witness checker, from any thread. None: nothing else.
+using Accuses = std::function<bool(const Witness&)>;
 
 // `list` is ascending. The cell is W_in: who is accused of a hole has one. The same answer in every run and for any number of threads of the current arena.
 CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell,
-                         const std::vector<std::uint32_t>& list);
+                         const std::vector<std::uint32_t>& list, const Accuses& accuses = {});
+
+// Without the kernel: what sight lines find, from neighbour to neighbour, is witnessed, and what of it is not listed in question. Much faster; it finds most holes, and proves nothing where
+// it finds none. Undecided is what was found and not confirmed.
+CellJudgement search_cell(const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell,
+                          const std::vector<std::uint32_t>& list, const Accuses& accuses = {});
 
 }  // namespace clues::validate

@@ -10,9 +10,9 @@
 namespace clues::fastpath {
 namespace {
 
-// How many rays at a time look for a first guess, at most, and how many times, while they find what is new; and how many triangles whose
-// proof failed are looked at before the map is made anew: as many as this, or as the map has, times two. (Of a scene behind a hole in K all proofs may fail.)
-constexpr std::size_t kRays = 4096, kTimes = 6, kFailures = 512, kFailuresPerMapped = 2;
+// How many triangles whose proof failed are looked at before the map is made anew: as many as this, or as the map has, times two. (Of a scene behind a hole in K all proofs
+// may fail.)
+constexpr std::size_t kFailures = 512, kFailuresPerMapped = 2;
 
 class Closer {
  public:
@@ -93,9 +93,9 @@ void Closer::add_triangles_by_the_cell() {
 
 void Closer::add_seen_by_rays() {
   add_with_neighbours(rays_.beside(part_));
-  for (std::size_t time = 0; time < kTimes; ++time) {
+  for (std::size_t time = 0; time < SightRays::kTimes; ++time) {
     const std::size_t before = part_.size();
-    add_with_neighbours(rays_.around(std::min(bvh_.mesh().triangles.size(), kRays), time));
+    add_with_neighbours(rays_.around(std::min(bvh_.mesh().triangles.size(), SightRays::kRays), time));
     if (part_.size() == before) break;
   }
 }

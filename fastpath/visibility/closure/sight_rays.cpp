@@ -80,43 +80,46 @@ std::vector<std::uint32_t> SightRays::first_hits(std::size_t count, const RayOf&
   return met;
 }
 
-std::vector<std::uint32_t> SightRays::around(std::size_t count, std::size_t time) {
+Segment SightRays::ray_around(std::size_t i, std::size_t count, std::size_t time) const {
   const double reach = 4 / bvh_.frame().scale;  // to beyond the scene
-  return first_hits(count, [&](std::size_t i) {
-    Numbers random(1, time * count + i);
-    const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
-    const double turn = (static_cast<double>(i) + 0.3 * static_cast<double>(time)) * std::numbers::pi *
-                        (3 - std::sqrt(5.0)),
-                 r = std::sqrt(1 - z * z);
-    const Point from = point_of_cell(cell_, random);
-    return Segment{from,
-                   {from[0] + reach * r * std::cos(turn), from[1] + reach * r * std::sin(turn), from[2] + reach * z}};
-  });
+  Numbers random(1, time * count + i);
+  const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(count);
+  const double turn =
+                   (static_cast<double>(i) + 0.3 * static_cast<double>(time)) * std::numbers::pi * (3 - std::sqrt(5.0)),
+               r = std::sqrt(1 - z * z);
+  const Point from = point_of_cell(cell_, random);
+  return {from, {from[0] + reach * r * std::cos(turn), from[1] + reach * r * std::sin(turn), from[2] + reach * z}};
+}
+
+std::vector<std::uint32_t> SightRays::around(std::size_t count, std::size_t time) {
+  return first_hits(count, [&](std::size_t i) { return ray_around(i, count, time); });
+}
+
+Segment SightRays::ray_beside(std::span<const std::uint32_t> triangles, std::size_t i) const {
+  const double reach = 4 / bvh_.frame().scale;
+  const std::uint32_t triangle = triangles[i / kBeside];
+  const std::size_t number = i % kBeside, edge = number % 3;
+  Numbers random(2, triangle * kBeside + number);
+  const Corners t = bvh_.corners(triangle);
+  const Point from = point_of_cell(cell_, random);
+  // At a corner, anywhere, near the one end, near the other.
+  const double position = random.unit(), near_end = std::exp2(-2 - 6 * position);
+  const double along = std::array{0.0, position, near_end, 1 - near_end}[number / 3 % 4];
+  const double off = std::exp2(-4 - 7 * random.unit());
+  Segment ray{from, {}};
+  double size = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double on_edge = t[edge][k] + along * (t[(edge + 1) % 3][k] - t[edge][k]);
+    const double center = t[0][k] / 3 + t[1][k] / 3 + t[2][k] / 3;
+    ray.b[k] = on_edge + off * (on_edge - center) - from[k];
+    size = std::max(size, std::fabs(ray.b[k]));
+  }
+  for (std::size_t k = 0; k < 3; ++k) ray.b[k] = from[k] + ray.b[k] * (reach / size);
+  return ray;
 }
 
 std::vector<std::uint32_t> SightRays::beside(std::span<const std::uint32_t> triangles) {
-  const double reach = 4 / bvh_.frame().scale;
-  return first_hits(kBeside * triangles.size(), [&](std::size_t i) {
-    const std::uint32_t triangle = triangles[i / kBeside];
-    const std::size_t number = i % kBeside, edge = number % 3;
-    Numbers random(2, triangle * kBeside + number);
-    const Corners t = bvh_.corners(triangle);
-    const Point from = point_of_cell(cell_, random);
-    // At a corner, anywhere, near the one end, near the other.
-    const double position = random.unit(), near_end = std::exp2(-2 - 6 * position);
-    const double along = std::array{0.0, position, near_end, 1 - near_end}[number / 3 % 4];
-    const double off = std::exp2(-4 - 7 * random.unit());
-    Segment ray{from, {}};
-    double size = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double on_edge = t[edge][k] + along * (t[(edge + 1) % 3][k] - t[edge][k]);
-      const double center = t[0][k] / 3 + t[1][k] / 3 + t[2][k] / 3;
-      ray.b[k] = on_edge + off * (on_edge - center) - from[k];
-      size = std::max(size, std::fabs(ray.b[k]));
-    }
-    for (std::size_t k = 0; k < 3; ++k) ray.b[k] = from[k] + ray.b[k] * (reach / size);
-    return ray;
-  });
+  return first_hits(kBeside * triangles.size(), [&](std::size_t i) { return ray_beside(triangles, i); });
 }
 
 Segment SightRays::ray_towards(std::uint32_t triangle, std::size_t number, std::size_t of,
@@ -151,6 +154,34 @@ std::vector<std::uint8_t> SightRays::met_towards(std::span<const std::uint32_t> 
   for (const std::vector<std::uint8_t>& of_thread : met)
     std::transform(by_any.begin(), by_any.end(), of_thread.begin(), by_any.begin(), std::bit_or<>());
   return by_any;
+}
+
+Sights sights_from(const Bvh& bvh, const Cell& cell) {
+  SightRays rays(bvh, cell);
+  const std::size_t count = std::min(bvh.mesh().triangles.size(), SightRays::kRays);
+  Sights sights;
+  std::vector<std::uint8_t> seen(bvh.mesh().triangles.size(), 0);
+  const auto take = [&](const std::vector<std::uint32_t>& met, const auto& ray_of) {
+    std::vector<std::uint32_t> fresh;
+    for (std::size_t i = 0; i < met.size(); ++i) {
+      if (met[i] == SightRays::kNothing || seen[met[i]] != 0) continue;
+      seen[met[i]] = 1;
+      fresh.push_back(met[i]);
+      sights.rays.push_back(ray_of(i));
+    }
+    sights.triangles.insert(sights.triangles.end(), fresh.begin(), fresh.end());
+    return fresh;
+  };
+  for (std::size_t time = 0, before = 0; time < SightRays::kTimes; ++time, before = sights.rays.size()) {
+    auto fresh = take(rays.around(count, time), [&](std::size_t i) { return rays.ray_around(i, count, time); });
+    while (!fresh.empty()) {
+      const auto met = rays.beside(fresh);
+      fresh = take(met, [&, asked = fresh](std::size_t i) { return rays.ray_beside(asked, i); });
+    }
+    if (sights.rays.size() == before) break;
+  }
+  sights.shot = rays.count();
+  return sights;
 }
 
 }  // namespace clues::fastpath

@@ -21,7 +21,8 @@ class SightRays {
   // No triangle is near the cell: so none needs to be asked which part of it is in int V (D3).
   void cell_is_empty() { cell_is_empty_ = true; }
 
-  // First hits of `count` rays spread evenly over all directions, others each time.
+  // First hits of `count` rays spread evenly over all directions, others each time. So many are enough, and so many times while they find what is new.
+  static constexpr std::size_t kRays = 4096, kTimes = 6;
   std::vector<std::uint32_t> around(std::size_t count, std::size_t time);
   // First hits of rays that pass each of the triangles closely, edge by edge.
   std::vector<std::uint32_t> beside(std::span<const std::uint32_t> triangles);
@@ -35,6 +36,10 @@ class SightRays {
 
   std::uint64_t count() const { return count_; }
 
+  // Of around(count, time) and beside(triangles) the ray number i.
+  Segment ray_around(std::size_t i, std::size_t count, std::size_t time) const;
+  Segment ray_beside(std::span<const std::uint32_t> triangles, std::size_t i) const;
+
  private:
   Segment ray_towards(std::uint32_t triangle, std::size_t number, std::size_t of, std::uint64_t purpose) const;
   std::size_t within_budget(std::size_t count);
@@ -47,5 +52,15 @@ class SightRays {
   bool cell_is_empty_ = false;
   std::uint64_t count_ = 0;
 };
+
+// What rays find, from neighbour to neighbour: each triangle once, in the order in which it is found, with the ray that meets it first, which begins in the cell but for roundings.
+struct Sights {
+  std::vector<std::uint32_t> triangles;
+  std::vector<Segment> rays;
+  std::uint64_t shot = 0;
+};
+
+// The same for any number of threads of the current arena.
+Sights sights_from(const Bvh& bvh, const Cell& cell);
 
 }  // namespace clues::fastpath

@@ -1,0 +1,47 @@
+// The witness checker says the same of the triangles near a segment as of all.
+#include "validate/cells/near_segment.h"
+
+#include <gtest/gtest.h>
+
+#include "exact/sight/witness.h"
+#include "fuzz/generators/random.h"
+#include "fuzz/generators/random_scenes.h"
+#include "tests/seed.h"
+
+namespace clues::tests {
+namespace {
+
+TEST(NearSegment, TheWitnessCheckerAnswersAsInTheWholeScene) {
+  fuzz::Random random(kSeed);
+  std::uint64_t valid = 0, blocked = 0, left_out = 0;
+  for (std::uint64_t index = 0; index < 60; ++index) {
+    const auto scene = fuzz::generate(fuzz::all_kinds[index % fuzz::all_kinds.size()], kSeed, index);
+    const auto cell = exact::ConvexCell::from_doubles(scene.cell);
+    const auto& mesh = scene.mesh;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      // From the middle of the cell to a point of the triangle, which often is one of a grid: lines that touch are usual.
+      const exact::Point3 v = cell.center();
+      const auto corner = [&](std::size_t i) { return exact::to_exact(mesh.points[mesh.triangles[t][i]]); };
+      const int a = random.between(1, 4), b = random.between(1, 4), c = random.between(1, 4);
+      const exact::Point3 p =
+          CGAL::barycenter(corner(0), exact::FT(a), corner(1), exact::FT(b), corner(2), exact::FT(c));
+      const auto near = validate::near_segment(mesh, t, v, p);
+      ASSERT_EQ(near.mesh.triangles[near.triangle], mesh.triangles[t]);
+      left_out += mesh.triangles.size() - near.mesh.triangles.size();
+      for (const bool front : {true, false}) {
+        const auto all = exact::check_witness(mesh, cell, t, front, v, p);
+        const auto few = exact::check_witness(near.mesh, cell, near.triangle, front, v, p);
+        ASSERT_EQ(few.valid, all.valid) << scene.name << " triangle " << t;
+        ASSERT_EQ(few.special, all.special) << scene.name << " triangle " << t;
+        valid += all.valid ? 1 : 0;
+        blocked += all.reason.find("blocks") != std::string::npos ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(valid, 100U);
+  EXPECT_GT(blocked, 100U);
+  EXPECT_GT(left_out, 1000U);
+}
+
+}  // namespace
+}  // namespace clues::tests

@@ -1,0 +1,29 @@
+#include "validate/cells/near_segment.h"
+
+#include <algorithm>
+
+namespace clues::validate {
+
+NearSegment near_segment(const scene::TriangleMesh& mesh, std::uint32_t kept, const exact::Point3& v,
+                         const exact::Point3& p) {
+  const CGAL::Bbox_3 box = v.bbox() + p.bbox();  // rounded outward
+  const auto is_near = [&](const scene::Triangle& t) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto k = static_cast<std::size_t>(axis);
+      const auto [low, high] = std::minmax({mesh.points[t[0]][k], mesh.points[t[1]][k], mesh.points[t[2]][k]});
+      if (high < box.min(axis) || low > box.max(axis)) return false;
+    }
+    return true;
+  };
+  NearSegment out;
+  out.mesh.points = mesh.points;
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (i != kept && !is_near(mesh.triangles[i])) continue;
+    if (i == kept) out.triangle = static_cast<std::uint32_t>(out.mesh.triangles.size());
+    out.mesh.face_of.push_back(static_cast<std::uint32_t>(out.mesh.face_of.size()));
+    out.mesh.triangles.push_back(mesh.triangles[i]);
+  }
+  return out;
+}
+
+}  // namespace clues::validate
