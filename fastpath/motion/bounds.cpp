@@ -57,22 +57,23 @@ double separation_root(const Det& det, const Pair& ab, const Row& p, double sine
 // grows with value and falls with R. Where the viewpoint certainly is in the double cone from the circle's centre over the edge (branch I1: |a x b| <=
 // kappa (L^2 / 2 - X), X = |b^2 - a^2| / 2), the nearest point is an end, further away than R - r.
 // Where one end is a direction, kappa |y x D| - y.D = |D| (kappa y_perp - y_par) is |D| / sin(phi) times the distance from the cone's side.
-double edge_root(const Row& a, const Row& b, double cross_norm, const Pair& ab, const BoundThresholds& t) {
+// The result is that distance, or `most` if that is less: it may be seen from value / 2R, which is never more than R - r.
+double edge_root(const Row& a, const Row& b, double cross_norm, const Pair& ab, const BoundThresholds& t, double most) {
   const double size = a.length * b.length;
   const double value =
       (t.kappa * cross_norm - dot(a.x, b.x)) - (kEdgeErrorOfKappa * std::fabs(t.kappa) + kEdgeError) * size;
   if (!(value > 0)) return 0;
-  if (a.moves && b.moves) {
-    // Both products are within 2^-49 of the square of the sum of the lengths.
-    const Vec along = b.x - a.x;
-    const double sum = a.length + b.length;
-    const double half = 0.5 * (dot(along, along) - std::fabs(dot(a.x + b.x, along))) - 0x1p-48 * (sum * sum);
-    if (t.kappa > 0 && half > 0 && ab.cross_up <= t.kappa * half * kDown) return std::min(a.length, b.length) * kDown;
-    const double radius = 0.5 * (ab.speed * t.secant) * kUp;
-    return value / (radius + std::sqrt(std::max(0.0, radius * radius * kUp - value))) * kDown;
-  }
-  if (!a.moves && !b.moves) return kInfinity;
-  return value / ((a.moves ? b.length : a.length) * t.secant) * kDown;
+  if (!a.moves && !b.moves) return most;
+  if (!a.moves || !b.moves) return std::min(most, value / ((a.moves ? b.length : a.length) * t.secant) * kDown);
+  const double radius = 0.5 * (ab.speed * t.secant) * kUp;
+  if (value * kDown > 2 * radius * most * kUp) return most;
+  // Both products are within 2^-49 of the square of the sum of the lengths.
+  const Vec along = b.x - a.x;
+  const double sum = a.length + b.length;
+  const double half = 0.5 * (dot(along, along) - std::fabs(dot(a.x + b.x, along))) - 0x1p-48 * (sum * sum);
+  if (t.kappa > 0 && half > 0 && ab.cross_up <= t.kappa * half * kDown)
+    return std::min({most, a.length * kDown, b.length * kDown});
+  return std::min(most, value / (radius + std::sqrt(std::max(0.0, radius * radius * kUp - value))) * kDown);
 }
 
 struct PairAndNorm {
@@ -104,7 +105,7 @@ double facing_bound(const Row& a, const Row& b, const Row& c) {
 double edge_bound(const Row& a, const Row& b, const BoundThresholds& thresholds) {
   if (!fits(a) || !fits(b)) return 0;
   const PairAndNorm ab = pair_of(a, b);
-  return edge_root(a, b, ab.norm_of_cross, ab.pair, thresholds);
+  return edge_root(a, b, ab.norm_of_cross, ab.pair, thresholds, kInfinity);
 }
 
 double separation_bound(const Row& p, const Row& a, const Row& b, const BoundThresholds& thresholds) {
@@ -118,12 +119,12 @@ double triangle_bound(const Row& a, const Row& b, const Row& c, const BoundThres
   const Det det = det_of(a, b, c);
   if (!(det.low > 0)) return 0;
   const PairAndNorm ab = pair_of(a, b), bc = pair_of(b, c), ca = pair_of(c, a);
-  double m = edge_root(a, b, ab.norm_of_cross, ab.pair, t);
-  m = std::min(m, edge_root(b, c, bc.norm_of_cross, bc.pair, t));
-  m = std::min(m, edge_root(c, a, ca.norm_of_cross, ca.pair, t));
-  m = std::min(m, separation_root(det, ab.pair, c, t.sine));
+  double m = separation_root(det, ab.pair, c, t.sine);
   m = std::min(m, separation_root(det, bc.pair, a, t.sine));
-  return std::min(m, separation_root(det, ca.pair, b, t.sine));
+  m = std::min(m, separation_root(det, ca.pair, b, t.sine));
+  m = edge_root(a, b, ab.norm_of_cross, ab.pair, t, m);
+  m = edge_root(b, c, bc.norm_of_cross, bc.pair, t, m);
+  return edge_root(c, a, ca.norm_of_cross, ca.pair, t, m);
 }
 
 }  // namespace clues::fastpath::motion

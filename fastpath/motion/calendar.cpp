@@ -8,10 +8,11 @@ namespace clues::fastpath::motion {
 
 Calendar::Calendar(double width) : width_(width), ring_(kBins) {}
 
-// Rounding is monotonous: key <= odometer gives bin <= bin.
+// Rounding and cutting off are monotonous: key <= odometer gives bin <= bin.
 std::uint64_t Calendar::bin_of(double key) const {
-  const double bin = std::floor(key / width_);
-  return bin < 0x1p60 ? bin > 0 ? static_cast<std::uint64_t>(bin) : 0 : std::uint64_t{1} << 60U;
+  const double bin = key / width_;
+  if (!(bin > 0)) return 0;
+  return bin < 0x1p60 ? static_cast<std::uint64_t>(bin) : std::uint64_t{1} << 60U;
 }
 
 void Calendar::put(const Entry& entry) {

@@ -127,6 +127,7 @@ class Walk {
   struct Out {
     DepthSample sample;
     std::uint32_t base, beside;  // base: its number
+    std::uint32_t frame;         // in which it was taken out
   };
   std::vector<Out> out_;
 };

@@ -43,7 +43,7 @@ bool Walk::remove_sample(std::uint32_t v, std::uint32_t f, const View& view, Fra
   const std::uint32_t beside = mesh().face(f).corner[mesh().face(f).corner[0] == v ? 1 : 0];
   if (!triangulation_->remove(v, view, triangulation_->view())) return false;
   ++report.removed;
-  out_.push_back({sample, kNone, beside});
+  out_.push_back({sample, kNone, beside, frame_});
   note_changes();
   return true;
 }
@@ -56,7 +56,7 @@ bool Walk::lift_base_vertex_of(std::uint32_t f) {
     const std::uint32_t v = corner[i];
     const scene::DepthSample sample = mesh().samples()[v];
     if (!sample.is_base || !triangulation_->remove(v, *old_view_, triangulation_->view())) continue;
-    out_.push_back({sample, v, corner[(i + 1) % 3]});
+    out_.push_back({sample, v, corner[(i + 1) % 3], frame_});
     note_changes();
     return true;
   }
@@ -81,17 +81,21 @@ void Walk::lift_covered_base_vertices() {
     if (!covers(star.ring.data(), star.ring.size(), v)) continue;
     const scene::DepthSample sample = mesh().samples()[v];
     if (triangulation_->remove(v, triangulation_->view(), triangulation_->view()))
-      out_.push_back({sample, v, star.ring[0]});
+      out_.push_back({sample, v, star.ring[0], frame_});
     note_changes();
   }
 }
 
-// Base vertices, and samples that are seen still, the last one that was taken out first. What does not fit waits.
+// Base vertices, and samples that are seen still, the last one that was taken out first. What does not fit waits; of base vertices that have waited before one in four is looked at in a frame.
 void Walk::put_back(FrameReport& report) {
   std::vector<Out> waiting;
   for (; !out_.empty(); out_.pop_back()) {
     Out& out = out_.back();
     const bool is_base = out.base != kNone;
+    if (is_base && out.frame != frame_ && (out.base + frame_) % 4 != 0) {
+      waiting.push_back(out);
+      continue;
+    }
     if (is_base || sampler_.sees(at_, out.sample)) {
       std::uint32_t from =
           mesh().is_vertex(out.beside) ? mesh().face_of(out.beside) : triangulation_->face_towards(out.sample);
