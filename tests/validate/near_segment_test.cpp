@@ -43,5 +43,25 @@ TEST(NearSegment, TheWitnessCheckerAnswersAsInTheWholeScene) {
   EXPECT_GT(left_out, 1000U);
 }
 
+// The segment is parallel to an axis, so that its box has no width, and a blocker only touches it.
+TEST(NearSegment, WhatOnlyTouchesItsBoxIsNear) {
+  const auto cell = exact::ConvexCell::from_doubles({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
+  const exact::Point3 v(0.5, 0.5, 0.5), p(10, 0.5, 0.5);
+  for (const double side : {-1.0, 1.0}) {
+    scene::TriangleMesh mesh;
+    mesh.points = {{10, -9, -9},  {10, 9, -9},          {10, 0, 9},
+                   {5, 0.5, 0.5}, {5, 0.5 + side, 0.5}, {6, 0.5 + side, 0.5 + side}};
+    mesh.triangles = {{0, 1, 2}, {3, 4, 5}};
+    mesh.face_of = {0, 1};
+    for (const bool front : {true, false}) {
+      const auto near = validate::near_segment(mesh, 0, v, p);
+      ASSERT_EQ(near.mesh.triangles.size(), 2U);
+      EXPECT_FALSE(exact::check_witness(near.mesh, cell, near.triangle, front, v, p).valid);
+    }
+    mesh.points[3][1] += side * 0x1p-50;
+    EXPECT_EQ(validate::near_segment(mesh, 0, v, p).mesh.triangles.size(), 1U);
+  }
+}
+
 }  // namespace
 }  // namespace clues::tests
