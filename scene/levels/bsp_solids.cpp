@@ -29,14 +29,14 @@ struct Meeting {
 Point to_doubles(const RationalPoint& p) { return {p[0].get_d(), p[1].get_d(), p[2].get_d()}; }
 
 // Whether the point is certainly in front of the plane. Coordinates are cut off by less than a relative 2^-52 (or by 2^-1074); products, sums and the difference round
-// five times more: below 2^-48 of the sum of the absolute values, and 2^-1000 for what underflows.
+// five times more: below 2^-48 of the sum of the absolute values, and 2^-900 for what underflows: normals are floats.
 bool is_beyond(const Point& normal, double distance, const Point& at) {
   double sizes = std::fabs(distance), height = -distance;
   for (std::size_t i = 0; i < 3; ++i) {
     height += normal[i] * at[i];
     sizes += std::fabs(normal[i] * at[i]);
   }
-  return height > 0x1p-48 * sizes + 0x1p-1000;
+  return height > 0x1p-48 * sizes + 0x1p-900;
 }
 
 // Of the segment with the closed solid; none where they do not meet. The ends also in doubles.
