@@ -1,5 +1,7 @@
 #include "app/whole_level.h"
 
+#include <utility>
+
 #include "exact/sight/witness.h"
 #include "scene/levels/bsp_scene.h"
 #include "validate/cells/near_segment.h"
@@ -20,8 +22,9 @@ WholeLevel::WholeLevel(const scene::BspFile& level)
 
 bool WholeLevel::confirms(const std::vector<scene::Point>& cell, const validate::Witness& witness) const {
   if (!is_free_of_brushes(witness)) return false;
-  const validate::AskedAlone alone = validate::asked_alone(whole_, witness.triangle);
-  const validate::NearSegment near = validate::near_segment(alone.mesh, alone.triangle, witness.v, witness.p);
+  validate::AskedAlone alone = validate::asked_alone(whole_, witness.triangle);
+  const validate::NearSegment near =
+      validate::near_segment(std::move(alone.mesh), alone.triangle, witness.v, witness.p);
   return exact::check_witness(near.mesh, exact::ConvexCell::from_doubles(cell), near.triangle, witness.front, witness.v,
                               witness.p)
       .valid;

@@ -99,22 +99,6 @@ Asked baked_in(const CheckCellsRequest& request, const std::string& sha256, std:
   return asked;
 }
 
-template <class JudgeOne>
-void for_each_cell(Asked& asked, int threads, const JudgeOne& judge_one) {
-  ProgressBar bar("clues check");
-  bar.show("cells", 0, asked.cells.size());
-  std::mutex mutex;
-  std::uint64_t done = 0;
-  exact::by_threads(threads, [&] {
-    tbb::parallel_for(std::size_t{0}, asked.cells.size(), [&](std::size_t i) {
-      auto& cell = asked.cells[i];
-      cell.judgement = exact::by_threads(1, [&] { return judge_one(cell); });
-      const std::lock_guard lock(mutex);
-      bar.show("cells", ++done, asked.cells.size());
-    });
-  });
-}
-
 void confirm(Asked& asked, const WholeLevel& whole) {
   for (auto& cell : asked.cells) {
     std::erase_if(cell.judgement.holes, [&](const validate::Witness& w) {
@@ -129,13 +113,28 @@ void confirm(Asked& asked, const WholeLevel& whole) {
 void judge(Asked& asked, const scene::FlaggedMesh& mesh, const std::optional<scene::BspFile>& level,
            const CheckCellsRequest& request) {
   const fastpath::SeeThroughScene scene(mesh);
+  // Only who is accused needs it.
   std::optional<WholeLevel> whole;
-  if (level) whole.emplace(*level);
+  std::once_flag made;
   validate::Accuses accuses;
-  if (whole) accuses = [&](const validate::Witness& w) { return whole->is_free_of_brushes(w); };
-  for_each_cell(asked, request.threads, [&](const JudgedCell& cell) {
-    const auto judge_one = request.sight_lines_only ? validate::search_cell : validate::judge_cell;
-    return judge_one(scene, cell.points, cell.list, accuses);
+  if (level) {
+    accuses = [&](const validate::Witness& w) {
+      std::call_once(made, [&] { whole.emplace(*level); });
+      return whole->is_free_of_brushes(w);
+    };
+  }
+  const auto judge_one = request.sight_lines_only ? validate::search_cell : validate::judge_cell;
+  ProgressBar bar("clues check");
+  bar.show("cells", 0, asked.cells.size());
+  std::mutex mutex;
+  std::uint64_t done = 0;
+  exact::by_threads(request.threads, [&] {
+    tbb::parallel_for(std::size_t{0}, asked.cells.size(), [&](std::size_t i) {
+      auto& cell = asked.cells[i];
+      cell.judgement = exact::by_threads(1, [&] { return judge_one(scene, cell.points, cell.list, accuses); });
+      const std::lock_guard lock(mutex);
+      bar.show("cells", ++done, asked.cells.size());
+    });
   });
   if (whole) confirm(asked, *whole);
 }

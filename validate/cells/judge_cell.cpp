@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
 #include <iterator>
 #include <optional>
 #include <random>
@@ -172,7 +171,7 @@ class CellJudge {
       mesh.triangles.push_back(own);
       mesh.face_of.push_back(place);
     }
-    const NearSegment near = near_segment(mesh, place, from, at);
+    const NearSegment near = near_segment(std::move(mesh), place, from, at);
     if (!exact::check_witness(near.mesh, cell_, near.triangle, front, from, at).valid) return std::nullopt;
     return witness;
   }
@@ -182,6 +181,16 @@ class CellJudge {
   fastpath::SightLines lines_;
   std::vector<Point> viewpoints_;
 };
+
+void take_verdicts(CellJudgement& out, const Ids& missing, const std::vector<std::optional<Witness>>& found) {
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    if (found[i]) {
+      out.holes.push_back(*found[i]);
+    } else {
+      out.undecided.push_back(missing[i]);
+    }
+  }
+}
 
 }  // namespace
 
@@ -205,13 +214,7 @@ CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vect
     return found;
   };
   const auto found = search(missing, lines_to_missing, accuses);
-  for (std::size_t i = 0; i < missing.size(); ++i) {
-    if (found[i]) {
-      out.holes.push_back(*found[i]);
-    } else {
-      out.undecided.push_back(missing[i]);
-    }
-  }
+  take_verdicts(out, missing, found);
   Ids hidden;
   for (std::uint32_t t = 0; t < scene.scene().mesh.triangles.size(); ++t) {
     if (scene.scene().counting(t) && !std::binary_search(out.may_be_seen.begin(), out.may_be_seen.end(), t))
@@ -234,16 +237,12 @@ CellJudgement search_cell(const fastpath::SeeThroughScene& scene, const std::vec
   out.by_lines_alone = true;
   out.witnessed = found.size();
   std::erase_if(found, [&](const auto& one) { return std::binary_search(list.begin(), list.end(), one.id); });
+  Ids missing;
+  for (const auto& one : found) missing.push_back(one.id);
   std::vector<std::optional<Witness>> witnesses(found.size());
   tbb::parallel_for(std::size_t{0}, found.size(),
                     [&](std::size_t i) { witnesses[i] = judge.find_witness(found[i], accuses, sight_lines); });
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (witnesses[i]) {
-      out.holes.push_back(*witnesses[i]);
-    } else {
-      out.undecided.push_back(found[i].id);
-    }
-  }
+  take_verdicts(out, missing, witnesses);
   out.sight_lines = sight_lines;
   return out;
 }

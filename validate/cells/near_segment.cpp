@@ -1,11 +1,11 @@
 #include "validate/cells/near_segment.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace clues::validate {
 
-NearSegment near_segment(const scene::TriangleMesh& mesh, std::uint32_t kept, const exact::Point3& v,
-                         const exact::Point3& p) {
+NearSegment near_segment(scene::TriangleMesh mesh, std::uint32_t kept, const exact::Point3& v, const exact::Point3& p) {
   const CGAL::Bbox_3 box = v.bbox() + p.bbox();  // rounded outward
   const auto is_near = [&](const scene::Triangle& t) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -15,15 +15,17 @@ NearSegment near_segment(const scene::TriangleMesh& mesh, std::uint32_t kept, co
     }
     return true;
   };
-  NearSegment out;
-  out.mesh.points = mesh.points;
+  std::uint32_t left = 0, place = 0;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     if (i != kept && !is_near(mesh.triangles[i])) continue;
-    if (i == kept) out.triangle = static_cast<std::uint32_t>(out.mesh.triangles.size());
-    out.mesh.face_of.push_back(static_cast<std::uint32_t>(out.mesh.face_of.size()));
-    out.mesh.triangles.push_back(mesh.triangles[i]);
+    if (i == kept) place = left;
+    mesh.triangles[left] = mesh.triangles[i];
+    mesh.face_of[left] = left;
+    ++left;
   }
-  return out;
+  mesh.triangles.resize(left);
+  mesh.face_of.resize(left);
+  return {std::move(mesh), place};
 }
 
 }  // namespace clues::validate

@@ -15,7 +15,6 @@ struct NearSegment {
 };
 
 // `kept` stays, wherever it is. O(n) comparisons of doubles.
-NearSegment near_segment(const scene::TriangleMesh& mesh, std::uint32_t kept, const exact::Point3& v,
-                         const exact::Point3& p);
+NearSegment near_segment(scene::TriangleMesh mesh, std::uint32_t kept, const exact::Point3& v, const exact::Point3& p);
 
 }  // namespace clues::validate

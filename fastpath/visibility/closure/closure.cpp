@@ -50,7 +50,8 @@ class Closer {
   ClosureCounts counts;
 
  private:
-  void add_with_neighbours(std::vector<std::uint32_t> seen);
+  bool add_seen(std::uint32_t triangle);  // which a ray has met; as add()
+  void add_seen_beside(std::vector<std::uint32_t> triangles);
   // Adds what sight lines to the triangles meet first; else the triangles themselves.
   void add_front_of(const std::vector<std::uint32_t>& triangles);
   void drop_untouched(const Darkness& darkness, const std::vector<std::uint32_t>& visible);
@@ -92,25 +93,17 @@ void Closer::add_triangles_by_the_cell() {
 }
 
 void Closer::add_seen_by_rays() {
-  add_with_neighbours(rays_.beside(part_));
-  for (std::size_t time = 0; time < SightRays::kTimes; ++time) {
-    const std::size_t before = part_.size();
-    add_with_neighbours(rays_.around(std::min(bvh_.mesh().triangles.size(), SightRays::kRays), time));
-    if (part_.size() == before) break;
-  }
+  add_seen_beside(part_);
+  rays_.look_around([this](std::uint32_t t, const auto&) { return add_seen(t); });
 }
 
-// And what is seen next to them, and next to that. Ids that are kNothing are left out.
-void Closer::add_with_neighbours(std::vector<std::uint32_t> seen) {
-  while (!seen.empty()) {
-    std::vector<std::uint32_t> fresh;
-    for (const std::uint32_t t : seen) {
-      if (t == SightRays::kNothing) continue;
-      seen_[t] = 1;
-      if (add(t)) fresh.push_back(t);
-    }
-    seen = rays_.beside(fresh);
-  }
+void Closer::add_seen_beside(std::vector<std::uint32_t> triangles) {
+  rays_.look_beside(std::move(triangles), [this](std::uint32_t t, const auto&) { return add_seen(t); });
+}
+
+bool Closer::add_seen(std::uint32_t triangle) {
+  seen_[triangle] = 1;
+  return add(triangle);
 }
 
 scene::TriangleMesh Closer::part_mesh() {
@@ -138,7 +131,7 @@ scene::TriangleMesh Closer::part_mesh() {
 
 void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
   const std::vector<std::uint32_t> met = rays_.towards(triangles);
-  std::vector<std::uint32_t> seen;
+  std::vector<std::uint32_t> seen, added;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const auto first = met.begin() + static_cast<std::ptrdiff_t>(i * SightRays::kTowards);
     bool fresh = false;
@@ -149,7 +142,8 @@ void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
     }
     if (!fresh) add(triangles[i]);
   }
-  add_with_neighbours(std::move(seen));
+  std::copy_if(seen.begin(), seen.end(), std::back_inserter(added), [&](std::uint32_t t) { return add_seen(t); });
+  add_seen_beside(std::move(added));
 }
 
 void Closer::drop_untouched(const Darkness& darkness, const std::vector<std::uint32_t>& visible) {

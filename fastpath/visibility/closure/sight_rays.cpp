@@ -158,28 +158,15 @@ std::vector<std::uint8_t> SightRays::met_towards(std::span<const std::uint32_t> 
 
 Sights sights_from(const Bvh& bvh, const Cell& cell) {
   SightRays rays(bvh, cell);
-  const std::size_t count = std::min(bvh.mesh().triangles.size(), SightRays::kRays);
   Sights sights;
   std::vector<std::uint8_t> seen(bvh.mesh().triangles.size(), 0);
-  const auto take = [&](const std::vector<std::uint32_t>& met, const auto& ray_of) {
-    std::vector<std::uint32_t> fresh;
-    for (std::size_t i = 0; i < met.size(); ++i) {
-      if (met[i] == SightRays::kNothing || seen[met[i]] != 0) continue;
-      seen[met[i]] = 1;
-      fresh.push_back(met[i]);
-      sights.rays.push_back(ray_of(i));
-    }
-    sights.triangles.insert(sights.triangles.end(), fresh.begin(), fresh.end());
-    return fresh;
-  };
-  for (std::size_t time = 0, before = 0; time < SightRays::kTimes; ++time, before = sights.rays.size()) {
-    auto fresh = take(rays.around(count, time), [&](std::size_t i) { return rays.ray_around(i, count, time); });
-    while (!fresh.empty()) {
-      const auto met = rays.beside(fresh);
-      fresh = take(met, [&, asked = fresh](std::size_t i) { return rays.ray_beside(asked, i); });
-    }
-    if (sights.rays.size() == before) break;
-  }
+  rays.look_around([&](std::uint32_t triangle, const auto& ray) {
+    if (seen[triangle] != 0) return false;
+    seen[triangle] = 1;
+    sights.triangles.push_back(triangle);
+    sights.rays.push_back(ray());
+    return true;
+  });
   sights.shot = rays.count();
   return sights;
 }

@@ -3,8 +3,10 @@
 // neighbour to neighbour, and small or distant triangles are met for a few rays each.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "exact/dials.h"
@@ -21,11 +23,17 @@ class SightRays {
   // No triangle is near the cell: so none needs to be asked which part of it is in int V (D3).
   void cell_is_empty() { cell_is_empty_ = true; }
 
-  // First hits of `count` rays spread evenly over all directions, others each time. So many are enough, and so many times while they find what is new.
-  static constexpr std::size_t kRays = 4096, kTimes = 6;
+  // First hits of `count` rays spread evenly over all directions, others each time.
   std::vector<std::uint32_t> around(std::size_t count, std::size_t time);
   // First hits of rays that pass each of the triangles closely, edge by edge.
   std::vector<std::uint32_t> beside(std::span<const std::uint32_t> triangles);
+  // Tells take(triangle, ray) of what rays all around meet first, ray() being the one that met it. Where it answers true, what is next to the triangle is looked for, and what is next to that.
+  // Then all around again, in other directions, up to kTimes while it takes what is met.
+  template <class Take>
+  void look_around(const Take& take);
+  // The same of what is next to these.
+  template <class Take>
+  void look_beside(std::vector<std::uint32_t> triangles, const Take& take);
   // First hits on the way to each of the triangles, up to it: kTowards for each, kNothing where nothing is in front.
   static constexpr std::size_t kTowards = 4;
   static constexpr std::uint32_t kNothing = ~0U;
@@ -36,11 +44,15 @@ class SightRays {
 
   std::uint64_t count() const { return count_; }
 
-  // Of around(count, time) and beside(triangles) the ray number i.
+ private:
+  static constexpr std::size_t kRays = 4096, kTimes = 6;
+
+  // The ray number i of around(count, time) and of beside(triangles).
   Segment ray_around(std::size_t i, std::size_t count, std::size_t time) const;
   Segment ray_beside(std::span<const std::uint32_t> triangles, std::size_t i) const;
-
- private:
+  // The triangles that are taken.
+  template <class Take, class RayOf>
+  static std::vector<std::uint32_t> taken(const std::vector<std::uint32_t>& met, const Take& take, const RayOf& ray_of);
   Segment ray_towards(std::uint32_t triangle, std::size_t number, std::size_t of, std::uint64_t purpose) const;
   std::size_t within_budget(std::size_t count);
   template <class RayOf>
@@ -52,6 +64,32 @@ class SightRays {
   bool cell_is_empty_ = false;
   std::uint64_t count_ = 0;
 };
+
+template <class Take, class RayOf>
+std::vector<std::uint32_t> SightRays::taken(const std::vector<std::uint32_t>& met, const Take& take,
+                                            const RayOf& ray_of) {
+  std::vector<std::uint32_t> all;
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    if (met[i] != kNothing && take(met[i], [&] { return ray_of(i); })) all.push_back(met[i]);
+  }
+  return all;
+}
+
+template <class Take>
+void SightRays::look_beside(std::vector<std::uint32_t> triangles, const Take& take) {
+  while (!triangles.empty())
+    triangles = taken(beside(triangles), take, [&](std::size_t i) { return ray_beside(triangles, i); });
+}
+
+template <class Take>
+void SightRays::look_around(const Take& take) {
+  const std::size_t count = std::min(bvh_.mesh().triangles.size(), kRays);
+  for (std::size_t time = 0; time < kTimes; ++time) {
+    auto fresh = taken(around(count, time), take, [&](std::size_t i) { return ray_around(i, count, time); });
+    if (fresh.empty()) break;
+    look_beside(std::move(fresh), take);
+  }
+}
 
 // What rays find, from neighbour to neighbour: each triangle once, in the order in which it is found, with the ray that meets it first, which begins in the cell but for roundings.
 struct Sights {
