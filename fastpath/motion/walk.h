@@ -11,7 +11,7 @@
 // where it belongs now; samples in its way stay. The base is there so that no direction is further than 0.1888 from a vertex where samples are missing
 // (A1.4). A base vertex is out while the triangle that holds its direction has three corners within 0.1 of it, or while something is nearer to it than
 // the thresholds allow: but for the latter, every direction is within 0.29 of a vertex, and edges between many samples and a direction, which are due most
-// often, are spared.
+// often, are spared. (One that waits is looked at in every fourth frame, and may be late by three.)
 #pragma once
 
 #include <cstdint>

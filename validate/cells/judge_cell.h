@@ -31,7 +31,8 @@ CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vect
                          const std::vector<std::uint32_t>& list, const Accuses& accuses = {});
 
 // Without the kernel: what sight lines find, from neighbour to neighbour, is witnessed, and what of it is not listed in question. Much faster; it finds most holes, and proves nothing where
-// it finds none. Undecided is what was found and not confirmed.
+// it finds none. Undecided is what was found and not confirmed. Lines begin in the cell but for roundings, and only what is missing is confirmed: of a flat cell that is tilted, or one of some ulps,
+// a triangle may be witnessed that is listed and not visible. Contradictions are not looked for.
 CellJudgement search_cell(const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell,
                           const std::vector<std::uint32_t>& list, const Accuses& accuses = {});
 
