@@ -39,9 +39,12 @@ namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
 
+constexpr std::uint64_t kEffort = 1000;
+
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;
   std::size_t group = 1;
+  std::optional<std::uint64_t> effort;  // of the fast kernel; none: kEffort
   std::vector<std::string> merged;
   std::string shard;
   int threads = 0;
@@ -56,12 +59,13 @@ char up_of(const BakeRequest& request) {
 
 // Everything that the lists depend on, but for the scene.
 std::string question_of(const BakeRequest& request, const BakeCells& cells) {
-  return nlohmann::json{{"cells", request.cells},
-                        {"cells_sha256", cells.bytes.empty() ? "" : scene::sha256_of(cells.bytes)},
-                        {"kernel", request.kernel},
-                        {"group", request.group},
-                        {"up", std::string(1, up_of(request))}}
-      .dump();
+  nlohmann::json question{{"cells", request.cells},
+                          {"cells_sha256", cells.bytes.empty() ? "" : scene::sha256_of(cells.bytes)},
+                          {"kernel", request.kernel},
+                          {"group", request.group},
+                          {"up", std::string(1, up_of(request))}};
+  if (request.kernel == "fast") question["effort"] = request.effort.value_or(kEffort);
+  return question.dump();
 }
 
 scene::BakePlan plan_of(const BakeRequest& request, const std::string& sha256, const scene::FlaggedMesh& scene,
@@ -122,6 +126,9 @@ void report(const BakeRequest& request, const Summary& s, const std::string& not
 
 // What could only be found when hours are over, or with a store begun that nobody can use.
 void require_unspoilt(const BakeRequest& request) {
+  if (request.effort && request.kernel != "fast")
+    throw Error(ErrorCode::bad_argument,
+                "--effort: the exact kernel gives nothing up; leave it out, or --kernel exact");
   std::vector<const std::string*> inputs{&request.scene, &request.cells};
   for (const auto& file : request.merged) inputs.push_back(&file);
   require_apart({&request.out, &request.json.file(), &request.exported}, inputs);
@@ -151,7 +158,8 @@ int run_bake(const BakeRequest& request) {
   });
   const auto plan =
       plan_of(request, sha256, scene, parse_bake_cells(request.cells, request.scene, scene, level, up_of(request)));
-  const auto make_lister = request.kernel == "fast" ? fastpath::bakes::fast_lister() : validate::exact_lister();
+  const auto make_lister = request.kernel == "fast" ? fastpath::bakes::fast_lister(request.effort.value_or(kEffort))
+                                                    : validate::exact_lister();
   const int threads = cluster.threads(request.threads);
   if (!cluster.leads()) {
     serve_bake(cluster, threads, scene, plan, make_lister, *question);
@@ -217,6 +225,12 @@ void add_bake_command(CLI::App& program, int& status) {
                    "Map so many neighbouring cells in what the box around them sees; 1: each in the scene")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
       ->capture_default_str();
+  command
+      ->add_option("--effort", request->effort,
+                   "With the fast kernel: give up a map beyond this, for each triangle mapped, and list what is not " +
+                       fmt::format("proved hidden; 0: never (default: {})", kEffort))
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 32));
   command->add_option("--up", request->up, "Which way is up, for --cells auto (default: y in glTF files, else z)")
       ->check(CLI::IsMember({"y", "z"}));
   command->add_option("--threads", request->threads, "Threads, of each rank under mpirun; 0: all")
@@ -244,7 +258,11 @@ void add_bake_command(CLI::App& program, int& status) {
           "whatever --threads says.\n"
           "  In glTF files and levels some triangles do not block (docs/real-levels.md). The fast kernel lists "
           "those of them that it\n"
-          "  cannot prove to be hidden.\n\n") +
+          "  cannot prove to be hidden.\n"
+          "  Most maps take an effort of 50 to 500, and some would take hours. Such a map is given up: what the one "
+          "before it does not\n"
+          "  prove to be hidden is listed. That is sound, and the list is longer; each triangle listed so counts as a "
+          "fallback.\n\n") +
       bake_cells_help +
       "\n\nEXAMPLES\n"
       "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 -o town.bake\n"

@@ -21,9 +21,9 @@ using scene::PlaceKind;
 
 class FastLister : public CellLister {
  public:
-  explicit FastLister(scene::FlaggedMesh scene) : scene_(std::move(scene)) {}
+  FastLister(scene::FlaggedMesh scene, std::uint64_t effort) : scene_(std::move(scene)) { options_.effort = effort; }
   CellList list(const std::vector<scene::Point>& cell, std::span<const std::uint32_t> guess) const override {
-    const auto found = exact::by_threads(1, [&] { return fastpath::visible_through(scene_, cell, {}, guess); });
+    const auto found = exact::by_threads(1, [&] { return fastpath::visible_through(scene_, cell, options_, guess); });
     CellList out;
     out.visible = found.all();
     out.fallbacks = static_cast<std::int64_t>(found.conservative_fallbacks);
@@ -34,6 +34,7 @@ class FastLister : public CellLister {
 
  private:
   fastpath::SeeThroughScene scene_;
+  LocalMapOptions options_;
 };
 
 // A scene to map in, with the ids that its triangles have in the whole.
@@ -246,9 +247,10 @@ std::vector<BakePiece> pieces_of(const scene::BakePlan& plan) {
   return pieces;
 }
 
-ListerMaker fast_lister() {
-  return [](scene::FlaggedMesh scene) { return std::make_unique<FastLister>(std::move(scene)); };
+ListerMaker fast_lister(std::uint64_t effort) {
+  return [effort](scene::FlaggedMesh scene) { return std::make_unique<FastLister>(std::move(scene), effort); };
 }
+
 void bake(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, scene::BakeStore& store,
           const ListerMaker& make_lister, std::uint32_t shard, std::uint32_t shards, const std::atomic<bool>& stop,
           const BakeProgress& progress) {

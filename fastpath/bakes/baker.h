@@ -31,7 +31,8 @@ class CellLister {
 };
 using ListerMaker = std::function<std::unique_ptr<CellLister>(scene::FlaggedMesh scene)>;
 
-ListerMaker fast_lister();
+// `effort`: LocalMapOptions.
+ListerMaker fast_lister(std::uint64_t effort);
 
 // Called after each commit with how many cells are done.
 using BakeProgress = std::function<void(std::uint64_t cells)>;

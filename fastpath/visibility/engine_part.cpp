@@ -32,7 +32,14 @@ class EnginePart : public PartialMap {
 
 }  // namespace
 
-const LocalMap& ClosedScene::map() const { return static_cast<const EnginePart&>(*closure.map).map(); }
+const LocalMap* ClosedScene::map() const {
+  return closure.map ? &static_cast<const EnginePart&>(*closure.map).map() : nullptr;
+}
+
+std::uint64_t ClosedScene::fallbacks() const {
+  const std::uint64_t of_map = map() ? map()->counts().conservative_fallbacks + map()->conservative_labels() : 0;
+  return of_map + closure.unproved.size();
+}
 
 Box outside_of(const Bvh& bvh) {
   const LocalFrame& frame = bvh.frame();
@@ -49,8 +56,13 @@ ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, cons
                             std::span<const std::uint8_t> counting) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   exact::CutMemory memory;
-  const auto make_map = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids) {
-    return std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, options, &outside));
+  const auto make_map = [&](const scene::TriangleMesh& part,
+                            const std::vector<std::uint32_t>& ids) -> std::shared_ptr<const PartialMap> {
+    try {
+      return std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, options, &outside));
+    } catch (const EffortSpent&) {
+      return nullptr;
+    }
   };
   return {close_over_visible(bvh, Cell(exact_cell), make_map, kMappedWhole, options.dials, guess, counting)};
 }

@@ -13,8 +13,8 @@ namespace clues::fastpath {
 struct ClosedScene {
   Closure closure;
 
-  const LocalMap& map() const;
-  std::uint64_t fallbacks() const { return map().counts().conservative_fallbacks + map().conservative_labels(); }
+  const LocalMap* map() const;      // none: all were given up
+  std::uint64_t fallbacks() const;  // what is unproved are some, too
 };
 
 // The box of the scene, widened by far more than what boxes and points of the closure may be off.

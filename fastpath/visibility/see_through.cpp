@@ -46,7 +46,14 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
                                              scene::hull_of(outside_of(scene.blocking()), outside_of(scene.passing())),
                                              guessed, scene.blocking_that_count());
   SeeThroughList list;
-  for (const auto t : closed.map().visible()) list.blocking.push_back(scene.blocking_id(closed.closure.part[t]));
+  const LocalMap* map = closed.map();
+  std::vector<std::uint32_t> listed;
+  if (map) {
+    for (const auto t : map->visible()) listed.push_back(closed.closure.part[t]);
+  }
+  listed.insert(listed.end(), closed.closure.unproved.begin(), closed.closure.unproved.end());
+  std::sort(listed.begin(), listed.end());
+  for (const auto t : listed) list.blocking.push_back(scene.blocking_id(t));
   auto passing = not_proved_dark(scene.passing(), closed.closure, scene.blocking(), Cell(cell));
   const auto met = meeting_the_cell(scene.passing(), cell);
   std::vector<std::uint32_t> all;
@@ -54,7 +61,7 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
   for (const auto t : all) list.passing.push_back(scene.passing_id(t));
   list.mapped = closed.closure.part.size();
   list.passes = closed.closure.counts.passes;
-  list.walks = closed.map().counts().walks;
+  list.walks = map ? map->counts().walks : 0;
   list.conservative_fallbacks = closed.fallbacks();
   return list;
 }

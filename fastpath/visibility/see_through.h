@@ -53,7 +53,7 @@ struct SeeThroughList {
 };
 
 // The same for any number of threads of the current arena. `guess`: triangles that are mapped from the start (closure.h), ids of the scene; those that do not
-// block are passed over. Errors as of first_order_visibility.
+// block are passed over. Where options.effort is spent what is not proved to be hidden is listed, and counts as a fallback. Errors as of first_order_visibility.
 SeeThroughList visible_through(const SeeThroughScene& scene, const std::vector<Point>& cell,
                                const LocalMapOptions& options, std::span<const std::uint32_t> guess = {});
 

@@ -381,7 +381,7 @@ class BakesTrial : public Trial {
 }  // namespace
 
 BakeMakers our_bake_makers() {
-  return {fastpath::bakes::fast_lister(), validate::exact_lister(), fastpath::bakes::add_groups};
+  return {fastpath::bakes::fast_lister(0), validate::exact_lister(), fastpath::bakes::add_groups};
 }
 
 std::unique_ptr<Trial> make_bakes_trial(BakeMakers makers) { return std::make_unique<BakesTrial>(std::move(makers)); }

@@ -10,6 +10,7 @@
 
 #include "fastpath/queries/bvh.h"
 #include "fastpath/visibility/first_order.h"
+#include "fastpath/visibility/see_through.h"
 #include "fuzz/generators/city.h"
 #include "fuzz/generators/parts.h"
 #include "fuzz/generators/random.h"
@@ -251,6 +252,91 @@ TEST(Closure, NeedsNoProofOfWhatDoesNotCount) {
   }
   EXPECT_LE(mapped, mapped_of_all);
   EXPECT_LE(listed, visible + visible / 10);
+}
+
+// Whichever map is given up: what is visible is listed, as light meets it in the map before or as there is no proof. And what is listed without need is no more than what lacks a proof.
+TEST(Closure, ListsWhatIsVisibleWhereAMapIsGivenUp) {
+  const auto mesh = fuzz::make_city(100, 1);
+  const auto cell = fuzz::street_cell(100, 1);
+  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
+  const auto whole = reference::first_order_visibility(mesh, exact_cell, {}).visible;
+  const auto make_map = reference_parts(exact_cell, PartBug::none);
+  const fastpath::Bvh bvh(mesh);
+  std::size_t listed_before = mesh.triangles.size() + 1, given_up = 0;
+  for (std::uint64_t most = 0;; ++most) {
+    SCOPED_TRACE(most);
+    std::uint64_t made = 0;
+    const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids) {
+      return made++ < most ? make_map(part, ids) : nullptr;
+    };
+    // Without rays, which find nearly all at once, there are several maps.
+    exact::Dials dials;
+    dials.sight_rays = 0;
+    dials.batch = 10;
+    const auto closure = fastpath::close_over_visible(bvh, fastpath::Cell(cell), some, 0, dials);
+    std::vector<std::uint32_t> listed;
+    std::set_union(closure.visible.begin(), closure.visible.end(), closure.unproved.begin(), closure.unproved.end(),
+                   std::back_inserter(listed));
+    EXPECT_TRUE(std::includes(listed.begin(), listed.end(), whole.begin(), whole.end()));
+    EXPECT_EQ(closure.visible.size() + closure.unproved.size(), listed.size());
+    if (most == 0) {
+      EXPECT_FALSE(closure.map);
+      EXPECT_EQ(listed.size(), mesh.triangles.size());
+    }
+    if (made <= most) {
+      EXPECT_TRUE(closure.unproved.empty());
+      EXPECT_EQ(listed, whole);
+      break;
+    }
+    ++given_up;
+    EXPECT_LE(listed.size(), listed_before);
+    listed_before = listed.size();
+  }
+  EXPECT_LT(listed_before, mesh.triangles.size());
+  EXPECT_GT(given_up, 2);
+}
+
+// By the engine itself, which gives up when its effort is spent.
+TEST(Closure, AnEffortThatIsSpentListsMoreAndNothingLess) {
+  scene::FlaggedMesh scene;
+  scene.mesh = fuzz::make_city(1000, 1);
+  for (std::size_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    scene.blocks.push_back(t % 7 == 0 ? 0 : 1);
+    scene.counts.push_back(t % 7 == 1 ? 0 : 1);
+  }
+  const auto cell = fuzz::street_cell(1000, 1);
+  const fastpath::SeeThroughScene through(scene);
+  const auto listed_with = [&](std::uint64_t effort) {
+    fastpath::LocalMapOptions options;
+    options.effort = effort;
+    options.dials.sight_rays = 0;  // so that there are several maps
+    options.dials.batch = 30;
+    return fastpath::visible_through(through, cell, options);
+  };
+  const auto whole = listed_with(0);
+  EXPECT_EQ(whole.conservative_fallbacks, 0U);
+  const auto whole_list = whole.counting(scene);
+  std::size_t spent = 0, after_a_map = 0;
+  for (const std::uint64_t effort : {1, 4, 16, 1000}) {
+    SCOPED_TRACE(effort);
+    const auto some = listed_with(effort);
+    const auto list = some.counting(scene);
+    EXPECT_TRUE(std::includes(list.begin(), list.end(), whole_list.begin(), whole_list.end()));
+    if (some.conservative_fallbacks == 0) {
+      EXPECT_EQ(some.all(), whole.all());
+      continue;
+    }
+    ++spent;
+    EXPECT_GT(list.size(), whole_list.size());
+    if (some.mapped == 0) {
+      EXPECT_EQ(some.all().size(), scene.mesh.triangles.size());
+    } else {
+      ++after_a_map;
+      EXPECT_LT(list.size(), scene.mesh.triangles.size());
+    }
+  }
+  EXPECT_EQ(spent, 3U);
+  EXPECT_EQ(after_a_map, 2U);
 }
 
 TEST(Closure, IsTheSameForAnyNumberOfThreads) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "fastpath/visibility/closure/darkness.h"
@@ -46,6 +47,8 @@ class Closer {
   scene::TriangleMesh part_mesh();
   // Tries to prove every triangle outside the part dark; adds what is in the way of that, and drops what light does not touch. False: it stays as it is, and all that count are dark.
   bool add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible);
+  // All triangles outside the part of this closure for which its map gives no proof, ascending; all, if it has none.
+  std::vector<std::uint32_t> unproved_by(const Closure& closure);
 
   ClosureCounts counts;
 
@@ -182,10 +185,30 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   return true;
 }
 
+std::vector<std::uint32_t> Closer::unproved_by(const Closure& closure) {
+  std::vector<std::uint32_t> unproved;
+  if (!closure.map) {
+    unproved.resize(in_part_.size());
+    std::iota(unproved.begin(), unproved.end(), 0U);
+    return unproved;
+  }
+  const Darkness darkness(*closure.map, bvh_, closure.part, closure.visible, cell_.vertices());
+  unproved = darkness.not_proved(
+      bvh_, [&](std::uint32_t t) { return std::binary_search(closure.part.begin(), closure.part.end(), t); },
+      [](std::uint32_t) { return true; }, in_part_.size(), proved_, counts);
+  std::sort(unproved.begin(), unproved.end());
+  return unproved;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene,
                                            const Cell& cell) {
+  if (!closure.map) {
+    std::vector<std::uint32_t> all(others.mesh().triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    return all;
+  }
   const Darkness darkness(*closure.map, scene, closure.part, closure.visible, cell.vertices());
   ClosureCounts uncounted;
   ProvedDark proved(others);
@@ -212,8 +235,14 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
   Closure result;
   do {
     ++closer.counts.passes;
-    result.part_mesh = closer.part_mesh();
-    result.map = make_map(result.part_mesh, closer.part());
+    scene::TriangleMesh mesh = closer.part_mesh();
+    auto map = make_map(mesh, closer.part());
+    if (!map) {
+      result.unproved = closer.unproved_by(result);
+      break;
+    }
+    result.part_mesh = std::move(mesh);
+    result.map = std::move(map);
     result.part = closer.part();
     result.visible.clear();
     for (const std::uint32_t i : result.map->visible()) result.visible.push_back(result.part[i]);

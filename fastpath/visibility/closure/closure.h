@@ -13,6 +13,9 @@
 // label, so one point proves a whole subtree of the BVH dark. Where a proof fails K grows by what is in front. What light does not touch in K is dark and leaves it: no wedge ends there, so
 // the map is the same without it. Then the loop runs again with what is left. When nothing is, K is as the theorem wants it, as only what is dark is not in it; K may hold too much.
 //
+// Where a map is given up the one before stands, whatever K became since: what is not proved to lie outside Omega of its part is listed, whether light meets it or not (`unproved`). If there is
+// none, all is.
+//
 // Where some triangles do not count (D22: the hulls of a level) nobody needs a proof about them: the loop ends when those that count are mapped or proved, and what light meets in
 // Omega(K) is listed, of which Omega(S) is a part. It may be more: light may come past what was left out. So that little does, K grows, too, by those without a proof that sight lines meet on
 // their way to what is asked about, or is listed and has been seen by no ray (once each).
@@ -53,7 +56,7 @@ class PartialMap {
   virtual bool piece_may_touch(const Corners& triangle) const = 0;
 };
 
-// Makes the map of a part of the scene, for the same cell. `ids` are those of the part's triangles in the scene, ascending.
+// Makes the map of a part of the scene, for the same cell. `ids` are those of the part's triangles in the scene, ascending. None: it is given up, as it takes too much effort.
 using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(const scene::TriangleMesh& part,
                                                                         const std::vector<std::uint32_t>& ids)>;
 
@@ -67,10 +70,13 @@ struct ClosureCounts {
 };
 
 struct Closure {
-  std::vector<std::uint32_t> part;     // K: ids of the scene, ascending; triangle i of the map is part[i]
-  std::vector<std::uint32_t> visible;  // the PVS: ids of the scene, ascending
+  std::vector<std::uint32_t> part;  // K: ids of the scene, ascending; triangle i of the map is part[i]
+  std::vector<std::uint32_t>
+      visible;  // of the part, what light meets: ids of the scene, ascending. With what follows it is the PVS.
+  std::vector<std::uint32_t>
+      unproved;  // where a map was given up: what is not in the part and not proved to be dark; ascending
   scene::TriangleMesh part_mesh;
-  std::shared_ptr<const PartialMap> map;
+  std::shared_ptr<const PartialMap> map;  // none: all maps were given up, and all of the scene is unproved
   ClosureCounts counts;
 };
 

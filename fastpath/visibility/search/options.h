@@ -9,9 +9,17 @@ namespace clues::fastpath {
 
 enum class SideMode : std::uint8_t { sheet, solid };  // D4
 
+// What making a map throws that would take more effort than it was given.
+struct EffortSpent {};
+
 struct LocalMapOptions {
   SideMode mode = SideMode::sheet;  // solid: only fronts count. That the mesh is closed is for the caller to know.
   exact::Dials dials;               // the limits of D17, and what else only tests turn
+  // How much effort a map may take for each of its triangles, which count as kLeastTriangles if they are fewer; beyond that EffortSpent is thrown. 0: without end.
+  // A wedge piece of generation g takes (1 + g)^2 in each round, as the numbers that decide about it grow with g: most maps take 50 to 500, and 3 to 13 microseconds each.
+  // No time is taken, so it is the same in every run.
+  std::uint64_t effort = 0;
+  static constexpr std::uint64_t kLeastTriangles = 512;
 };
 
 struct LocalMapCounts {

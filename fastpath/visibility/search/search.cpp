@@ -287,7 +287,15 @@ class Search::Work {
                      [&](std::size_t i, Workers::Worker&) { made[i] = pieces_of(jobs[i], *slot(jobs[i])); });
     std::vector<ValidPiece> batch;
     for (const auto& list : made) batch.insert(batch.end(), list.begin(), list.end());
+    spend_effort_on(batch);
     return batch;
+  }
+
+  void spend_effort_on(const std::vector<ValidPiece>& batch) {
+    if (options.effort == 0) return;
+    for (const ValidPiece& piece : batch)
+      effort += static_cast<std::uint64_t>((1 + piece.generation) * (1 + piece.generation));
+    if (effort / std::max(scene.triangles, LocalMapOptions::kLeastTriangles) >= options.effort) throw EffortSpent{};
   }
 
   std::vector<ValidPiece> pieces_of(const Job& job, const OnWedge& on) const {
@@ -409,6 +417,7 @@ class Search::Work {
   std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
   CoplanarCuts coplanar_cuts;
   std::set<const Contact*> csvs_met;  // in this round
+  std::uint64_t effort = 0;           // of all rounds (options.h)
   PiecesBefore pieces_before;
   std::set<const Contact*> left_out_contacts;
   LeftOut left_out;
