@@ -47,11 +47,10 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
                                              guessed, scene.blocking_that_count());
   SeeThroughList list;
   const LocalMap* map = closed.map();
-  std::vector<std::uint32_t> listed;
+  std::vector<std::uint32_t> listed = closed.closure.unproved;
   if (map) {
     for (const auto t : map->visible()) listed.push_back(closed.closure.part[t]);
   }
-  listed.insert(listed.end(), closed.closure.unproved.begin(), closed.closure.unproved.end());
   std::sort(listed.begin(), listed.end());
   for (const auto t : listed) list.blocking.push_back(scene.blocking_id(t));
   auto passing = not_proved_dark(scene.passing(), closed.closure, scene.blocking(), Cell(cell));

@@ -185,38 +185,38 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   return true;
 }
 
-std::vector<std::uint32_t> Closer::unproved_by(const Closure& closure) {
-  std::vector<std::uint32_t> unproved;
+// Triangles of the tree for which the closure's map gives no proof, but for those that are skipped or proved before; all, if it has no map. Ascending.
+std::vector<std::uint32_t> not_proved_by(const Closure& closure, const Bvh& scene, const Cell& cell, const Bvh& tree,
+                                         const Darkness::Which& skip, ProvedDark& proved, ClosureCounts& figures) {
+  const std::size_t all = tree.mesh().triangles.size();
+  std::vector<std::uint32_t> left;
   if (!closure.map) {
-    unproved.resize(in_part_.size());
-    std::iota(unproved.begin(), unproved.end(), 0U);
-    return unproved;
+    left.resize(all);
+    std::iota(left.begin(), left.end(), 0U);
+    return left;
   }
-  const Darkness darkness(*closure.map, bvh_, closure.part, closure.visible, cell_.vertices());
-  unproved = darkness.not_proved(
-      bvh_, [&](std::uint32_t t) { return std::binary_search(closure.part.begin(), closure.part.end(), t); },
-      [](std::uint32_t) { return true; }, in_part_.size(), proved_, counts);
-  std::sort(unproved.begin(), unproved.end());
-  return unproved;
+  const Darkness darkness(*closure.map, scene, closure.part, closure.visible, cell.vertices());
+  left = darkness.not_proved(
+      tree, skip, [](std::uint32_t) { return true; }, all, proved, figures);
+  std::sort(left.begin(), left.end());
+  return left;
+}
+
+std::vector<std::uint32_t> Closer::unproved_by(const Closure& closure) {
+  const auto in_its_part = [&](std::uint32_t t) {
+    return std::binary_search(closure.part.begin(), closure.part.end(), t);
+  };
+  return not_proved_by(closure, bvh_, cell_, bvh_, in_its_part, proved_, counts);
 }
 
 }  // namespace
 
 std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene,
                                            const Cell& cell) {
-  if (!closure.map) {
-    std::vector<std::uint32_t> all(others.mesh().triangles.size());
-    std::iota(all.begin(), all.end(), 0U);
-    return all;
-  }
-  const Darkness darkness(*closure.map, scene, closure.part, closure.visible, cell.vertices());
   ClosureCounts uncounted;
   ProvedDark proved(others);
-  auto left = darkness.not_proved(
-      others, [](std::uint32_t) { return false; }, [](std::uint32_t) { return true; }, others.mesh().triangles.size(),
-      proved, uncounted);
-  std::sort(left.begin(), left.end());
-  return left;
+  return not_proved_by(
+      closure, scene, cell, others, [](std::uint32_t) { return false; }, proved, uncounted);
 }
 
 Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map, std::size_t whole,
