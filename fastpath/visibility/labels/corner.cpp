@@ -15,6 +15,11 @@ using V = Vec3<Integer>;
 
 int side(const V& f, const V& d) { return dot(f, d).sign(); }
 
+bool points_like(const V& a, const V& b) {
+  const V c = cross(a, b);
+  return c.x.sign() == 0 && c.y.sign() == 0 && c.z.sign() == 0 && side(a, b) > 0;
+}
+
 // f with f * n > 0 for all of the first and f * v <= 0 for all of the second: the sum of the extreme ones among those that satisfy both weakly, each normal to two of the vectors.
 std::optional<V> separating(const std::vector<V>& positive, const std::vector<V>& others) {
   std::vector<V> all = positive;
@@ -47,6 +52,35 @@ bool is_dark_corner(const LocalScene& scene, std::uint32_t point, const ExactPoi
     const std::optional<V> f = separating(star.border_of(face), to_cell);
     // All arcs of the border are on the positive side. So is the face, or else it holds all of the other side.
     return f && star.face_of(-*f) != face;
+  } catch (const scene::Error& error) {
+    if (error.code() != scene::ErrorCode::internal) throw;
+    return false;
+  }
+}
+
+bool closes_groove(const LocalScene& scene, std::span<const GrooveEnd> ends, const ExactPoint& q) {
+  struct At {
+    Star<Integer> star;
+    std::vector<int> face;
+  };
+  std::vector<At> all;
+  std::vector<V> positive, others;
+  try {
+    for (const GrooveEnd& end : ends) {
+      const ExactPoint& y = scene.points[end.point];
+      const LocalEdge& e = scene.edges[end.edge];
+      const Star<Integer> star(scene, false, end.point, &y, arcs_around(scene, false, end.point));
+      const V along = star.to(scene.points[e.a == end.point ? e.b : e.a]);
+      const std::vector<int> face = star.face_of(star.moved({along, star.to(q), {}, {}}));
+      for (const V& n : star.border_of(face)) {
+        if (!points_like(n, along)) positive.push_back(n);
+      }
+      others.insert(others.end(), {along, -along});
+      for (const ExactPoint& s : scene.cell.vertices) others.push_back(star.to(s));
+      all.push_back({star, face});
+    }
+    const std::optional<V> f = separating(positive, others);
+    return f && std::none_of(all.begin(), all.end(), [&](const At& at) { return at.star.face_of(-*f) == at.face; });
   } catch (const scene::Error& error) {
     if (error.code() != scene::ErrorCode::internal) throw;
     return false;

@@ -55,18 +55,15 @@ bool Walker::is_whole_at(std::uint32_t point, std::uint32_t from, std::uint32_t 
 
 Walker::Chain Walker::chain_of(std::size_t first, const std::vector<std::uint32_t>& edges, const Surface& a,
                                const Surface& b) const {
-  struct End {
-    std::uint32_t point, edge;
-  };
   const std::uint32_t e0 = edges[first];
-  std::array<End, 2> ends{End{scene_->edges[e0].a, e0}, End{scene_->edges[e0].b, e0}};
+  Chain ends{GrooveEnd{scene_->edges[e0].a, e0}, GrooveEnd{scene_->edges[e0].b, e0}};
   std::vector<bool> used(edges.size(), false);
   used[first] = true;
   for (bool grown = true; grown;) {
     grown = false;
     for (std::size_t i = 0; i < edges.size(); ++i) {
       const LocalEdge& e = scene_->edges[edges[i]];
-      for (End& end : ends) {
+      for (GrooveEnd& end : ends) {
         if (used[i] || (e.a != end.point && e.b != end.point)) continue;
         if (!is_whole_at(end.point, end.edge, edges[i], a, b) || !is_whole_at(end.point, end.edge, edges[i], b, a))
           continue;
@@ -75,10 +72,10 @@ Walker::Chain Walker::chain_of(std::size_t first, const std::vector<std::uint32_
       }
     }
   }
-  return {ends[0].point, ends[1].point};
+  return ends;
 }
 
-Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b, const std::optional<Chain>& ends) const {
+Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b, const std::optional<Ends>& ends) const {
   const auto& vertices = scene_->cell.vertices;
   return decide([&]<class NT>() {
     const auto height = [&](const Surface& s, const ExactPoint& x) {
@@ -95,12 +92,13 @@ Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b, const 
     const auto touch = [&](std::size_t i, const NT& from_j, std::size_t j, const NT& from_i) {
       touches = true;
       if (!ends) return;
-      const auto x = coordinates<NT>(scene_->points[(*ends)[0]]), y = coordinates<NT>(scene_->points[(*ends)[1]]);
+      const auto x = coordinates<NT>(scene_->points[ends->of[0].point]),
+                 y = coordinates<NT>(scene_->points[ends->of[1].point]);
       const auto past = [&](const Vec3<NT>& end) {
         const auto along = [&](std::size_t k) { return dot(y - x, coordinates<NT>(vertices[k]) - end); };
         return sign_of(NT(NT(from_j * along(i)) + NT(from_i * along(j))));
       };
-      upon_edge = upon_edge && past(x) >= 0 && past(y) <= 0;
+      upon_edge = upon_edge && (ends->closed[0] || past(x) >= 0) && (ends->closed[1] || past(y) <= 0);
     };
     for (std::size_t i = 0; i < ha.size(); ++i) {
       const int ai = sign_of(ha[i]), bi = sign_of(hb[i]);
@@ -124,28 +122,63 @@ Walker::Both Walker::in_front_of_both(const Surface& a, const Surface& b, const 
   });
 }
 
+bool Walker::is_dark_over(const Chain& chain, const Surface& on, const Surface& before, const ExactPoint& q) const {
+  const auto is_dark_with = [&](bool first_closed, bool second_closed) {
+    return in_front_of_both(on, before, Ends{chain, {first_closed, second_closed}}) == Both::apart;
+  };
+  if (is_dark_with(false, false)) return true;
+  if (!is_dark_with(true, true)) return false;
+  const std::size_t first = is_dark_with(false, true) ? 1 : 0, count = first == 1 || is_dark_with(true, false) ? 1 : 2;
+  const std::span<const GrooveEnd> passed = std::span(chain).subspan(first, count);  // V touches the line beyond these
+  const auto is_between_walls = [&](std::uint32_t piece) {
+    const auto& c = scene_->pieces[piece].corners;
+    return std::any_of(c.begin(), c.end(), [&](std::uint32_t i) {
+      return height_sign(on, scene_->points[i]) > 0 && height_sign(before, scene_->points[i]) > 0;
+    });
+  };
+  return std::none_of(passed.begin(), passed.end(),
+                      [&](const GrooveEnd& end) {
+                        const auto& pieces = scene_->edges[end.edge].pieces;
+                        return std::any_of(pieces.begin(), pieces.end(), is_between_walls);
+                      }) &&
+         closes_groove(*scene_, passed, q);
+}
+
+std::vector<const ExactPoint*> Walker::ends_of_groove(const Surface& a, const Surface& b, Pool& pool) const {
+  std::vector<const ExactPoint*> ends;
+  const auto note = [&](const ExactPoint* x) {
+    if (height_sign(b, *x) >= 0 &&
+        std::none_of(ends.begin(), ends.end(), [&](const ExactPoint* end) { return equal(*end, *x); }))
+      ends.push_back(x);
+  };
+  const auto& s = scene_->cell.vertices;
+  for (const ExactPoint& x : s) {
+    if (height_sign(a, x) >= 0) note(&x);
+  }
+  for (const ExactPoint& x : s) {
+    if (height_sign(a, x) <= 0) continue;
+    for (const ExactPoint& y : s) {
+      if (height_sign(a, y) <= 0) note(pool.keep(ExactPoint::on_plane(x, y, scene_->planes[a.piece])));
+    }
+  }
+  return ends;
+}
+
 const ExactPoint* Walker::along_groove(const ExactPoint& p, const Surface& on, const Surface& before,
                                        Pool& pool) const {
   const ExactPoint* far = in_front(on, nullptr, 0, pool);
   if (!far) return nullptr;
-  // Where the closed V touches the space in front of both: a vertex, or a point where an edge or a diagonal of V leaves the space in front of the first.
-  const auto& s = scene_->cell.vertices;
-  const ExactPoint* end = nullptr;
-  for (const ExactPoint& x : s) {
-    if (!end && height_sign(on, x) >= 0 && height_sign(before, x) >= 0) end = &x;
-  }
-  for (std::size_t i = 0; i < s.size() && !end; ++i) {
-    for (std::size_t j = 0; j < s.size() && !end; ++j) {
-      if (height_sign(on, s[i]) <= 0 || height_sign(on, s[j]) > 0) continue;
-      const ExactPoint* x = pool.keep(ExactPoint::on_plane(s[i], s[j], scene_->planes[on.piece]));
-      if (height_sign(before, *x) >= 0) end = x;
+  const Plane& wall = scene_->planes[before.piece];
+  const auto is_of_wall = [&](std::uint32_t piece) {  // which may be in many pieces
+    const auto& c = scene_->pieces[piece].corners;
+    return std::all_of(c.begin(), c.end(), [&](std::uint32_t i) { return wall.side(scene_->points[i]) == 0; });
+  };
+  for (const ExactPoint* end : ends_of_groove(on, before, pool)) {
+    for (int k = 3; k <= 60; k += 3) {
+      const ExactPoint v = ExactPoint::between(*end, *far, std::ldexp(1.0, -k));
+      const LocalScene::Last last = scene_->last_crossing(v, p);
+      if (!last.degenerate && !(last.piece && is_of_wall(*last.piece))) return pool.keep(v);
     }
-  }
-  if (!end) return nullptr;
-  for (int k = 3; k <= 60; k += 3) {
-    const ExactPoint v = ExactPoint::between(*end, *far, std::ldexp(1.0, -k));
-    const LocalScene::Last last = scene_->last_crossing(v, p);
-    if (!last.degenerate && last.piece != before.piece) return pool.keep(v);
   }
   return nullptr;
 }
@@ -185,7 +218,7 @@ bool Walker::leg_from_edge(Walk& walk, const Surface& on, const Surface& before,
     const double t = along / length;
     if (!(t > 0 && t < 1)) continue;
     // Where V touches the line beyond this chain of edges, sight lines come in through the gap.
-    if (how == Both::touch && in_front_of_both(on, before, chain_of(i, common, on, before)) != Both::apart) continue;
+    if (how == Both::touch && !is_dark_over(chain_of(i, common, on, before), on, before, *last.next)) continue;
     const ExactPoint* y = pool.keep(ExactPoint::between(a, b, t));
     if (scene_->cell.divides(*y, *last.next)) continue;
     const auto at_y = [&](std::uint32_t wall) {
@@ -195,7 +228,7 @@ bool Walker::leg_from_edge(Walk& walk, const Surface& on, const Surface& before,
     const auto at_edge =
         std::find_if(e.pieces.begin(), e.pieces.end(), [&](std::uint32_t t2) { return is_wall(t2, on, before); });
     if (at_edge == e.pieces.end()) continue;
-    walk.legs.push_back({y, last.next, nullptr, *at_edge, last.side, true, false});
+    walk.legs.push_back({y, last.next, nullptr, *at_edge, on.side, true, false});
     return true;
   }
   return false;
@@ -259,7 +292,7 @@ std::optional<std::uint32_t> Walker::piece_from(const ExactPoint& y, const Exact
 }
 
 // Several walls that meet in a corner, into which no point of V looks.
-bool Walker::corner_leg(Walk& walk) const {
+bool Walker::corner_leg(Walk& walk, Pool& pool) const {
   constexpr std::size_t kTurns = 6;
   const std::size_t n = walk.legs.size();
   if (n < kTurns || n % 3 != 0 || scene_->cell.dimension == 1) return false;  // leg_in_slice() sees to those
@@ -277,6 +310,16 @@ bool Walker::corner_leg(Walk& walk) const {
     if (is_blocked(y, *last.next, at_y) || !is_dark_corner(*scene_, corner, *last.next)) continue;
     walk.legs.push_back({&y, last.next, nullptr, last.piece, last.side, false, true});
     return true;
+  }
+  return leg_from_edge_at_corner(walk, pool);
+}
+
+bool Walker::leg_from_edge_at_corner(Walk& walk, Pool& pool) const {
+  const std::size_t n = walk.legs.size();
+  for (const auto& [i, j] : {std::pair(n - 1, n - 2), std::pair(n - 1, n - 3), std::pair(n - 2, n - 3)}) {
+    const Surface on{walk.legs[i].piece, walk.legs[i].side}, other{walk.legs[j].piece, walk.legs[j].side};
+    const Both how = in_front_of_both(on, other, std::nullopt);
+    if (how != Both::meet && leg_from_edge(walk, on, other, how, pool)) return true;
   }
   return false;
 }

@@ -103,7 +103,7 @@ Walk Walker::walk(const ExactPoint* p, Pool& pool, const Manner& manner, const M
   std::optional<Surface> on, before;
   int refused = 0;
   for (std::int64_t depth = 0; depth < longest_; ++depth) {
-    if (walk.legs.size() >= manner.least && corner_leg(walk)) {
+    if (walk.legs.size() >= manner.least && corner_leg(walk, pool)) {
       walk.end = Walk::End::surface;
       return walk;
     }

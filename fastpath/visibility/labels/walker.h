@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "exact/dials.h"
+#include "fastpath/visibility/labels/corner.h"
 #include "fastpath/visibility/labels/left_out.h"
 #include "fastpath/visibility/wedges/piece_set.h"
 
@@ -91,12 +92,18 @@ class Walker {
   // within 2^-3968 of a vertex. What is in front of a plane of doubles is: heights over it are multiples of 2^-3222, and below 2^400 in the standard range.
   const ExactPoint* in_front(const Surface& on, const Surface* also, std::uint64_t seed, Pool& pool) const;
   enum class Both : std::uint8_t { apart, touch, meet };  // V, or the closed V only, with the space in front of both
-  using Chain = std::array<std::uint32_t, 2>;             // the ends of edges that are connected
+  using Chain = std::array<GrooveEnd, 2>;                 // of edges that are connected
+  struct Ends {
+    const Chain& of;
+    std::array<bool, 2> closed{};  // nothing comes in there
+  };
 
   // ---- what does not end (grooves.cpp)
 
-  // Apart also if the closed V touches that space only upon this chain of common edges.
-  Both in_front_of_both(const Surface& a, const Surface& b, const std::optional<Chain>& chain) const;
+  // Apart also if the closed V touches that space only upon this chain of common edges, or past its closed ends.
+  Both in_front_of_both(const Surface& a, const Surface& b, const std::optional<Ends>& ends) const;
+  // Whether the groove over this chain, which q is in, is dark, though the closed V touches the space in front of both.
+  bool is_dark_over(const Chain& chain, const Surface& on, const Surface& before, const ExactPoint& q) const;
   // Whether the piece lies in the plane of a surface and in front of the other, at least in part.
   bool is_wall(std::uint32_t piece, const Surface& of, const Surface& other) const;
   // A wall of a groove is all of a flat surface, which others may cut into many pieces.
@@ -111,14 +118,16 @@ class Walker {
                    const Surface& other) const;
   // Those of such edges that are connected with number `first`, with no notch between.
   Chain chain_of(std::size_t first, const std::vector<std::uint32_t>& edges, const Surface& a, const Surface& b) const;
-  // A point of int V in front of `on`, from which the sight line to p comes in past the other wall, where the closed V
-  // touches the groove.
+  // A point of int V in front of `on`, close to where the closed V touches the groove, from which the sight line to p does not come in through the other wall; none, if none was found.
   const ExactPoint* along_groove(const ExactPoint& p, const Surface& on, const Surface& before, Pool& pool) const;
+  // Where it touches: vertices, and points where an edge or a diagonal of V leaves the space in front of the first.
+  std::vector<const ExactPoint*> ends_of_groove(const Surface& a, const Surface& b, Pool& pool) const;
   // Whether something stands between a place where walls meet and q, or may; without the pieces that `skip` says.
   template <class Skip>
   bool is_blocked(const ExactPoint& y, const ExactPoint& q, const Skip& skip) const;
   // Each adds the last leg of a walk that has none, if it can.
-  bool corner_leg(Walk& walk) const;
+  bool corner_leg(Walk& walk, Pool& pool) const;
+  bool leg_from_edge_at_corner(Walk& walk, Pool& pool) const;
   bool groove_leg(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
   bool leg_from_edge(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;
   bool leg_in_slice(Walk& walk, const Surface& on, const Surface& before, Both how, Pool& pool) const;

@@ -53,4 +53,35 @@ bool is_dark_corner(const exact::Complex& complex, const exact::ConvexCell& cell
   }
 }
 
+bool closes_groove(const exact::Complex& complex, const exact::ConvexCell& cell, const std::vector<GrooveEnd>& ends,
+                   const exact::Point3& q) {
+  struct At {
+    LocalStar star;
+    std::vector<int> face;
+  };
+  std::vector<At> all;
+  std::vector<Vector3> positive, others;
+  try {
+    for (const GrooveEnd& end : ends) {
+      const exact::Point3& y = complex.points[end.point];
+      const exact::Edge& e = complex.edges[end.edge];
+      const Vector3 along = complex.points[e.a == end.point ? e.b : e.a] - y;
+      const LocalStar star = LocalStar::around_vertex(complex, end.point);
+      const std::vector<int> face = star.face_of(star.nudged(along, q - y));
+      for (const Vector3& n : star.border_of(face)) {
+        const bool upon_chain = CGAL::cross_product(n, along) == CGAL::NULL_VECTOR && CGAL::is_positive(n * along);
+        if (!upon_chain) positive.push_back(n);
+      }
+      others.insert(others.end(), {along, -along});
+      for (const exact::Point3& s : cell.vertices()) others.push_back(s - y);
+      all.push_back({star, face});
+    }
+    const Vector3 f = separating(positive, others);
+    return f != CGAL::NULL_VECTOR &&
+           std::none_of(all.begin(), all.end(), [&](const At& at) { return at.star.face_of(-f) == at.face; });
+  } catch (const scene::Error&) {  // as above
+    return false;
+  }
+}
+
 }  // namespace clues::reference

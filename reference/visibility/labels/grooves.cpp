@@ -13,17 +13,21 @@ using exact::FT;
 using exact::Point3;
 using exact::Vector3;
 
-std::optional<Point3> Walker::end_of_groove(const SurfaceSide& one, const SurfaceSide& two) const {
+std::vector<Point3> Walker::ends_of_groove(const SurfaceSide& one, const SurfaceSide& two) const {
+  std::vector<Point3> ends;
+  const auto note = [&](const Point3& x) {
+    if (!CGAL::is_negative(height(one, x)) && !CGAL::is_negative(height(two, x)) &&
+        std::find(ends.begin(), ends.end(), x) == ends.end())
+      ends.push_back(exact::collapsed(x));
+  };
   for (const Point3& x : scene_->cell().vertices()) {
-    if (!CGAL::is_negative(height(one, x)) && !CGAL::is_negative(height(two, x))) return x;
+    if (!CGAL::is_negative(height(one, x))) note(x);
   }
-  std::optional<Point3> found;
   leaves(one, [&](const Point3&, const Point3& x) {
-    if (CGAL::is_negative(height(two, x))) return false;
-    found = exact::collapsed(x);
-    return true;
+    note(x);
+    return false;
   });
-  return found;
+  return ends;
 }
 
 bool Walker::is_wall(std::uint32_t piece, const SurfaceSide& in, const SurfaceSide& before) const {
@@ -82,19 +86,11 @@ bool Walker::is_whole_at(std::uint32_t point, std::uint32_t from, std::uint32_t 
   return true;
 }
 
-bool Walker::touches_only(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two) const {
-  std::vector<Point3> shared;  // by V and the closed groove: what is extreme among it, and more
-  bool on_line = true;
-  const auto note = [&](const Point3& x) {
-    if (CGAL::is_negative(height(one, x)) || CGAL::is_negative(height(two, x))) return false;
-    on_line = CGAL::is_zero(height(one, x)) && CGAL::is_zero(height(two, x));
-    shared.push_back(x);
-    return !on_line;
-  };
-  const std::vector<Point3>& s = scene_->cell().vertices();
-  if (std::any_of(s.begin(), s.end(), note)) return false;
-  leaves(one, [&](const Point3&, const Point3& x) { return note(x); });
-  if (!on_line) return false;
+bool Walker::is_dark_over(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two, const Point3& q) const {
+  const std::vector<Point3> shared = ends_of_groove(one, two);
+  if (std::any_of(shared.begin(), shared.end(),
+                  [&](const Point3& x) { return !CGAL::is_zero(height(one, x)) || !CGAL::is_zero(height(two, x)); }))
+    return false;
 
   // From the edge on, both ways along its line, as far as both walls stand: beyond, sight lines may come in.
   const exact::Complex& complex = scene_->complex();
@@ -112,27 +108,54 @@ bool Walker::touches_only(std::uint32_t edge, const SurfaceSide& one, const Surf
     }
     return std::nullopt;
   };
+  std::vector<GrooveEnd> passed;  // ends that V touches the line beyond
   for (const std::size_t i : {0U, 1U}) {
     std::uint32_t last = edge;
     while (const auto id = next(last, ends[i], ends[1 - i])) {
       last = *id;
       ends[i] = complex.edges[last].a == ends[i] ? complex.edges[last].b : complex.edges[last].a;
     }
+    const Point3 &from = complex.points[ends[1 - i]], &end = complex.points[ends[i]];
+    if (std::any_of(shared.begin(), shared.end(), [&](const Point3& x) {
+          return x != end && CGAL::collinear_are_strictly_ordered_along_line(from, end, x);
+        }))
+      passed.push_back({ends[i], last});
   }
-  return std::all_of(shared.begin(), shared.end(), [&](const Point3& x) {
-    return CGAL::collinear_are_ordered_along_line(complex.points[ends[0]], x, complex.points[ends[1]]);
-  });
+  const auto is_between_walls = [&](std::uint32_t piece) {
+    const auto& c = complex.pieces[piece].corners;
+    return std::any_of(c.begin(), c.end(), [&](auto i) {
+      return CGAL::is_positive(height(one, complex.points[i])) && CGAL::is_positive(height(two, complex.points[i]));
+    });
+  };
+  return std::none_of(passed.begin(), passed.end(),
+                      [&](const GrooveEnd& end) {
+                        const auto& pieces = complex.edges[end.edge].pieces;
+                        return std::any_of(pieces.begin(), pieces.end(), is_between_walls);
+                      }) &&
+         (passed.empty() || closes_groove(complex, scene_->cell(), passed, q));
 }
 
 std::optional<Point3> Walker::along_groove(const Point3& p, const SurfaceSide& on, const SurfaceSide& before,
-                                           const Point3& end) const {
-  // Ever nearer to the end, by powers of 8; mostly the first ones will do, or none, as the wall before holds the end.
+                                           const std::vector<Point3>& ends) const {
+  // Ever nearer to an end, by powers of 8; mostly the first ones will do, or none, as the wall before holds the end.
   constexpr int kPulls[] = {0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 63};
+  const exact::Complex& complex = scene_->complex();
   const Point3 far =
       choose(0, anchor_beyond(on, nullptr), [&](const Point3& x) { return CGAL::is_positive(height(on, x)); });
-  for (const int pull : kPulls) {
-    const Point3 v = exact::collapsed(end + FT(std::ldexp(1, -3 * pull)) * (far - end));
-    if (!scene_->meets(v, p, before.piece) && !scene_->crossings(v, p).degenerate) return v;
+  // The wall may be in many pieces.
+  const auto comes_through_it = [&](const exact::SegmentAnswer& answer) {
+    if (answer.hits.empty()) return false;
+    const auto& c = complex.pieces[answer.hits.back().piece].corners;
+    return std::all_of(c.begin(), c.end(),
+                       [&](auto i) { return complex.planes[before.piece].has_on(complex.points[i]); });
+  };
+  for (const Point3& end : ends) {
+    for (const int pull : kPulls) {
+      const Point3 v = exact::collapsed(end + FT(std::ldexp(1, -3 * pull)) * (far - end));
+      if (scene_->meets(v, p, before.piece)) continue;
+      const exact::SegmentAnswer answer = scene_->crossings(v, p);
+      if (!answer.degenerate && !comes_through_it(answer)) return v;
+    }
   }
   return std::nullopt;
 }
@@ -161,7 +184,7 @@ std::optional<Leg> Walker::leg_from_edge(const SurfaceSide& wall, const SurfaceS
     const Point3 &a = complex.points[e.a], &b = complex.points[e.b];
     const FT t = ((q - a) * (b - a)) / ((b - a) * (b - a));
     if (!CGAL::is_positive(t) || t >= FT(1)) continue;
-    if (!apart && !touches_only(id, wall, other)) continue;
+    if (!apart && !is_dark_over(id, wall, other, q)) continue;
     const Point3 y = exact::collapsed(a + t * (b - a));  // the foot of q on the edge
     if (divided_by_cell(y, q)) continue;
     if (!scene_->crossings(q, y).is_clear()) return std::nullopt;
@@ -240,6 +263,18 @@ std::optional<Leg> Walker::corner_leg(const Walk& walk) const {
     if (divided_by_cell(y, q)) continue;
     if (!scene_->crossings(q, y).is_clear()) continue;
     if (is_dark_corner(complex, scene_->cell(), corner, q - y)) return Leg{y, q, last.piece, last.front, false, true};
+  }
+  return leg_from_edge_at_corner(walk);
+}
+
+std::optional<Leg> Walker::leg_from_edge_at_corner(const Walk& walk) const {
+  const std::size_t n = walk.legs.size();
+  const Point3 q = exact::collapsed(CGAL::midpoint(walk.legs[n - 1].m, walk.legs[n - 1].p));
+  for (const auto& [i, j] : {std::pair(n - 1, n - 2), std::pair(n - 1, n - 3), std::pair(n - 2, n - 3)}) {
+    const SurfaceSide wall{walk.legs[i].piece, walk.legs[i].front}, other{walk.legs[j].piece, walk.legs[j].front};
+    if (anchor_beyond(wall, &other) || !CGAL::is_positive(height(wall, q)) || !CGAL::is_positive(height(other, q)))
+      continue;
+    if (const std::optional<Leg> leg = leg_from_edge(wall, other, q, ends_of_groove(wall, other).empty())) return leg;
   }
   return std::nullopt;
 }

@@ -215,12 +215,12 @@ Walk Walker::walk(const Start& start, std::uint64_t seed, std::size_t least) con
         if (both) {
           anchor = both;
         } else {
-          const std::optional<Point3> end = end_of_groove(*surface, *before);
-          if (const std::optional<Leg> leg = may_end_in_the_dark ? groove_leg(walk, !end) : std::nullopt) {
+          const std::vector<Point3> ends = ends_of_groove(*surface, *before);
+          if (const std::optional<Leg> leg = may_end_in_the_dark ? groove_leg(walk, ends.empty()) : std::nullopt) {
             walk.legs.push_back(*leg);
             return walk;
           }
-          if (end) along = along_groove(p, *surface, *before, *end);
+          if (!ends.empty()) along = along_groove(p, *surface, *before, ends);
           before.reset();
         }
       }

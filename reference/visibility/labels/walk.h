@@ -11,7 +11,9 @@
 // the groove, zero on the edge and at most zero on V; let s be linear, the distance from the end along the edge, and at least zero where V has f = 0. As V is a
 // polytope, f <= k s holds on V where s < 0, for some k > 0; then f - r s is at most zero on V for all r in [0,k], and the less r is, the flatter is the tent.
 // Edges that carry both walls on along the line, without a notch between their pieces, count as one edge. Where V touches the line elsewhere, sight lines nearly along the edge come in at the
-// groove's end, past the walls, however near the edge p is: then the walk looks that way.
+// groove's end, past the walls, however near the edge p is: then the walk looks that way. Unless something closes that end, as a ceiling does over two walls: if f is positive on the border of
+// the local face there, but for the edge, all of that face next to the end is where f is positive, and so is the tent between it and the plane where f is a small constant, which nothing enters from V,
+// where f is at most zero (corner.h). No plane through this end is needed then.
 //
 // With a segment as cell, all of a walk lies in one plane with it, a slice, and what is seen there is a matter of the slice
 // alone: no sight line leaves it, no continuation, and no wedge that only separates (T10) divides it. So such a walk ends by
@@ -127,13 +129,13 @@ class Walker {
 
   // ---- what does not end (grooves.cpp)
 
-  // A point of the closed V in both closed half spaces, for two walls that no point of V is strictly in front of at once;
-  // none if V keeps away.
-  std::optional<exact::Point3> end_of_groove(const SurfaceSide& one, const SurfaceSide& two) const;
-  // v in int V near `end`, strictly in front of `on`, such that the sight line to p does not cross `before`; none was
+  // Points of the closed V in both closed half spaces, for two walls that no point of V is strictly in front of at once: what is extreme of V there, and more.
+  // None if V keeps away.
+  std::vector<exact::Point3> ends_of_groove(const SurfaceSide& one, const SurfaceSide& two) const;
+  // v in int V near one of these ends, strictly in front of `on`, such that the sight line to p does not come through the wall `before` last; none was
   // found: nullopt.
   std::optional<exact::Point3> along_groove(const exact::Point3& p, const SurfaceSide& on, const SurfaceSide& before,
-                                            const exact::Point3& end) const;
+                                            const std::vector<exact::Point3>& ends) const;
   // Whether the piece lies in the plane of the side `in` and in front of `before`, at least in part.
   bool is_wall(std::uint32_t piece, const SurfaceSide& in, const SurfaceSide& before) const;
   // Whether pieces of both walls of a groove meet in the edge.
@@ -148,14 +150,16 @@ class Walker {
   // the line sees along the groove through it, however near the edge.
   bool is_whole_at(std::uint32_t point, std::uint32_t from, std::uint32_t to, const SurfaceSide& wall,
                    const SurfaceSide& other) const;
-  // Whether V and the closed groove between two walls that meet in this edge share nothing but points of the edge, and of
-  // the edges that carry both walls on along its line without a gap.
-  bool touches_only(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two) const;
+  // Whether V and the closed groove between two walls that meet in this edge, which q is in, share nothing but points of the edge, and of
+  // the edges that carry both walls on along its line without a gap, and of that line beyond ends that are closed.
+  bool is_dark_over(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two, const exact::Point3& q) const;
   // Whether the plane of a flat cell divides the two. No sight line crosses it, and labels on its two sides have nothing to
   // do with each other (T10): a leg that is not part of a sight line may not cross it either.
   bool divided_by_cell(const exact::Point3& x, const exact::Point3& y) const;
   // The last leg of a walk that runs into a dark corner for ever.
   std::optional<Leg> corner_leg(const Walk& walk) const;
+  // Where it is dark because two of the walls there are those of a dark groove, which the others close.
+  std::optional<Leg> leg_from_edge_at_corner(const Walk& walk) const;
   // The last leg of a walk that runs into the groove between two pieces for ever. `apart`: V and the closed groove share no
   // point; else it is asked for the edge.
   std::optional<Leg> groove_leg(const Walk& walk, bool apart) const;
