@@ -337,6 +337,8 @@ const std::vector<DegenerateGenerator>& degenerate_generators() {
        "walls that meet in a line which the cell touches, with and without notches; something 1/2 to 2^-8 (dial) "
        "inside",
        grooves_on_cells},
+      {"grooves_with_lids", "the same, with something that closes the ends of the walls, or does not quite",
+       grooves_with_lids},
       {"floors_under_cells",
        "cells in the plane of a floor, walls on its seams, small triangles right above and below; of those many (dial "
        "4 "

@@ -266,8 +266,11 @@ GeneratedScene made(std::uint64_t seed, std::uint64_t index) {
 // Two walls, or more, that meet in a line upon the cell: one or two stretches of wall on each side of it (with a notch between them, or not), ends that are closed or open, something small inside.
 class Grooves {
  public:
-  Grooves(std::uint64_t seed, std::uint64_t index)
-      : random_(random_of(seed, index, 13)), depth_(std::ldexp(1, -1 - dial_of(index))) {}
+  enum class Ends : std::uint8_t { mostly_open, with_lids };
+  Grooves(std::uint64_t seed, std::uint64_t index, Ends ends)
+      : random_(random_of(seed, index, ends == Ends::with_lids ? 14 : 13)),
+        depth_(std::ldexp(1, -1 - dial_of(index))),
+        lids_(ends == Ends::with_lids) {}
 
   // The line is the first axis, the third leads into the groove; then all is turned and sheared.
   GeneratedScene make() {
@@ -275,7 +278,11 @@ class Grooves {
     const int middle = random_.between(-1, 1) * random_.between(0, 1);
     for (const int side : {-1, 1}) add_wall(side, joins ? middle : random_.between(-1, 1));
     for (const int end : {-1, 1}) {
-      if (random_.one_in(6)) add_across(end * random_.between(1, 3), random_.between(1, 2));
+      if (lids_) {
+        if (!random_.one_in(4)) add_lid(end);
+      } else if (random_.one_in(6)) {
+        add_across(end * random_.between(1, 3), random_.between(1, 2));
+      }
     }
     add_inside();
     add_cell();
@@ -290,7 +297,8 @@ class Grooves {
   void add_wall(int side, int middle) {
     const double lean = side * random_.between(1, 8) / 4.0;
     const auto up = [&](double x, double z) { return Point{x, lean * z, z}; };
-    const Point left{-quarter(2, 3), 0, 0}, right{quarter(2, 3), 0, 0}, at{static_cast<double>(middle), 0, 0};
+    const Point left{lids_ ? -kLid : -quarter(2, 3), 0, 0}, right{lids_ ? kLid : quarter(2, 3), 0, 0},
+        at{static_cast<double>(middle), 0, 0};
     if (random_.one_in(2)) return add(scene_.mesh, left, right, up(quarter(-2, 2), 1));
     const Point l = up(middle - random_.between(0, 6) / 4.0, 1), r = up(middle + random_.between(0, 6) / 4.0, 1);
     add(scene_.mesh, left, at, l);
@@ -301,6 +309,21 @@ class Grooves {
   // A triangle that stands across the groove, on the line.
   void add_across(double x, double height) {
     add(scene_.mesh, {x, 0, 0}, {x + quarter(-1, 1), 2 * height, height}, {x + quarter(-1, 1), -2 * height, height});
+  }
+
+  // Over both walls at their end, or over one of them and a little of the other; in one triangle or two; a little too high now and then.
+  void add_lid(int end) {
+    const double x = end * (random_.one_in(6) ? kLid + std::ldexp(1, -random_.between(2, 20)) : kLid);
+    const Point foot{x, 0, 0};
+    const auto far = [&](int side) {
+      const double wide = random_.one_in(4) ? random_.between(-1, 2) / 2.0 : 2.5;
+      return Point{x + quarter(-1, 1), side * wide, 1};
+    };
+    const Point left = far(-1), right = far(1);
+    if (random_.one_in(2)) return add(scene_.mesh, foot, left, right);
+    const Point middle{x + quarter(-1, 1), 0, 1.5};
+    add(scene_.mesh, foot, left, middle);
+    add(scene_.mesh, foot, middle, right);
   }
 
   void add_inside() {
@@ -347,7 +370,9 @@ class Grooves {
 
   Random random_;
   double depth_;
+  bool lids_;
   GeneratedScene scene_;
+  static constexpr double kLid = 2;  // where the walls end, if there are lids
 };
 
 }  // namespace
@@ -367,6 +392,11 @@ const std::vector<DegenerateGenerator>& touching_generators() {
   return all;
 }
 
-GeneratedScene grooves_on_cells(std::uint64_t seed, std::uint64_t index) { return Grooves(seed, index).make(); }
+GeneratedScene grooves_on_cells(std::uint64_t seed, std::uint64_t index) {
+  return Grooves(seed, index, Grooves::Ends::mostly_open).make();
+}
+GeneratedScene grooves_with_lids(std::uint64_t seed, std::uint64_t index) {
+  return Grooves(seed, index, Grooves::Ends::with_lids).make();
+}
 
 }  // namespace clues::fuzz
