@@ -259,9 +259,11 @@ void add_bake_command(CLI::App& program, int& status) {
           "  In glTF files and levels some triangles do not block (docs/real-levels.md). The fast kernel lists "
           "those of them that it\n"
           "  cannot prove to be hidden.\n"
-          "  Most maps take an effort of 50 to 500, and some had no end in minutes. Such a map is given up: what the "
-          "one before it does not\n"
-          "  prove to be hidden is listed. That is sound, and the list is longer; each triangle listed so counts as a "
+          "  Most maps take an effort of 50 to 500, and some had no end in minutes. Such a map is given up. Then a "
+          "level's\n"
+          "  cell is mapped with fewer hulls of brushes; where that takes too much, too, what the map before does not "
+          "prove\n"
+          "  to be hidden is listed. That is sound, and lists are longer; what is listed without a proof counts as a "
           "fallback.\n\n") +
       bake_cells_help +
       "\n\nEXAMPLES\n"

@@ -296,6 +296,57 @@ TEST(Closure, ListsWhatIsVisibleWhereAMapIsGivenUp) {
   EXPECT_GT(given_up, 2);
 }
 
+// Where some triangles do not count the part goes back to that of the map before, or to what counts of the first, and grows again without any more of those. Whichever map is given up, and a second one after it or
+// not: what counts and is visible is listed, and little else.
+TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
+  const auto mesh = fuzz::make_city(100, 1);
+  const auto cell = fuzz::street_cell(100, 1);
+  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
+  std::vector<std::uint8_t> counting(mesh.triangles.size(), 0);
+  for (std::size_t t = 0; t < counting.size(); t += 2) counting[t] = 1;
+  const auto whole = reference::first_order_visibility(mesh, exact_cell, {}).visible;
+  const auto make_map = reference_parts(exact_cell, PartBug::none);
+  const fastpath::Bvh bvh(mesh);
+  const auto counted = [&](const std::vector<std::uint32_t>& ids) {
+    return std::count_if(ids.begin(), ids.end(), [&](std::uint32_t t) { return counting[t] != 0; });
+  };
+  bool ended = false;
+  std::size_t came_to_an_end = 0;
+  for (std::uint64_t first = 0; !ended; ++first) {
+    for (const std::uint64_t second : {std::uint64_t{1000}, first + 1, first + 2}) {
+      SCOPED_TRACE(testing::Message() << first << ' ' << second);
+      std::uint64_t made = 0;
+      std::vector<std::vector<std::uint32_t>> hulls;  // of all maps asked for, what does not count
+      const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids) {
+        std::copy_if(ids.begin(), ids.end(), std::back_inserter(hulls.emplace_back()),
+                     [&](std::uint32_t t) { return counting[t] == 0; });
+        const std::uint64_t number = made++;
+        return number == first || number == second ? nullptr : make_map(part, ids);
+      };
+      exact::Dials dials;
+      dials.sight_rays = 0;
+      dials.batch = 10;
+      const auto closure = fastpath::close_over_visible(bvh, fastpath::Cell(cell), some, 0, dials, {}, counting);
+      std::vector<std::uint32_t> listed;
+      std::set_union(closure.visible.begin(), closure.visible.end(), closure.unproved.begin(), closure.unproved.end(),
+                     std::back_inserter(listed));
+      for (const std::uint32_t t : whole)
+        EXPECT_TRUE(counting[t] == 0 || std::binary_search(listed.begin(), listed.end(), t)) << t;
+      ended = made <= first;
+      if (ended) break;
+      for (std::size_t i = first + 1; i < hulls.size(); ++i) {
+        const auto& before = first == 0 ? std::vector<std::uint32_t>{} : hulls[first - 1];
+        EXPECT_TRUE(std::includes(before.begin(), before.end(), hulls[i].begin(), hulls[i].end())) << i;
+      }
+      if (made > second) continue;
+      ++came_to_an_end;
+      EXPECT_TRUE(closure.unproved.empty());
+      EXPECT_LT(counted(listed), counted(whole) + counted(whole) / 4 + 8);
+    }
+  }
+  EXPECT_GT(came_to_an_end, 2U);
+}
+
 // By the engine itself, which gives up when its effort is spent.
 TEST(Closure, AnEffortThatIsSpentListsMoreAndNothingLess) {
   scene::FlaggedMesh scene;

@@ -29,7 +29,9 @@ class Closer {
         looked_into_(in_part_.size(), 0) {}
 
   // Whether the part may grow by it. What has left it is dark and never comes back, though a ray that begins beside the cell by a rounding meets it: so each pass has what none had before.
-  bool is_new(std::uint32_t triangle) const { return in_part_[triangle] == 0 && proved_.triangles[triangle] == 0; }
+  bool is_new(std::uint32_t triangle) const {
+    return in_part_[triangle] == 0 && proved_.triangles[triangle] == 0 && (all_may_come_ || counts_in_list(triangle));
+  }
   // False if it is not.
   bool add(std::uint32_t triangle) {
     if (!is_new(triangle)) return false;
@@ -47,12 +49,16 @@ class Closer {
   scene::TriangleMesh part_mesh();
   // Tries to prove every triangle outside the part dark; adds what is in the way of that, and drops what light does not touch. False: it stays as it is, and all that count are dark.
   bool add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible);
+  // After a map is given up: back to the part of the map before, or, if there is none, to what counts of this one; and from now on nothing comes in that does not count. False: it has done so before, or
+  // all count.
+  bool go_on_with_what_counts(const Closure& closure);
   // All triangles outside the part of this closure for which its map gives no proof, ascending; all, if it has none.
   std::vector<std::uint32_t> unproved_by(const Closure& closure);
 
   ClosureCounts counts;
 
  private:
+  bool counts_in_list(std::uint32_t triangle) const { return counting_.empty() || counting_[triangle] != 0; }
   bool add_seen(std::uint32_t triangle);  // which a ray has met; as add()
   void add_seen_beside(std::vector<std::uint32_t> triangles);
   // Adds what sight lines to the triangles meet first; else the triangles themselves.
@@ -67,6 +73,7 @@ class Closer {
   ProvedDark proved_;
   std::vector<std::uint8_t> in_part_, seen_, looked_into_;  // seen by a ray; as a listed triangle that none has seen
   std::vector<std::uint32_t> part_;
+  bool all_may_come_ = true;
 };
 
 void Closer::add_all() {
@@ -160,12 +167,12 @@ void Closer::drop_untouched(const Darkness& darkness, const std::vector<std::uin
 
 bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible) {
   const Darkness darkness(map, bvh_, part_, visible, cell_.vertices());
-  const auto counts_in_list = [&](std::uint32_t t) { return counting_.empty() || counting_[t] != 0; };
+  const auto in_list = [this](std::uint32_t t) { return counts_in_list(t); };
   const std::size_t enough = failures_ > 0 ? failures_ : std::max(kFailures, kFailuresPerMapped * part_.size());
   const std::vector<std::uint32_t> failed = darkness.not_proved(
-      bvh_, [&](std::uint32_t t) { return in_part_[t] != 0; }, counts_in_list, enough, proved_, counts);
+      bvh_, [&](std::uint32_t t) { return in_part_[t] != 0; }, in_list, enough, proved_, counts);
   std::vector<std::uint32_t> open;
-  std::copy_if(failed.begin(), failed.end(), std::back_inserter(open), counts_in_list);
+  std::copy_if(failed.begin(), failed.end(), std::back_inserter(open), in_list);
   if (open.empty()) return false;
   drop_untouched(darkness, visible);
   if (open.size() < failed.size()) {
@@ -182,6 +189,19 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   }
   if (failures_ > 0) open.resize(std::min(open.size(), failures_));
   add_front_of(open);
+  return true;
+}
+
+bool Closer::go_on_with_what_counts(const Closure& closure) {
+  if (!all_may_come_ || counting_.empty()) return false;
+  if (closure.map) {
+    part_ = closure.part;
+  } else {
+    std::erase_if(part_, [this](std::uint32_t t) { return !counts_in_list(t); });
+  }
+  std::fill(in_part_.begin(), in_part_.end(), std::uint8_t{0});
+  for (const std::uint32_t t : part_) in_part_[t] = 1;
+  all_may_come_ = false;
   return true;
 }
 
@@ -233,21 +253,24 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
     if (dials.first_guess == FirstGuess::seen) closer.add_seen_by_rays();
   }
   Closure result;
-  do {
+  for (bool grown = true; grown;) {
     ++closer.counts.passes;
     scene::TriangleMesh mesh = closer.part_mesh();
-    auto map = make_map(mesh, closer.part());
-    if (!map) {
+    if (auto map = make_map(mesh, closer.part())) {
+      result.part_mesh = std::move(mesh);
+      result.map = std::move(map);
+      result.part = closer.part();
+      result.visible.clear();
+      for (const std::uint32_t i : result.map->visible()) result.visible.push_back(result.part[i]);
+    } else if (!closer.go_on_with_what_counts(result)) {
       result.unproved = closer.unproved_by(result);
       break;
+    } else if (!result.map) {
+      continue;
     }
-    result.part_mesh = std::move(mesh);
-    result.map = std::move(map);
-    result.part = closer.part();
-    result.visible.clear();
-    for (const std::uint32_t i : result.map->visible()) result.visible.push_back(result.part[i]);
-  } while (result.part.size() < bvh.mesh().triangles.size() && !bvh.nodes().empty() &&
-           closer.add_what_may_be_lit(*result.map, result.visible));
+    grown = result.part.size() < bvh.mesh().triangles.size() && !bvh.nodes().empty() &&
+            closer.add_what_may_be_lit(*result.map, result.visible);
+  }
   result.counts = closer.counts;
   result.counts.rays = closer.rays();
   return result;

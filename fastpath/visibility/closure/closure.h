@@ -14,7 +14,7 @@
 // the map is the same without it. Then the loop runs again with what is left. When nothing is, K is as the theorem wants it, as only what is dark is not in it; K may hold too much.
 //
 // Where a map is given up the one before stands, whatever K became since: what is not proved to lie outside Omega of its part is listed, whether light meets it or not (`unproved`). If there is
-// none, all is.
+// none, all is. But where some triangles do not count K first goes back to what it was, and grows again without any more of those: cracks between hulls are what makes most maps long.
 //
 // Where some triangles do not count (D22: the hulls of a level) nobody needs a proof about them: the loop ends when those that count are mapped or proved, and what light meets in
 // Omega(K) is listed, of which Omega(S) is a part. It may be more: light may come past what was left out. So that little does, K grows, too, by those without a proof that sight lines meet on
