@@ -167,6 +167,12 @@ TEST(Found, AGrooveUnderACeiling) {
   expect_list("groove-between-floor-and-ceiling.obj", "box:0,0,-2,4,4,6", {0, 1, 2, 3, 4, 5});
 }
 
+// A fin stands behind one wall, on the upper edge of the line alone, and a lid goes from it over that wall to the other one. The face under the lid is the groove's, and the space behind the wall, where light comes in
+// under the fin and over the wall: the first proof that a lid closes a groove asked only what is in the groove, and the fast path lost triangle 9.
+TEST(Found, AFinBehindTheWallOfAGroove) {
+  expect_list("fin-behind-the-wall-of-a-groove.obj", "box:-3,-3,0,3,0,7", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, false);
+}
+
 // Without a ceiling there is light from the upper end. Nor is a ceiling any use where a wall leaves a notch under it, down to the line; or where it is the floor that is missing.
 TEST(Found, AGrooveThatIsSeenFromTheEndOfItsLine) {
   expect_list("groove-without-a-ceiling.obj", "box:0,0,0,4,4,6", {0, 1, 2, 3, 4});

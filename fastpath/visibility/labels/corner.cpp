@@ -72,6 +72,7 @@ bool closes_groove(const LocalScene& scene, std::span<const GrooveEnd> ends, con
       const Star<Integer> star(scene, false, end.point, &y, arcs_around(scene, false, end.point));
       const V along = star.to(scene.points[e.a == end.point ? e.b : e.a]);
       const std::vector<int> face = star.face_of(star.moved({along, star.to(q), {}, {}}));
+      if (star.sides_at(along, face) != 2) return false;  // it comes to the chain outside of the groove, too
       for (const V& n : star.border_of(face)) {
         if (!points_like(n, along)) positive.push_back(n);
       }

@@ -20,7 +20,7 @@ struct GrooveEnd {
 };
 
 // Whether at these ends of a chain, one or both, the groove that q is in is closed by what is there: with a linear f that is zero on the chain's line, at most zero on V, and positive on all else of
-// the border of the local face at an end that is next to the chain's edge, in the groove; the same for all of them (reference/visibility/labels/walk.h has the argument). Exact and costly as above.
+// the border of the local face at an end that is next to the chain's edge in the groove, and nowhere else; the same for all of them (reference/visibility/labels/walk.h has the argument). Exact and costly as above.
 bool closes_groove(const LocalScene& scene, std::span<const GrooveEnd> ends, const ExactPoint& q);
 
 }  // namespace clues::fastpath

@@ -160,6 +160,22 @@ class Star {
     return ends;
   }
 
+  // How many sides of arcs that end in this direction the face has: two for each sector next to it in which the face comes there.
+  int sides_at(const V& d, const std::vector<int>& face) const {
+    int count = 0;
+    for (std::size_t i = 0; i < arcs_.size(); ++i) {
+      for (const int node : {arcs_[i].a, arcs_[i].b}) {
+        const V& n = nodes_[idx(node)];
+        const V across = cross(n, d);
+        if (sign_of(across.x) != 0 || sign_of(across.y) != 0 || sign_of(across.z) != 0 || sign_of(NT(dot(n, d))) <= 0)
+          continue;
+        for (const std::size_t side : {2 * i, 2 * i + 1})
+          count += std::find(face.begin(), face.end(), face_[side]) != face.end() ? 1 : 0;
+      }
+    }
+    return count;
+  }
+
   // Whether the great circle arc (the way) from d0, just beside d0.limit and on no arc, to d1 surely meets no
   // arc: arc by arc, by the sides of its great circle on which the ends are. On one side both: the way, less
   // than a half turn, stays there. d0 on the circle and d1 not: they have d0 in common, which is on no arc.

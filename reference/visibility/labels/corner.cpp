@@ -68,6 +68,7 @@ bool closes_groove(const exact::Complex& complex, const exact::ConvexCell& cell,
       const Vector3 along = complex.points[e.a == end.point ? e.b : e.a] - y;
       const LocalStar star = LocalStar::around_vertex(complex, end.point);
       const std::vector<int> face = star.face_of(star.nudged(along, q - y));
+      if (star.sides_at(along, face) != 2) return false;  // it comes to the chain outside of the groove, too
       for (const Vector3& n : star.border_of(face)) {
         const bool upon_chain = CGAL::cross_product(n, along) == CGAL::NULL_VECTOR && CGAL::is_positive(n * along);
         if (!upon_chain) positive.push_back(n);

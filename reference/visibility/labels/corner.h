@@ -22,7 +22,7 @@ struct GrooveEnd {
 };
 
 // Whether at these ends of a chain, one or both, the groove that q is in is closed by what is there: with a linear f that is zero on the chain's line, at most zero on V, and positive on all else of the
-// border of the local face at an end that is next to the chain's edge, in the groove. It is the same f for all of them. As above.
+// border of the local face at an end that is next to the chain's edge in the groove, and nowhere else. It is the same f for all of them. As above.
 bool closes_groove(const exact::Complex& complex, const exact::ConvexCell& cell, const std::vector<GrooveEnd>& ends,
                    const exact::Point3& q);
 

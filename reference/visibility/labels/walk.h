@@ -8,12 +8,13 @@
 // edge: T3 orders points, but an order of points may descend without end (definition, D14 says the recursion ends). Beside the edge all is hidden, though, and the
 // walk ends there, with a leg from the edge. For over the edge stands a tent that nothing enters: the walls are its sides, and at either end of the edge it has a plane
 // through that end with V and the tent on one side (T2). The planes exist if V and the closed groove share no point, or none but points of the edge: let f be linear, positive in
-// the groove, zero on the edge and at most zero on V; let s be linear, the distance from the end along the edge, and at least zero where V has f = 0. As V is a
+// the groove, zero on the edge and at most zero on V; let s be linear, on the edge's line the distance from the end, and at least zero where V has f = 0 (for the f of a closed end, if the other is). As V is a
 // polytope, f <= k s holds on V where s < 0, for some k > 0; then f - r s is at most zero on V for all r in [0,k], and the less r is, the flatter is the tent.
 // Edges that carry both walls on along the line, without a notch between their pieces, count as one edge. Where V touches the line elsewhere, sight lines nearly along the edge come in at the
-// groove's end, past the walls, however near the edge p is: then the walk looks that way. Unless something closes that end, as a ceiling does over two walls: if f is positive on the border of
-// the local face there, but for the edge, all of that face next to the end is where f is positive, and so is the tent between it and the plane where f is a small constant, which nothing enters from V,
-// where f is at most zero (corner.h). No plane through this end is needed then.
+// groove's end, past the walls, however near the edge p is: then the walk looks that way. Unless something closes that end, as a ceiling does over two walls: let f be positive on the border of
+// the local face there that is next to the edge in the groove, but for the edge, and let this face come to the edge in the groove alone. (A face that also comes to it behind a wall is open where what stands
+// there ends further on: Found.AFinBehindTheWallOfAGroove.) Then all of that face is where f is positive, and what of it is between the end and a plane f = c, for a small c, is next to the end or in the groove: a
+// tent that nothing enters from V, where f is at most zero (corner.h). No plane through this end is needed then.
 //
 // With a segment as cell, all of a walk lies in one plane with it, a slice, and what is seen there is a matter of the slice
 // alone: no sight line leaves it, no continuation, and no wedge that only separates (T10) divides it. So such a walk ends by

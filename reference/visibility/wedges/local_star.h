@@ -32,6 +32,9 @@ class LocalStar {
   // The directions in which the arcs that border this face end.
   std::vector<exact::Vector3> border_of(const std::vector<int>& face) const;
 
+  // How many sides of arcs that end in this direction the face has: two for each sector next to it in which the face comes there.
+  int sides_at(const exact::Vector3& d, const std::vector<int>& face) const;
+
   // Whether the great circle arc from d0 (excluded) to d1 (included) surely meets no incident piece. d0 and d1 not opposite.
   bool free_between(const exact::Vector3& d0, const exact::Vector3& d1) const;
 
