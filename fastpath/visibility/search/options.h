@@ -17,7 +17,7 @@ struct LocalMapOptions {
   exact::Dials dials;               // the limits of D17, and what else only tests turn
   // How much effort a map may take for each of its triangles, which count as kLeastTriangles if they are fewer; beyond that EffortSpent is thrown. 0: without end.
   // A wedge piece of generation g takes (1 + g)^2 in each round, as the numbers that decide about it grow with g: most maps take 50 to 500, and 3 to 13 microseconds each.
-  // No time is taken, so it is the same in every run.
+  // No time is taken, so it is the same in every run. Only lists honour it (visible_through): regions need a map that was made to its end.
   std::uint64_t effort = 0;
   static constexpr std::uint64_t kLeastTriangles = 512;
 };
