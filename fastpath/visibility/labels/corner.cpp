@@ -15,11 +15,6 @@ using V = Vec3<Integer>;
 
 int side(const V& f, const V& d) { return dot(f, d).sign(); }
 
-bool points_like(const V& a, const V& b) {
-  const V c = cross(a, b);
-  return c.x.sign() == 0 && c.y.sign() == 0 && c.z.sign() == 0 && side(a, b) > 0;
-}
-
 // f with f * n > 0 for all of the first and f * v <= 0 for all of the second: the sum of the extreme ones among those that satisfy both weakly, each normal to two of the vectors.
 std::optional<V> separating(const std::vector<V>& positive, const std::vector<V>& others) {
   std::vector<V> all = positive;
@@ -74,7 +69,7 @@ bool closes_groove(const LocalScene& scene, std::span<const GrooveEnd> ends, con
       const std::vector<int> face = star.face_of(star.moved({along, star.to(q), {}, {}}));
       if (star.sides_at(along, face) != 2) return false;  // it comes to the chain outside of the groove, too
       for (const V& n : star.border_of(face)) {
-        if (!points_like(n, along)) positive.push_back(n);
+        if (!same_direction(n, along)) positive.push_back(n);
       }
       others.insert(others.end(), {along, -along});
       for (const ExactPoint& s : scene.cell.vertices) others.push_back(star.to(s));

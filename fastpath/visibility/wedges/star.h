@@ -43,6 +43,13 @@ struct Beside {
   }
 };
 
+// Whether one is a positive multiple of the other.
+template <class NT>
+bool same_direction(const Vec3<NT>& a, const Vec3<NT>& b) {
+  const Vec3<NT> c = cross(a, b);
+  return sign_of(c.x) == 0 && sign_of(c.y) == 0 && sign_of(c.z) == 0 && sign_of(NT(dot(a, b))) > 0;
+}
+
 // For x in the plane of the arc ab with this normal: whether it lies in the closed arc.
 template <class NT>
 bool in_arc(const Vec3<NT>& a, const Vec3<NT>& b, const Vec3<NT>& normal, const Vec3<NT>& x) {
@@ -165,10 +172,7 @@ class Star {
     int count = 0;
     for (std::size_t i = 0; i < arcs_.size(); ++i) {
       for (const int node : {arcs_[i].a, arcs_[i].b}) {
-        const V& n = nodes_[idx(node)];
-        const V across = cross(n, d);
-        if (sign_of(across.x) != 0 || sign_of(across.y) != 0 || sign_of(across.z) != 0 || sign_of(NT(dot(n, d))) <= 0)
-          continue;
+        if (!same_direction(nodes_[idx(node)], d)) continue;
         for (const std::size_t side : {2 * i, 2 * i + 1})
           count += std::find(face.begin(), face.end(), face_[side]) != face.end() ? 1 : 0;
       }

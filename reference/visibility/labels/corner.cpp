@@ -70,8 +70,7 @@ bool closes_groove(const exact::Complex& complex, const exact::ConvexCell& cell,
       const std::vector<int> face = star.face_of(star.nudged(along, q - y));
       if (star.sides_at(along, face) != 2) return false;  // it comes to the chain outside of the groove, too
       for (const Vector3& n : star.border_of(face)) {
-        const bool upon_chain = CGAL::cross_product(n, along) == CGAL::NULL_VECTOR && CGAL::is_positive(n * along);
-        if (!upon_chain) positive.push_back(n);
+        if (!same_direction(n, along)) positive.push_back(n);
       }
       others.insert(others.end(), {along, -along});
       for (const exact::Point3& s : cell.vertices()) others.push_back(s - y);

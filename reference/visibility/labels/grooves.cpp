@@ -86,8 +86,8 @@ bool Walker::is_whole_at(std::uint32_t point, std::uint32_t from, std::uint32_t 
   return true;
 }
 
-bool Walker::is_dark_over(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two, const Point3& q) const {
-  const std::vector<Point3> shared = ends_of_groove(one, two);
+bool Walker::is_dark_over(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two, const Point3& q,
+                          const std::vector<Point3>& shared) const {
   if (std::any_of(shared.begin(), shared.end(),
                   [&](const Point3& x) { return !CGAL::is_zero(height(one, x)) || !CGAL::is_zero(height(two, x)); }))
     return false;
@@ -166,25 +166,26 @@ bool Walker::divided_by_cell(const Point3& x, const Point3& y) const {
   return CGAL::sign(exact::value_at(h, x)) * CGAL::sign(exact::value_at(h, y)) < 0;
 }
 
-std::optional<Leg> Walker::groove_leg(const Walk& walk, bool apart) const {
+std::optional<Leg> Walker::groove_leg(const Walk& walk, const std::vector<Point3>& shared) const {
   const std::size_t n = walk.legs.size();
   if (n < 4) return std::nullopt;
   const Leg &last = walk.legs[n - 1], &one = walk.legs[n - 2], &two = walk.legs[n - 3], &three = walk.legs[n - 4];
   const SurfaceSide wall{last.piece, last.front}, other{one.piece, one.front};
   if (!is_wall(two.piece, wall, other) || !is_wall(three.piece, other, wall)) return std::nullopt;
   const Point3 q = exact::collapsed(CGAL::midpoint(last.m, one.m));
-  return scene_->cell().dimension() == 1 ? leg_in_slice(wall, other, q, apart) : leg_from_edge(wall, other, q, apart);
+  return scene_->cell().dimension() == 1 ? leg_in_slice(wall, other, q, shared.empty())
+                                         : leg_from_edge(wall, other, q, shared);
 }
 
 std::optional<Leg> Walker::leg_from_edge(const SurfaceSide& wall, const SurfaceSide& other, const Point3& q,
-                                         bool apart) const {
+                                         const std::vector<Point3>& shared) const {
   const exact::Complex& complex = scene_->complex();
   for (const std::uint32_t id : wall_of(wall, other).edges) {
     const exact::Edge& e = complex.edges[id];
     const Point3 &a = complex.points[e.a], &b = complex.points[e.b];
     const FT t = ((q - a) * (b - a)) / ((b - a) * (b - a));
     if (!CGAL::is_positive(t) || t >= FT(1)) continue;
-    if (!apart && !is_dark_over(id, wall, other, q)) continue;
+    if (!shared.empty() && !is_dark_over(id, wall, other, q, shared)) continue;
     const Point3 y = exact::collapsed(a + t * (b - a));  // the foot of q on the edge
     if (divided_by_cell(y, q)) continue;
     if (!scene_->crossings(q, y).is_clear()) return std::nullopt;
@@ -274,7 +275,7 @@ std::optional<Leg> Walker::leg_from_edge_at_corner(const Walk& walk) const {
     const SurfaceSide wall{walk.legs[i].piece, walk.legs[i].front}, other{walk.legs[j].piece, walk.legs[j].front};
     if (anchor_beyond(wall, &other) || !CGAL::is_positive(height(wall, q)) || !CGAL::is_positive(height(other, q)))
       continue;
-    if (const std::optional<Leg> leg = leg_from_edge(wall, other, q, ends_of_groove(wall, other).empty())) return leg;
+    if (const std::optional<Leg> leg = leg_from_edge(wall, other, q, ends_of_groove(wall, other))) return leg;
   }
   return std::nullopt;
 }

@@ -216,7 +216,7 @@ Walk Walker::walk(const Start& start, std::uint64_t seed, std::size_t least) con
           anchor = both;
         } else {
           const std::vector<Point3> ends = ends_of_groove(*surface, *before);
-          if (const std::optional<Leg> leg = may_end_in_the_dark ? groove_leg(walk, ends.empty()) : std::nullopt) {
+          if (const std::optional<Leg> leg = may_end_in_the_dark ? groove_leg(walk, ends) : std::nullopt) {
             walk.legs.push_back(*leg);
             return walk;
           }

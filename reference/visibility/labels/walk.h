@@ -153,7 +153,8 @@ class Walker {
                    const SurfaceSide& other) const;
   // Whether V and the closed groove between two walls that meet in this edge, which q is in, share nothing but points of the edge, and of
   // the edges that carry both walls on along its line without a gap, and of that line beyond ends that are closed.
-  bool is_dark_over(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two, const exact::Point3& q) const;
+  bool is_dark_over(std::uint32_t edge, const SurfaceSide& one, const SurfaceSide& two, const exact::Point3& q,
+                    const std::vector<exact::Point3>& shared) const;
   // Whether the plane of a flat cell divides the two. No sight line crosses it, and labels on its two sides have nothing to
   // do with each other (T10): a leg that is not part of a sight line may not cross it either.
   bool divided_by_cell(const exact::Point3& x, const exact::Point3& y) const;
@@ -161,13 +162,13 @@ class Walker {
   std::optional<Leg> corner_leg(const Walk& walk) const;
   // Where it is dark because two of the walls there are those of a dark groove, which the others close.
   std::optional<Leg> leg_from_edge_at_corner(const Walk& walk) const;
-  // The last leg of a walk that runs into the groove between two pieces for ever. `apart`: V and the closed groove share no
-  // point; else it is asked for the edge.
-  std::optional<Leg> groove_leg(const Walk& walk, bool apart) const;
+  // The last leg of a walk that runs into the groove between two pieces for ever. `shared`: what V and the closed groove share (ends_of_groove).
+  std::optional<Leg> groove_leg(const Walk& walk, const std::vector<exact::Point3>& shared) const;
   // Its leg from the edge to q, a point in front of both walls; or, if the cell is a segment, the one from the tip of the
   // groove in the plane through the cell and q.
   std::optional<Leg> leg_from_edge(const SurfaceSide& wall, const SurfaceSide& other, const exact::Point3& q,
-                                   bool apart) const;
+                                   const std::vector<exact::Point3>& shared) const;
+  // `apart`: they share nothing.
   std::optional<Leg> leg_in_slice(const SurfaceSide& wall, const SurfaceSide& other, const exact::Point3& q,
                                   bool apart) const;
   // A piece of the wall that holds y, a point of its plane, and what comes next in direction d.

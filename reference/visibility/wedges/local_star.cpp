@@ -150,12 +150,15 @@ std::vector<int> LocalStar::face_of(const Vector3& d) const {
   return name;
 }
 
+bool same_direction(const Vector3& a, const Vector3& b) {
+  return CGAL::cross_product(a, b) == CGAL::NULL_VECTOR && CGAL::is_positive(a * b);
+}
+
 int LocalStar::sides_at(const Vector3& d, const std::vector<int>& face) const {
   int count = 0;
   for (std::size_t i = 0; i < arcs_.size(); ++i) {
     for (const int node : {arcs_[i].a, arcs_[i].b}) {
-      const Vector3& n = nodes_[static_cast<std::size_t>(node)];
-      if (CGAL::cross_product(n, d) != CGAL::NULL_VECTOR || !CGAL::is_positive(n * d)) continue;
+      if (!same_direction(nodes_[static_cast<std::size_t>(node)], d)) continue;
       for (const std::size_t side : {2 * i, 2 * i + 1})
         count += std::find(face.begin(), face.end(), root(static_cast<int>(side))) != face.end() ? 1 : 0;
     }

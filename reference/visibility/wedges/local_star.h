@@ -20,6 +20,9 @@ struct Beside {
 // The side of the plane with this normal that it is on.
 CGAL::Sign side_of(const exact::Vector3& normal, const Beside& d);
 
+// Whether one is a positive multiple of the other.
+bool same_direction(const exact::Vector3& a, const exact::Vector3& b);
+
 class LocalStar {
  public:
   // Around mesh vertex `point`, or around x inside edge `edge`.
