@@ -173,6 +173,17 @@ TEST(Found, AFinBehindTheWallOfAGroove) {
   expect_list("fin-behind-the-wall-of-a-groove.obj", "box:-3,-3,0,3,0,7", {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, false);
 }
 
+// Triangles of a level. Light comes to a corner of a recess from below and goes no higher; but the local face of the corner leads out through the recess, over the place where a hidden triangle is missing, and
+// behind the wall. So wedges began there that no light makes, and the wall of another room was listed; in levels that was what most maps were made of. In the second scene it is the
+// directions to the cell that share a face with the dark, behind a notch.
+TEST(Found, ARecessWithoutItsBack) {
+  expect_list("recess-without-its-back.obj", "recess-without-its-back.cell.obj", {1, 2, 6, 7, 8});
+}
+TEST(Found, ANotchInASlope) {
+  expect_list("notch-in-a-slope.obj", "notch-in-a-slope.cell.obj",
+              {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17});
+}
+
 // Without a ceiling there is light from the upper end. Nor is a ceiling any use where a wall leaves a notch under it, down to the line; or where it is the floor that is missing.
 TEST(Found, AGrooveThatIsSeenFromTheEndOfItsLine) {
   expect_list("groove-without-a-ceiling.obj", "box:0,0,0,4,4,6", {0, 1, 2, 3, 4});

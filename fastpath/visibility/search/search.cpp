@@ -29,7 +29,7 @@ class Search::Work {
         contours(contour_edges(s, w)),
         walker(s, set, o.dials.longest_walk),
         fresh_walker(s, fresh, o.dials.longest_walk),
-        contacts(s, workers),
+        contacts(s, contours, workers),
         sources(s, is_vertex, contours, set, walker, contacts, workers),
         edge_wedges(contours.size()),
         is_contour(s.edges.size(), false),

@@ -8,9 +8,15 @@
 
 namespace clues::fastpath {
 
-Apex::Apex(const LocalScene& scene, Pool& pool, bool on_edge, std::uint32_t id, const ExactPoint* x)
+Apex::Apex(const LocalScene& scene, Pool& pool, bool on_edge, std::uint32_t id, const ExactPoint* x,
+           const std::vector<const Plane*>& contours)
     : scene_(&scene), on_edge_(on_edge), id_(id), x_(x), arcs_(arcs_around(scene, on_edge, id)) {
   find_sectors(pool);
+  if (on_edge || flat_) return;
+  circles_ = contours;
+  for (const ApexSector& s : sectors_) {
+    if (circles_.empty() || circles_.back() != s.plane) circles_.push_back(s.plane);
+  }
 }
 
 std::vector<LocalArc> arcs_around(const LocalScene& scene, bool on_edge, std::uint32_t id) {
@@ -150,12 +156,18 @@ struct Apex::Picture {
     std::vector<int> face;
     const ExactPoint *to, *lit_end;
     bool doubtful;
+    bool into_cell;  // of a sight line: strictly in H+ of all planes with V on that side
+  };
+  // The star with a circle, and in it the faces of what is lit, once they were asked for.
+  struct Cut {
+    Star<NT> star;
+    std::vector<std::optional<std::vector<int>>> faces;
   };
 
   Picture(const Apex& apex, const std::vector<Probe>& probes)
       : star(*apex.scene_, apex.on_edge_, apex.id_, apex.x_, apex.arcs_) {
     for (const Probe& p : probes) {
-      Lit l{{star.to(*p.to), nothing, nothing, p.at}, {}, p.to, p.lit_end, p.doubtful};
+      Lit l{{star.to(*p.to), nothing, nothing, p.at}, {}, p.to, p.lit_end, p.doubtful, p.plane == nullptr};
       if (p.plane) {
         const V n = normal_direction<NT>(*p.plane);
         l.beside.aside = n;
@@ -169,6 +181,7 @@ struct Apex::Picture {
       lit.push_back(std::move(l));
     }
     for (const ExactPoint& s : apex.scene_->cell.vertices) anticone.push_back(direction<NT>(s, *apex.x_));
+    cuts.resize(apex.circles_.size());
     away = anticone.front();
     for (std::size_t i = 1; i < anticone.size(); ++i) away = away + anticone[i];
   }
@@ -178,6 +191,7 @@ struct Apex::Picture {
   std::vector<Lit> lit;
   std::vector<V> anticone;
   V away;
+  mutable std::vector<std::optional<Cut>> cuts;  // by circle of the apex
 };
 
 // Made when they are asked for.
@@ -246,6 +260,29 @@ std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) cons
 //    the half plane of edge and probe as near to the edge as one likes; and `spreads` turns about the
 //    edge). So beside the edge, where `inner` is as seen along the edge, is Omega; and every arc is a
 //    half plane at the edge, so none is between there and `inner`.
+// Let h be a plane through x with int V strictly in H+. On the sphere sight lines and continuations run away from directions into int V. So in H- they stay
+// there, and from H+ they get to H- once, through the circle of h, where no arc is. What a probe stands for is, as seen from h, on the side on which the probe is, or goes
+// from H+ to H-, too: directions into V are in H+; a piece that passes x comes from a point of V, goes by x and away from that; a piece that begins on an edge at x
+// goes from the edge to directions away from V, which are in the closed H-; and nothing is in the way of pieces on their side H- (D13). The
+// inside of a sector is in H-, as all of A(x) is. So of the faces of the star with this circle the probe and the sector are in one, or in two with a free part of the circle between
+// them; for any such h.
+template <class NT>
+bool Apex::passes_circles(std::size_t k, const Vec3<NT>& inner, const Picture<NT>& around) const {
+  const auto& lit = around.lit[k];
+  for (std::size_t i = 0; i < circles_.size(); ++i) {
+    const Vec3<NT> n = normal_direction<NT>(*circles_[i]);
+    const int side = lit.into_cell ? -1 : lit.beside.side_of(n);
+    if (side == 0) continue;
+    auto& cut = around.cuts[i];
+    if (!cut) cut = {around.star.with_circle(n), std::vector<std::optional<std::vector<int>>>(around.lit.size())};
+    std::optional<std::vector<int>>& from = cut->faces[k];
+    if (!from) from = cut->star.face_of(lit.into_cell ? lit.beside.limit : cut->star.moved(lit.beside));
+    const std::vector<int> to = cut->star.face_of(inner);
+    if (side > 0 ? *from != to : !cut->star.leads_across(*from, to)) return false;
+  }
+  return true;
+}
+
 template <class NT>
 bool Apex::exists(const ApexSector& s, const Picture<NT>& around) const {
   const Star<NT>& star = around.star;
@@ -259,13 +296,21 @@ bool Apex::exists(const ApexSector& s, const Picture<NT>& around) const {
       star.moved({middle, sign_of(NT(dot(n, around.away))) > 0 ? around.away : n, around.nothing, {}});
   const std::vector<int> face = star.face_of(inner);
   bool exists = false;
-  for (const auto& l : around.lit) {
+  for (std::size_t k = 0; k < around.lit.size(); ++k) {
+    const auto& l = around.lit[k];
     if (l.face != face) continue;
-    const auto along = [&](std::size_t k) {
+    const auto along = [&](std::size_t v) {
       const LocalEdge& e = scene_->edges[id_];
-      return orientation(scene_->points[e.a], scene_->points[e.b], *l.to, scene_->cell.vertices[k]) == 0;
+      return orientation(scene_->points[e.a], scene_->points[e.b], *l.to, scene_->cell.vertices[v]) == 0;
     };
     if (on_edge_ && !star.spreads(l.beside, inner, around.anticone, along)) continue;
+    if (!on_edge_ && !star.free_between(l.beside, inner)) {
+      if constexpr (std::is_same_v<NT, Interval>) {
+        throw Unsure{};  // circles meet arcs in points that intervals do not know to be on both
+      } else if (!passes_circles(k, inner, around)) {
+        continue;
+      }
+    }
     exists = true;
     // A point of the visible part of a crossed edge reaches whatever its face allows.
     if (!l.doubtful && l.lit_end && s.plane->side(*l.lit_end) < 0) return false;

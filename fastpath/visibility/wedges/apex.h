@@ -4,8 +4,8 @@
 // On a small sphere around x every incident piece is an arc, and the arcs cut the free space into faces. What is known to be visible next to x is
 // given as probes, directions with visible space. A sector exists if a probe lies in the face of the points just off the sector inside A(x):
 // from a visible point beside x sight lines go on in all directions of A(x). Around a point of an edge this is decided exactly; around
-// a vertex the face is taken, which may give a sector too many and never one too few. A sector is left out where visible space surely
-// reaches its other side too: there it bounds nothing.
+// a vertex the face is taken, cut by circles that light passes in one direction (passes_circles), which may give a sector too many and never one too
+// few. A sector is left out where visible space surely reaches its other side too: there it bounds nothing.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +42,9 @@ struct ApexSector {
 
 class Apex {
  public:
-  // x: mesh vertex `id`, or a point inside mesh edge `id`.
-  Apex(const LocalScene& scene, Pool& pool, bool on_edge, std::uint32_t id, const ExactPoint* x);
+  // x: mesh vertex `id`, or a point inside mesh edge `id`. `contours`: planes of contour edges at the vertex.
+  Apex(const LocalScene& scene, Pool& pool, bool on_edge, std::uint32_t id, const ExactPoint* x,
+       const std::vector<const Plane*>& contours = {});
 
   const ExactPoint* x() const { return x_; }
   bool on_edge() const { return on_edge_; }
@@ -72,6 +73,8 @@ class Apex {
   class Pictures;
   template <class NT>
   bool exists(const ApexSector& sector, const Picture<NT>& around) const;
+  template <class NT>
+  bool passes_circles(std::size_t probe, const Vec3<NT>& inner, const Picture<NT>& around) const;
 
   bool may_meet_cone(const LocalArc& arc) const;  // the directions from x to V; filtered
   void find_sectors(Pool& pool);
@@ -84,6 +87,7 @@ class Apex {
   std::vector<LocalArc> arcs_;
   std::vector<ApexSector> sectors_;
   bool flat_ = false;
+  std::vector<const Plane*> circles_;  // at a mesh vertex: planes with V on one side, of contour edges and of sectors
 };
 
 }  // namespace clues::fastpath

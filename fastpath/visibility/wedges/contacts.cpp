@@ -19,8 +19,18 @@ auto known_sectors(const Contact& c) {
 
 }  // namespace
 
-Contacts::Contacts(const LocalScene& scene, Workers& workers)
-    : scene_(scene), workers_(workers), corners_(scene.points.size()), on_edge_(scene.edges.size()) {}
+Contacts::Contacts(const LocalScene& scene, const std::vector<ContourEdge>& contours, Workers& workers)
+    : scene_(scene),
+      contour_planes_(scene.points.size()),
+      workers_(workers),
+      corners_(scene.points.size()),
+      on_edge_(scene.edges.size()) {
+  for (const ContourEdge& c : contours) {
+    if (c.holds_cell) continue;
+    for (const std::uint32_t end : {scene.edges[c.edge].a, scene.edges[c.edge].b})
+      contour_planes_[end].push_back(c.plane);
+  }
+}
 
 std::unique_ptr<Contact> Contacts::make(bool on_edge, std::uint32_t id, const ExactPoint* x) const {
   auto c = std::make_unique<Contact>();
@@ -32,7 +42,8 @@ std::unique_ptr<Contact> Contacts::make(bool on_edge, std::uint32_t id, const Ex
 
 void Contacts::make_apex(Contact& c, Pool& pool) const {
   if (c.apex) return;
-  c.apex = std::make_unique<Apex>(scene_, pool, c.on_edge, c.id, c.x);
+  static const std::vector<const Plane*> none;
+  c.apex = std::make_unique<Apex>(scene_, pool, c.on_edge, c.id, c.x, c.on_edge ? none : contour_planes_[c.id]);
   c.built.assign(c.apex->sectors().size(), false);
   c.wedges.resize(c.apex->sectors().size());
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fastpath/visibility/wedges/apex.h"
+#include "fastpath/visibility/wedges/contour.h"
 #include "fastpath/visibility/wedges/workers.h"
 
 namespace clues::fastpath {
@@ -30,7 +31,7 @@ struct Contact {
 
 class Contacts {
  public:
-  Contacts(const LocalScene& scene, Workers& workers);
+  Contacts(const LocalScene& scene, const std::vector<ContourEdge>& contours, Workers& workers);
 
   // The apex of a mesh vertex, made if need be. Different vertices may be asked for by different threads.
   const Apex& apex_of(std::uint32_t vertex, Pool& pool);
@@ -66,6 +67,7 @@ class Contacts {
   void make_apex(Contact& contact, Pool& pool) const;
 
   const LocalScene& scene_;
+  std::vector<std::vector<const Plane*>> contour_planes_;  // by vertex: of contour edges there
   Workers& workers_;
   std::vector<std::unique_ptr<Contact>> corners_;
   std::vector<std::vector<std::unique_ptr<Contact>>> on_edge_;

@@ -91,6 +91,77 @@ class Star {
 
   V to(const ExactPoint& p) const { return direction<NT>(*x_, p); }
 
+  // The same with the great circle of this normal: arcs are cut where it crosses them, it is cut where they meet it, and what they do not cover of it is free. For a
+  // type without rounding.
+  Star with_circle(const V& n) const {
+    Star out(*scene_, *x_);
+    out.nodes_ = nodes_;
+    std::vector<NT> at;
+    std::vector<int> sign, rim;
+    for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
+      at.push_back(dot(n, nodes_[idx(i)]));
+      sign.push_back(sign_of(at.back()));
+      if (sign.back() == 0) rim.push_back(i);
+    }
+    std::vector<const Arc*> in_circle;
+    for (const Arc& arc : arcs_) {
+      const int sa = sign[idx(arc.a)], sb = sign[idx(arc.b)];
+      if (sa == 0 && sb == 0) in_circle.push_back(&arc);
+      if (sa * sb >= 0) {
+        out.arcs_.push_back(arc);
+        continue;
+      }
+      const NT to_b = sa > 0 ? at[idx(arc.a)] : NT(-at[idx(arc.a)]),
+               to_a = sa > 0 ? NT(-at[idx(arc.b)]) : at[idx(arc.b)];
+      const int c = static_cast<int>(out.nodes_.size());
+      out.nodes_.push_back(to_a * nodes_[idx(arc.a)] + to_b * nodes_[idx(arc.b)]);
+      rim.push_back(c);
+      out.arcs_.push_back({arc.a, c, arc.piece, arc.normal});
+      out.arcs_.push_back({c, arc.b, arc.piece, arc.normal});
+    }
+    const V e = sign_of(n.x) != 0 || sign_of(n.y) != 0 ? V{-n.y, n.x, NT(0)} : V{n.z, NT(0), NT(0)}, f = cross(n, e);
+    for (const V& d : {e, f, V(-e), V(-f)}) {
+      if (std::any_of(rim.begin(), rim.end(), [&](int i) { return same_direction(out.nodes_[idx(i)], d); })) continue;
+      rim.push_back(static_cast<int>(out.nodes_.size()));
+      out.nodes_.push_back(d);
+    }
+    const auto half_of = [&](const V& d) {
+      const int s = det_sign(n, e, d);
+      return s != 0 ? (s > 0 ? 1 : 3) : (sign_of(NT(dot(e, d))) > 0 ? 0 : 2);
+    };
+    std::sort(rim.begin(), rim.end(), [&](int i, int k) {
+      if (i == k) return false;
+      const V &di = out.nodes_[idx(i)], &dk = out.nodes_[idx(k)];
+      const int hi = half_of(di), hk = half_of(dk);
+      return hi != hk ? hi < hk : det_sign(n, di, dk) > 0;
+    });
+    out.first_free_ = out.arcs_.size();
+    for (std::size_t i = 0; i < rim.size(); ++i) {
+      const int a = rim[i], b = rim[(i + 1) % rim.size()];
+      const V middle = out.nodes_[idx(a)] + out.nodes_[idx(b)];
+      if (std::any_of(in_circle.begin(), in_circle.end(), [&](const Arc* arc) {
+            return in_arc(nodes_[idx(arc->a)], nodes_[idx(arc->b)], arc->normal, middle);
+          }))
+        continue;
+      out.arcs_.push_back({a, b, kNoPiece, n});
+    }
+    out.find_faces();
+    return out;
+  }
+  // Of a star with a circle: whether a free part of that has the first face on the side away from its normal, and the second one on the other.
+  bool leads_across(const std::vector<int>& from, const std::vector<int>& to) const {
+    for (std::size_t i = first_free_; i < arcs_.size(); ++i) {
+      const V& n = arcs_[i].normal;
+      const V middle = nodes_[idx(arcs_[i].a)] + nodes_[idx(arcs_[i].b)];
+      const auto has = [&](std::size_t side, const std::vector<int>& face, const V& off) {
+        if (std::find(face.begin(), face.end(), face_[side]) == face.end()) return false;
+        return face.size() == 1 || face_of(moved({middle, off, {NT(0), NT(0), NT(0)}, {}})) == face;
+      };
+      if (has(2 * i, to, n) && has(2 * i + 1, from, -n)) return true;
+    }
+    return false;
+  }
+
   // limit, moved so little that no arc's great circle lies between, and that it is `good`.
   template <class Good>
   std::optional<V> moved_if_possible(const Beside<NT>& d, const Good& good) const {
@@ -252,6 +323,9 @@ class Star {
   }
 
  private:
+  static constexpr std::uint32_t kNoPiece = ~0U;
+  Star(const LocalScene& scene, const ExactPoint& x) : scene_(&scene), x_(&x) {}
+
   struct Arc {
     int a, b;
     std::uint32_t piece;
@@ -262,6 +336,7 @@ class Star {
 
   // Whether the arc's great circle holds the limit of d because both are of one piece: then no sign need be computed.
   bool is_on(const Arc& arc, const Beside<NT>& d) const {
+    if (arc.piece == kNoPiece) return false;
     const LocalPiece& piece = scene_->pieces[arc.piece];
     const auto& ids = d.at.kind == SpotName::Kind::vertex ? piece.corners : piece.edges;
     return d.at.kind != SpotName::Kind::none && std::find(ids.begin(), ids.end(), d.at.id) != ids.end();
@@ -356,6 +431,7 @@ class Star {
   std::vector<V> nodes_;
   std::vector<Arc> arcs_;
   std::vector<int> face_, component_;
+  std::size_t first_free_ = 0;  // arc of the circle
 };
 
 }  // namespace clues::fastpath

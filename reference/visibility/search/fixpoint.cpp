@@ -38,9 +38,14 @@ class Search {
         walker_(scene, options.dials.longest_walk),
         contours_(contour_edges(complex_, scene.cell())),
         maker_(scene, contours_),
+        contour_planes_(complex_.points.size()),
         cuts_(complex_.edges.size()),
         wedges_(scene) {
     for (const ContourEdge& c : contours_) is_contour_.insert(c.edge);
+    for (const ContourEdge& c : contours_) {
+      for (const std::uint32_t end : {complex_.edges[c.edge].a, complex_.edges[c.edge].b})
+        contour_planes_[end].push_back(c.plane);
+    }
   }
 
   Fixpoint run() {
@@ -361,7 +366,7 @@ class Search {
 
   Apex* corner(std::uint32_t point) {
     auto& slot = corners_[point];
-    if (!slot) slot = std::make_unique<Apex>(Apex::at_vertex(complex_, scene_.cell(), point));
+    if (!slot) slot = std::make_unique<Apex>(Apex::at_vertex(complex_, scene_.cell(), point, contour_planes_[point]));
     return slot.get();
   }
 
@@ -476,7 +481,8 @@ class Search {
   std::vector<ContourEdge> contours_;
   PieceMaker maker_;
   std::set<std::uint32_t> is_contour_;
-  std::vector<std::vector<Point3>> cuts_, new_cuts_;  // per edge; cuts_ in lexicographic order
+  std::vector<std::vector<exact::Plane3>> contour_planes_;  // per vertex: of the contour edges there
+  std::vector<std::vector<Point3>> cuts_, new_cuts_;        // per edge; cuts_ in lexicographic order
   std::vector<Source> sources_;
   std::vector<VertexSource> vertex_sources_;
   WedgeSet wedges_;

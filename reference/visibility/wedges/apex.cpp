@@ -11,9 +11,19 @@ using exact::FT;
 using exact::Point3;
 using exact::Vector3;
 
-Apex Apex::at_vertex(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t point) {
+Apex Apex::at_vertex(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t point,
+                     const std::vector<exact::Plane3>& contours) {
   Apex apex(cell, complex.points[point], LocalStar::around_vertex(complex, point));
   apex.id_ = point;
+  const auto add = [&](const exact::Plane3& plane) {
+    const Vector3 n = plane.orthogonal_vector();
+    if (!exact::lies_in(cell, plane) && std::none_of(apex.circles_.begin(), apex.circles_.end(),
+                                                     [&](const Vector3& c) { return same_direction(c, n); }))
+      apex.circles_.push_back(n);
+  };
+  for (const exact::Plane3& plane : contours) add(plane);
+  for (const ApexSector& s : apex.sectors_) add(s.plane);
+  apex.cut_.resize(apex.circles_.size());
   return apex;
 }
 
@@ -59,8 +69,28 @@ Probe Apex::probe(const Vector3& limit, const Vector3& aside, const Vector3& off
   return {{limit, aside == CGAL::NULL_VECTOR ? off : aside, off}, actual, CGAL::NULL_VECTOR, false};
 }
 
-bool Apex::spreads(const Probe& p, const ApexSector& s) const {
-  return !on_edge_ || star_.spreads_around_edge(p.beside, s.inner, anticone_);
+bool Apex::spreads(const Probe& p, const ApexSector& s) {
+  if (on_edge_) return star_.spreads_around_edge(p.beside, s.inner, anticone_);
+  return star_.free_between(p.beside, s.inner) || passes_circles(p, s);
+}
+
+// Let h be a plane through x with int V strictly in H+. On the sphere sight lines and continuations run away from
+// directions into int V: so if they are in H-, they stay there, and from H+ they get to H- once, through the circle of h where no piece
+// is. What a probe stands for begins, as seen from h, on the side on which the probe is, or goes from H+ to H- as well: directions into
+// V are in H+; a piece that passes x comes from a point of V and goes away from it; and a piece that starts on an edge
+// at x goes from the edge to directions away from V, which are in the closed H-. The inside of a sector is in H-, as all of A(x). So of the faces of the star with this circle
+// the probe and the sector are in one, or in two with a free part of the circle between them. This must hold for every h; here it is asked of some.
+bool Apex::passes_circles(const Probe& p, const ApexSector& s) {
+  for (std::size_t i = 0; i < circles_.size(); ++i) {
+    const CGAL::Sign side = side_of(circles_[i], p.beside);
+    if (side == CGAL::ZERO) continue;
+    if (!cut_[i]) cut_[i] = star_.with_circle(circles_[i]);
+    const LocalStar& cut = *cut_[i];
+    const std::vector<int> from = cut.face_of(cut.nudged(p.beside.limit, p.beside.aside, p.beside.off)),
+                           to = cut.face_of(s.inner);
+    if (side == CGAL::POSITIVE ? from != to : !cut.leads_across(from, to)) return false;
+  }
+  return true;
 }
 
 std::vector<Vector3> Apex::into_cell(const exact::ConvexCell& cell, const std::vector<Vector3>& known) const {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "exact/cell/convex_cell.h"
@@ -40,7 +41,9 @@ struct ApexSector {
 
 class Apex {
  public:
-  static Apex at_vertex(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t point);
+  // `contours`: the planes of contour edges at this vertex.
+  static Apex at_vertex(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t point,
+                        const std::vector<exact::Plane3>& contours);
   static Apex at_edge(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t edge,
                       const exact::Point3& x);
 
@@ -78,12 +81,16 @@ class Apex {
   Apex(const exact::ConvexCell& cell, const exact::Point3& x, LocalStar star);
 
   bool has_sector_in(const std::vector<int>& face) const;
-  // Whether the visible space of the probe, in the local face of the sector, reaches the sector's inside.
-  bool spreads(const Probe& p, const ApexSector& s) const;
+  // Whether the visible space of the probe, in the local face of the sector, may reach the sector's inside.
+  bool spreads(const Probe& p, const ApexSector& s);
+  bool passes_circles(const Probe& p, const ApexSector& s);
 
   exact::Point3 x_;
   LocalStar star_;
   std::vector<exact::Vector3> anticone_;  // its rays: away from the cell's vertices
+  // At a mesh vertex: planes with V on one side, of contour edges and of sectors, and the star with the circle of each once it was asked for.
+  std::vector<exact::Vector3> circles_;
+  std::vector<std::optional<LocalStar>> cut_;
   bool flat_ = false;
   bool on_edge_ = false;
   std::uint32_t id_ = 0;

@@ -124,6 +124,68 @@ void LocalStar::finish() {
   }
 }
 
+LocalStar LocalStar::with_circle(const Vector3& normal) const {
+  LocalStar star;
+  star.nodes_ = nodes_;
+  std::vector<int> on_circle;
+  std::vector<FT> at;
+  for (const Vector3& d : nodes_) {
+    at.push_back(normal * d);
+    if (CGAL::is_zero(at.back())) on_circle.push_back(static_cast<int>(at.size()) - 1);
+  }
+  const auto add_node = [&](const Vector3& d) {
+    on_circle.push_back(static_cast<int>(star.nodes_.size()));
+    star.nodes_.push_back(d);
+    return on_circle.back();
+  };
+  std::vector<Arc> covering;
+  for (const Arc& arc : arcs_) {
+    const FT &at_a = at[static_cast<std::size_t>(arc.a)], &at_b = at[static_cast<std::size_t>(arc.b)];
+    if (CGAL::is_zero(at_a) && CGAL::is_zero(at_b)) covering.push_back(arc);
+    if (CGAL::sign(at_a) * CGAL::sign(at_b) >= 0) {
+      star.arcs_.push_back(arc);
+      continue;
+    }
+    const int c = add_node(CGAL::abs(at_b) * nodes_[static_cast<std::size_t>(arc.a)] +
+                           CGAL::abs(at_a) * nodes_[static_cast<std::size_t>(arc.b)]);
+    star.arcs_.push_back({arc.a, c, {}});
+    star.arcs_.push_back({c, arc.b, {}});
+  }
+  // Four more, so that no part is longer than a quarter turn.
+  const Vector3 zero =
+      CGAL::is_zero(normal.x()) && CGAL::is_zero(normal.y()) ? Vector3(1, 0, 0) : Vector3(-normal.y(), normal.x(), 0);
+  const Vector3 quarter = CGAL::cross_product(normal, zero);
+  const auto node = [&](int i) -> const Vector3& { return star.nodes_[static_cast<std::size_t>(i)]; };
+  for (const Vector3& d : {zero, quarter, -zero, -quarter}) {
+    if (std::none_of(on_circle.begin(), on_circle.end(), [&](int i) { return same_direction(node(i), d); }))
+      add_node(d);
+  }
+  const auto half = [&](const Vector3& d) { return half_turn(det_sign(normal, zero, d), normal, zero, d); };
+  std::sort(on_circle.begin(), on_circle.end(), [&](int i, int k) {
+    const int hi = half(node(i)), hk = half(node(k));
+    return hi != hk ? hi < hk : det_sign(normal, node(i), node(k)) == CGAL::POSITIVE;
+  });
+  star.circle_ = star.arcs_.size();
+  for (std::size_t i = 0; i < on_circle.size(); ++i) {
+    const int a = on_circle[i], b = on_circle[(i + 1) % on_circle.size()];
+    const Vector3 middle = node(a) + node(b);
+    const auto covers = [&](const Arc& arc) { return in_arc(node(arc.a), node(arc.b), arc.normal, middle); };
+    if (std::none_of(covering.begin(), covering.end(), covers)) star.arcs_.push_back({a, b, {}});
+  }
+  star.finish();
+  return star;
+}
+
+bool LocalStar::leads_across(const std::vector<int>& from, const std::vector<int>& to) const {
+  for (std::size_t i = circle_; i < arcs_.size(); ++i) {
+    const Vector3 &a = nodes_[static_cast<std::size_t>(arcs_[i].a)], &b = nodes_[static_cast<std::size_t>(arcs_[i].b)];
+    const Vector3 middle = a + b;
+    if (face_of(nudged(middle, -arcs_[i].normal)) == from && face_of(nudged(middle, arcs_[i].normal)) == to)
+      return true;
+  }
+  return false;
+}
+
 int LocalStar::root(int side) const {
   while (face_[static_cast<std::size_t>(side)] != side) side = face_[static_cast<std::size_t>(side)];
   return side;

@@ -29,6 +29,13 @@ class LocalStar {
   static LocalStar around_vertex(const exact::Complex& complex, std::uint32_t point);
   static LocalStar around_edge_point(const exact::Complex& complex, std::uint32_t edge, const exact::Point3& x);
 
+  // The same star with the great circle of this normal drawn into it: arcs are cut where it crosses them, it is cut where they meet it, and
+  // what arcs cover of it is left out.
+  LocalStar with_circle(const exact::Vector3& normal) const;
+  // Of a star with a circle: whether some part of the circle that no arc covers has the face `from` on the negative side of the normal, and `to` on
+  // the positive one.
+  bool leads_across(const std::vector<int>& from, const std::vector<int>& to) const;
+
   // Names the face of the sphere that contains d (not on an arc): two directions lie in one face exactly when the names are equal.
   std::vector<int> face_of(const exact::Vector3& d) const;
 
@@ -83,6 +90,7 @@ class LocalStar {
   std::vector<Arc> arcs_;
   std::vector<int> face_;       // per arc side (2i: positive side of the normal, 2i+1: negative): union-find parent
   std::vector<int> component_;  // per arc: connected component of the arcs
+  std::size_t circle_ = 0;      // the first arc of the circle, which are the last ones
 };
 
 }  // namespace clues::reference
