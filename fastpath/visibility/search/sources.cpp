@@ -82,7 +82,7 @@ void Sources::place(OfVertex& s, Pool& pool) {
   std::optional<ExactPoint> beside;
   try {
     beside = near_enough(s.level, x, *s.view, [&](const ExactPoint& p) {
-      return !equal(p, x) && !scene_.may_meet(p, x) && !scene_.is_on_surface(p) && apex.in_one_face(p, *s.view) &&
+      return !equal(p, x) && !scene_.may_meet(p, x) && !scene_.is_on_surface(p) && apex.in_one_part(p, *s.view) &&
              !piece_between(p, x, pieces_, 0);
     });
   } catch (const scene::Error& error) {  // the vertex is too intricate

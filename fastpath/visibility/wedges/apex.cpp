@@ -260,12 +260,9 @@ std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) cons
 //    the half plane of edge and probe as near to the edge as one likes; and `spreads` turns about the
 //    edge). So beside the edge, where `inner` is as seen along the edge, is Omega; and every arc is a
 //    half plane at the edge, so none is between there and `inner`.
-// Let h be a plane through x with int V strictly in H+. On the sphere sight lines and continuations run away from directions into int V. So in H- they stay
-// there, and from H+ they get to H- once, through the circle of h, where no arc is. What a probe stands for is, as seen from h, on the side on which the probe is, or goes
-// from H+ to H-, too: directions into V are in H+; a piece that passes x comes from a point of V, goes by x and away from that; a piece that begins on an edge at x
-// goes from the edge to directions away from V, which are in the closed H-; and nothing is in the way of pieces on their side H- (D13). The
-// inside of a sector is in H-, as all of A(x) is. So of the faces of the star with this circle the probe and the sector are in one, or in two with a free part of the circle between
-// them; for any such h.
+// T13. Let h be a plane through x with int V strictly in H+. Light gets next to x in directions into int V, which are in H+, and there its legs, being parts of rays from H+, cross the circle
+// of h from H+ to H- alone, and where no arc is. The inside of a sector is in H-. So a free part of the circle lies between the face of such directions and that of the sector; and light
+// that was in H- before stays in one face with it.
 template <class NT>
 bool Apex::passes_circles(std::size_t k, const Vec3<NT>& inner, const Picture<NT>& around) const {
   const auto& lit = around.lit[k];

@@ -64,8 +64,8 @@ class Apex {
   // At a mesh vertex: one point x + t (q - x), t > 0, q inside V, in each part that incident pieces cut these points into; a part may have several. `inside_cell` is a point inside V. Throws
   // scene::Error internal if the vertex is too intricate.
   std::vector<ExactPoint> views_of_cell(const ExactPoint& inside_cell) const;
-  // Whether the directions towards p and q are in one local face; neither may be on an arc. Throws as above.
-  bool in_one_face(const ExactPoint& p, const ExactPoint& q) const;
+  // Whether the direction towards p is in the part of the directions into int V that the one towards q is in. Where A(x) is flat: whether pieces are between the two.
+  bool in_one_part(const ExactPoint& p, const ExactPoint& q) const;
 
  private:
   template <class NT>

@@ -144,10 +144,14 @@ std::vector<ExactPoint> Apex::views_of_cell(const ExactPoint& inside_cell) const
   return points;
 }
 
-bool Apex::in_one_face(const ExactPoint& p, const ExactPoint& q) const {
+// The directions into int V are those strictly in H+ of the facets of A(x), and convex: so what is free between two of them is in one part.
+bool Apex::in_one_part(const ExactPoint& p, const ExactPoint& q) const {
+  if (!flat_ &&
+      std::any_of(sectors_.begin(), sectors_.end(), [&](const ApexSector& s) { return s.plane->side(p) >= 0; }))
+    return false;
   return decide<Integer>([&]<class NT>() {
     const Star<NT> star(*scene_, on_edge_, id_, x_, arcs_);
-    return star.face_of(star.to(p)) == star.face_of(star.to(q));
+    return star.is_free(star.to(p), star.to(q));
   });
 }
 

@@ -272,6 +272,19 @@ class Star {
     return true;
   }
 
+  // Whether the great circle arc between two directions, less than a half turn apart, meets no arc.
+  bool is_free(const V& d0, const V& d1) const {
+    return std::none_of(arcs_.begin(), arcs_.end(), [&](const Arc& arc) {
+      const V &a = nodes_[idx(arc.a)], &b = nodes_[idx(arc.b)];
+      const NT at0 = dot(arc.normal, d0), at1 = dot(arc.normal, d1);
+      const int s0 = sign_of(at0), s1 = sign_of(at1);
+      if (s0 == 0 && in_arc(a, b, arc.normal, d0)) return true;
+      if (s1 == 0 && in_arc(a, b, arc.normal, d1)) return true;
+      if (s0 == 0 && s1 == 0) return !same_direction(d0, d1) && in_arc(d0, d1, cross(d0, d1), a);
+      return s0 * s1 < 0 && in_arc(a, b, arc.normal, V(NT(s1 * at1) * d0 + NT(s0 * at0) * d1));
+    });
+  }
+
   // Around an edge point; d and inner in one face, inner inside the cone spanned by `rays`: whether one can get from d to inner by ways that each
   // turn by less than a half turn towards a direction of the cone. Seen along the edge every piece is a ray.
   // `along(i)`: whether ray i is in one plane with d.limit and the edge.

@@ -74,12 +74,9 @@ bool Apex::spreads(const Probe& p, const ApexSector& s) {
   return star_.free_between(p.beside, s.inner) || passes_circles(p, s);
 }
 
-// Let h be a plane through x with int V strictly in H+. On the sphere sight lines and continuations run away from
-// directions into int V: so if they are in H-, they stay there, and from H+ they get to H- once, through the circle of h where no piece
-// is. What a probe stands for begins, as seen from h, on the side on which the probe is, or goes from H+ to H- as well: directions into
-// V are in H+; a piece that passes x comes from a point of V and goes away from it; and a piece that starts on an edge
-// at x goes from the edge to directions away from V, which are in the closed H-. The inside of a sector is in H-, as all of A(x). So of the faces of the star with this circle
-// the probe and the sector are in one, or in two with a free part of the circle between them. This must hold for every h; here it is asked of some.
+// T13. Let h be a plane through x with int V strictly in H+. Light gets next to x in directions into int V, which are in H+, and there its legs, being parts of rays from
+// H+, cross the circle of h from H+ to H- alone, and where no piece is. The inside of a sector is in H-. So a free part of the circle lies between the face of such directions and that of
+// the sector; and light that was in H- before stays in one face with it. This must hold for every h; here it is asked of some.
 bool Apex::passes_circles(const Probe& p, const ApexSector& s) {
   for (std::size_t i = 0; i < circles_.size(); ++i) {
     const CGAL::Sign side = side_of(circles_[i], p.beside);
