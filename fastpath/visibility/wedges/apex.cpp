@@ -13,10 +13,11 @@ Apex::Apex(const LocalScene& scene, Pool& pool, bool on_edge, std::uint32_t id, 
     : scene_(&scene), on_edge_(on_edge), id_(id), x_(x), arcs_(arcs_around(scene, on_edge, id)) {
   find_sectors(pool);
   if (on_edge || flat_) return;
-  circles_ = contours;
-  for (const ApexSector& s : sectors_) {
-    if (circles_.empty() || circles_.back() != s.plane) circles_.push_back(s.plane);
-  }
+  const auto add = [&](const Plane* plane) {
+    if (circles_.empty() || circles_.back().plane != plane) circles_.push_back({plane, false, false, {}, {}, {}});
+  };
+  for (const Plane* plane : contours) add(plane);
+  for (const ApexSector& s : sectors_) add(s.plane);
 }
 
 std::vector<LocalArc> arcs_around(const LocalScene& scene, bool on_edge, std::uint32_t id) {
@@ -158,12 +159,6 @@ struct Apex::Picture {
     bool doubtful;
     bool into_cell;  // of a sight line: strictly in H+ of all planes with V on that side
   };
-  // The star with a circle, and in it the faces of what is lit, once they were asked for.
-  struct Cut {
-    Star<NT> star;
-    std::vector<std::optional<std::vector<int>>> faces;
-  };
-
   Picture(const Apex& apex, const std::vector<Probe>& probes)
       : star(*apex.scene_, apex.on_edge_, apex.id_, apex.x_, apex.arcs_) {
     for (const Probe& p : probes) {
@@ -181,7 +176,7 @@ struct Apex::Picture {
       lit.push_back(std::move(l));
     }
     for (const ExactPoint& s : apex.scene_->cell.vertices) anticone.push_back(direction<NT>(s, *apex.x_));
-    cuts.resize(apex.circles_.size());
+    with_circles.assign(lit.size(), std::vector<Face>(apex.circles_.size()));
     away = anticone.front();
     for (std::size_t i = 1; i < anticone.size(); ++i) away = away + anticone[i];
   }
@@ -191,7 +186,7 @@ struct Apex::Picture {
   std::vector<Lit> lit;
   std::vector<V> anticone;
   V away;
-  mutable std::vector<std::optional<Cut>> cuts;  // by circle of the apex
+  mutable std::vector<std::vector<Face>> with_circles;  // of what is lit, in the star with each circle, once asked for
 };
 
 // Made when they are asked for.
@@ -222,15 +217,42 @@ class Apex::Pictures {
   std::tuple<Slot<Interval>, Slot<Integer>> slots_;
 };
 
-std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) const {
+std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) {
   if (sectors_.empty() || probes.empty()) return {};
   std::vector<std::uint32_t> found;
   Pictures pictures(*this, probes);
   for (std::uint32_t i = 0; i < sectors_.size(); ++i) {
-    if (flat_ || decide<Integer>([&]<class NT>() { return exists(sectors_[i], pictures.in<NT>()); }))
-      found.push_back(i);
+    if (flat_ || decide<Integer>([&]<class NT>() { return exists(i, pictures.in<NT>()); })) found.push_back(i);
   }
   return found;
+}
+
+// T13. Let h be a plane through x with int V strictly in H+. Light gets next to x in directions into int V, which are in H+, and there its legs, being parts of rays from H+, cross the circle
+// of h from H+ to H- alone, and where no arc is. The inside of a sector is in H-. So a free part of the circle lies between the face of such directions and that of the sector; and light
+// that was in H- before stays in one face with it.
+bool Apex::passes_circles(std::size_t k, std::size_t sector, const Vec3<Integer>& inner,
+                          const Picture<Integer>& around) {
+  const auto& lit = around.lit[k];
+  for (std::size_t i = 0; i < circles_.size(); ++i) {
+    Circle& c = circles_[i];
+    const Vec3<Integer> n = normal_direction<Integer>(*c.plane);
+    if (!c.asked) c.divides = around.star.meets_circle(n);
+    c.asked = true;
+    const int side = !c.divides ? 0 : lit.into_cell ? -1 : lit.beside.side_of(n);
+    if (side == 0) continue;
+    if (!c.star) {
+      c.star = around.star.with_circle(n);
+      c.across = c.star->across_circle();
+      c.inside.resize(sectors_.size());
+    }
+    Face &from = around.with_circles[k][i], &to = c.inside[sector];
+    if (from.empty()) from = c.star->face_of(lit.into_cell ? lit.beside.limit : c.star->moved(lit.beside));
+    if (to.empty()) to = c.star->face_of(inner);
+    const bool passes =
+        side > 0 ? from == to : std::find(c.across.begin(), c.across.end(), std::pair(from, to)) != c.across.end();
+    if (!passes) return false;
+  }
+  return true;
 }
 
 // A sector that bounds nothing is left out. Let its plane have V on the side H+, and A(x) on the other; d
@@ -260,28 +282,9 @@ std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) cons
 //    the half plane of edge and probe as near to the edge as one likes; and `spreads` turns about the
 //    edge). So beside the edge, where `inner` is as seen along the edge, is Omega; and every arc is a
 //    half plane at the edge, so none is between there and `inner`.
-// T13. Let h be a plane through x with int V strictly in H+. Light gets next to x in directions into int V, which are in H+, and there its legs, being parts of rays from H+, cross the circle
-// of h from H+ to H- alone, and where no arc is. The inside of a sector is in H-. So a free part of the circle lies between the face of such directions and that of the sector; and light
-// that was in H- before stays in one face with it.
 template <class NT>
-bool Apex::passes_circles(std::size_t k, const Vec3<NT>& inner, const Picture<NT>& around) const {
-  const auto& lit = around.lit[k];
-  for (std::size_t i = 0; i < circles_.size(); ++i) {
-    const Vec3<NT> n = normal_direction<NT>(*circles_[i]);
-    const int side = lit.into_cell ? -1 : lit.beside.side_of(n);
-    if (side == 0) continue;
-    auto& cut = around.cuts[i];
-    if (!cut) cut = {around.star.with_circle(n), std::vector<std::optional<std::vector<int>>>(around.lit.size())};
-    std::optional<std::vector<int>>& from = cut->faces[k];
-    if (!from) from = cut->star.face_of(lit.into_cell ? lit.beside.limit : cut->star.moved(lit.beside));
-    const std::vector<int> to = cut->star.face_of(inner);
-    if (side > 0 ? *from != to : !cut->star.leads_across(*from, to)) return false;
-  }
-  return true;
-}
-
-template <class NT>
-bool Apex::exists(const ApexSector& s, const Picture<NT>& around) const {
+bool Apex::exists(std::size_t sector, const Picture<NT>& around) {
+  const ApexSector& s = sectors_[sector];
   const Star<NT>& star = around.star;
   const Vec3<NT> n = normal_direction<NT>(*s.plane), middle = balanced_sum<NT>(star.to(*s.ray0), star.to(*s.ray1));
   // Visible space strictly in H+ that surely reaches the points just off `middle` in H+.
@@ -304,7 +307,7 @@ bool Apex::exists(const ApexSector& s, const Picture<NT>& around) const {
     if (!on_edge_ && !star.free_between(l.beside, inner)) {
       if constexpr (std::is_same_v<NT, Interval>) {
         throw Unsure{};  // circles meet arcs in points that intervals do not know to be on both
-      } else if (!passes_circles(k, inner, around)) {
+      } else if (!passes_circles(k, sector, inner, around)) {
         continue;
       }
     }

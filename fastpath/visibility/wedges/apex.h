@@ -9,6 +9,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "fastpath/visibility/wedges/on_wedge.h"
@@ -57,7 +59,7 @@ class Apex {
   bool has_piece_in_plane() const;
 
   // The sectors that exist given these probes, ascending. Where A(x) is flat all of them do: one too many cuts, and shows nothing.
-  std::vector<std::uint32_t> existing(const std::vector<Probe>& probes) const;
+  std::vector<std::uint32_t> existing(const std::vector<Probe>& probes);
 
   // At a mesh vertex: whether the cell is seen from x without an incident piece between any two of the sight lines.
   bool sees_cell_in_one_part() const;
@@ -72,9 +74,18 @@ class Apex {
   struct Picture;
   class Pictures;
   template <class NT>
-  bool exists(const ApexSector& sector, const Picture<NT>& around) const;
-  template <class NT>
-  bool passes_circles(std::size_t probe, const Vec3<NT>& inner, const Picture<NT>& around) const;
+  bool exists(std::size_t sector, const Picture<NT>& around);
+  // At a mesh vertex: the circle of a plane with V on one side, of a contour edge or a sector. What follows is made when it is first asked for.
+  using Face = std::vector<int>;
+  struct Circle {
+    const Plane* plane;
+    bool asked, divides;
+    std::optional<Star<Integer>> star;  // with the circle
+    std::vector<std::pair<Face, Face>> across;
+    std::vector<Face> inside;  // of sectors
+  };
+  bool passes_circles(std::size_t probe, std::size_t sector, const Vec3<Integer>& inner,
+                      const Picture<Integer>& around);
 
   bool may_meet_cone(const LocalArc& arc) const;  // the directions from x to V; filtered
   void find_sectors(Pool& pool);
@@ -87,7 +98,7 @@ class Apex {
   std::vector<LocalArc> arcs_;
   std::vector<ApexSector> sectors_;
   bool flat_ = false;
-  std::vector<const Plane*> circles_;  // at a mesh vertex: planes with V on one side, of contour edges and of sectors
+  std::vector<Circle> circles_;
 };
 
 }  // namespace clues::fastpath

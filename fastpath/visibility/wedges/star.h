@@ -91,8 +91,17 @@ class Star {
 
   V to(const ExactPoint& p) const { return direction<NT>(*x_, p); }
 
-  // The same with the great circle of this normal: arcs are cut where it crosses them, it is cut where they meet it, and what they do not cover of it is free. For a
-  // type without rounding.
+  // Whether arcs meet the great circle of this normal in more than one place. If not, it divides no face next to it: one gets from one way through it to another along it.
+  bool meets_circle(const V& n) const {
+    std::vector<int> side;
+    for (const V& d : nodes_) side.push_back(sign_of(NT(dot(n, d))));
+    return std::count(side.begin(), side.end(), 0) +
+               std::count_if(arcs_.begin(), arcs_.end(),
+                             [&](const Arc& arc) { return side[idx(arc.a)] * side[idx(arc.b)] < 0; }) >
+           1;
+  }
+  // The same with that circle: arcs are cut where it crosses them, it is cut where they meet it, and what they do not cover of it is free. For a type without
+  // rounding.
   Star with_circle(const V& n) const {
     Star out(*scene_, *x_);
     out.nodes_ = nodes_;
@@ -148,18 +157,21 @@ class Star {
     out.find_faces();
     return out;
   }
-  // Of a star with a circle: whether a free part of that has the first face on the side away from its normal, and the second one on the other.
-  bool leads_across(const std::vector<int>& from, const std::vector<int>& to) const {
+  // Of a star with a circle, for each free part of it: the faces on the side away from its normal, and on the other.
+  std::vector<std::pair<std::vector<int>, std::vector<int>>> across_circle() const {
+    const bool connected =
+        std::all_of(component_.begin(), component_.end(), [&](int c) { return c == component_.front(); });
+    const V nothing{NT(0), NT(0), NT(0)};
+    std::vector<std::pair<std::vector<int>, std::vector<int>>> sides;
     for (std::size_t i = first_free_; i < arcs_.size(); ++i) {
-      const V& n = arcs_[i].normal;
-      const V middle = nodes_[idx(arcs_[i].a)] + nodes_[idx(arcs_[i].b)];
-      const auto has = [&](std::size_t side, const std::vector<int>& face, const V& off) {
-        if (std::find(face.begin(), face.end(), face_[side]) == face.end()) return false;
-        return face.size() == 1 || face_of(moved({middle, off, {NT(0), NT(0), NT(0)}, {}})) == face;
-      };
-      if (has(2 * i, to, n) && has(2 * i + 1, from, -n)) return true;
+      if (connected) {
+        sides.push_back({{face_[2 * i + 1]}, {face_[2 * i]}});
+        continue;
+      }
+      const V &n = arcs_[i].normal, middle = nodes_[idx(arcs_[i].a)] + nodes_[idx(arcs_[i].b)];
+      sides.emplace_back(face_of(moved({middle, -n, nothing, {}})), face_of(moved({middle, n, nothing, {}})));
     }
-    return false;
+    return sides;
   }
 
   // limit, moved so little that no arc's great circle lies between, and that it is `good`.

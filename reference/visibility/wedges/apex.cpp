@@ -15,16 +15,20 @@ Apex Apex::at_vertex(const exact::Complex& complex, const exact::ConvexCell& cel
                      const std::vector<exact::Plane3>& contours) {
   Apex apex(cell, complex.points[point], LocalStar::around_vertex(complex, point));
   apex.id_ = point;
+  if (!apex.flat_) apex.add_circles(contours, cell);
+  return apex;
+}
+
+void Apex::add_circles(const std::vector<exact::Plane3>& contours, const exact::ConvexCell& cell) {
   const auto add = [&](const exact::Plane3& plane) {
     const Vector3 n = plane.orthogonal_vector();
-    if (!exact::lies_in(cell, plane) && std::none_of(apex.circles_.begin(), apex.circles_.end(),
-                                                     [&](const Vector3& c) { return same_direction(c, n); }))
-      apex.circles_.push_back(n);
+    const auto is_it = [&](const Circle& c) { return same_direction(c.normal, n); };
+    if (!exact::lies_in(cell, plane) && star_.meets_circle(n) && std::none_of(circles_.begin(), circles_.end(), is_it))
+      circles_.push_back({n, std::nullopt, {}, {}});
   };
+  if (sectors_.empty()) return;
   for (const exact::Plane3& plane : contours) add(plane);
-  for (const ApexSector& s : apex.sectors_) add(s.plane);
-  apex.cut_.resize(apex.circles_.size());
-  return apex;
+  for (const ApexSector& s : sectors_) add(s.plane);
 }
 
 Apex Apex::at_edge(const exact::Complex& complex, const exact::ConvexCell& cell, std::uint32_t edge, const Point3& x) {
@@ -69,23 +73,33 @@ Probe Apex::probe(const Vector3& limit, const Vector3& aside, const Vector3& off
   return {{limit, aside == CGAL::NULL_VECTOR ? off : aside, off}, actual, CGAL::NULL_VECTOR, false};
 }
 
-bool Apex::spreads(const Probe& p, const ApexSector& s) {
+bool Apex::spreads(const Probe& p, std::size_t k, std::vector<Face>& faces) {
+  const ApexSector& s = sectors_[k];
   if (on_edge_) return star_.spreads_around_edge(p.beside, s.inner, anticone_);
-  return star_.free_between(p.beside, s.inner) || passes_circles(p, s);
+  return circles_.empty() || star_.free_between(p.beside, s.inner) || passes_circles(p, k, faces);
 }
 
 // T13. Let h be a plane through x with int V strictly in H+. Light gets next to x in directions into int V, which are in H+, and there its legs, being parts of rays from
 // H+, cross the circle of h from H+ to H- alone, and where no piece is. The inside of a sector is in H-. So a free part of the circle lies between the face of such directions and that of
 // the sector; and light that was in H- before stays in one face with it. This must hold for every h; here it is asked of some.
-bool Apex::passes_circles(const Probe& p, const ApexSector& s) {
+bool Apex::passes_circles(const Probe& p, std::size_t k, std::vector<Face>& faces) {
+  faces.resize(circles_.size());
   for (std::size_t i = 0; i < circles_.size(); ++i) {
-    const CGAL::Sign side = side_of(circles_[i], p.beside);
+    Circle& c = circles_[i];
+    const CGAL::Sign side = side_of(c.normal, p.beside);
     if (side == CGAL::ZERO) continue;
-    if (!cut_[i]) cut_[i] = star_.with_circle(circles_[i]);
-    const LocalStar& cut = *cut_[i];
-    const std::vector<int> from = cut.face_of(cut.nudged(p.beside.limit, p.beside.aside, p.beside.off)),
-                           to = cut.face_of(s.inner);
-    if (side == CGAL::POSITIVE ? from != to : !cut.leads_across(from, to)) return false;
+    if (!c.star) {
+      c.star = star_.with_circle(c.normal);
+      c.across = c.star->across_circle();
+      c.inside.resize(sectors_.size());
+    }
+    if (faces[i].empty()) faces[i] = c.star->face_of(c.star->nudged(p.beside.limit, p.beside.aside, p.beside.off));
+    if (c.inside[k].empty()) c.inside[k] = c.star->face_of(sectors_[k].inner);
+    const Face &from = faces[i], &to = c.inside[k];
+    const bool passes = side == CGAL::POSITIVE
+                            ? from == to
+                            : std::find(c.across.begin(), c.across.end(), std::pair(from, to)) != c.across.end();
+    if (!passes) return false;
   }
   return true;
 }
@@ -127,6 +141,7 @@ std::vector<std::size_t> Apex::new_sectors() {
   if (!flat_) {
     for (const Probe& p : probes_) faces.push_back(star_.face_of(p.actual));
   }
+  std::vector<std::vector<Face>> faces_with_circles(probes_.size());
   for (std::size_t i = 0; i < sectors_.size(); ++i) {
     ApexSector& s = sectors_[i];
     if (s.built) continue;
@@ -139,7 +154,7 @@ std::vector<std::size_t> Apex::new_sectors() {
     bool exists = false, bounds_nothing = false;
     for (std::size_t k = 0; k < probes_.size(); ++k) {
       const Probe& p = probes_[k];
-      const bool spreads_here = faces[k] == s.face && spreads(p, s);
+      const bool spreads_here = faces[k] == s.face && spreads(p, i, faces_with_circles[k]);
       exists |= spreads_here;
       // Visible space strictly in H+ that surely reaches the points just off `middle` in H+ too. A point of the visible part of a
       // crossed edge reaches whatever its own face allows.

@@ -81,16 +81,24 @@ class Apex {
   Apex(const exact::ConvexCell& cell, const exact::Point3& x, LocalStar star);
 
   bool has_sector_in(const std::vector<int>& face) const;
-  // Whether the visible space of the probe, in the local face of the sector, may reach the sector's inside.
-  bool spreads(const Probe& p, const ApexSector& s);
-  bool passes_circles(const Probe& p, const ApexSector& s);
+  // At a mesh vertex: the circle of a plane with V on one side, of a contour edge or a sector, that divides faces. What follows is made when it is first asked for.
+  using Face = std::vector<int>;
+  struct Circle {
+    exact::Vector3 normal;
+    std::optional<LocalStar> star;  // with the circle
+    std::vector<std::pair<Face, Face>> across;
+    std::vector<Face> inside;  // of sectors
+  };
+  void add_circles(const std::vector<exact::Plane3>& contours, const exact::ConvexCell& cell);
+  // Whether the visible space of probe p, in the local face of sector s, may reach the sector's inside. `faces`: those of the probe in stars with circles, once
+  // they were asked for.
+  bool spreads(const Probe& p, std::size_t s, std::vector<Face>& faces);
+  bool passes_circles(const Probe& p, std::size_t s, std::vector<Face>& faces);
 
   exact::Point3 x_;
   LocalStar star_;
   std::vector<exact::Vector3> anticone_;  // its rays: away from the cell's vertices
-  // At a mesh vertex: planes with V on one side, of contour edges and of sectors, and the star with the circle of each once it was asked for.
-  std::vector<exact::Vector3> circles_;
-  std::vector<std::optional<LocalStar>> cut_;
+  std::vector<Circle> circles_;
   bool flat_ = false;
   bool on_edge_ = false;
   std::uint32_t id_ = 0;

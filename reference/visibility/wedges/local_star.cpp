@@ -124,6 +124,15 @@ void LocalStar::finish() {
   }
 }
 
+bool LocalStar::meets_circle(const Vector3& normal) const {
+  std::vector<CGAL::Sign> side;
+  for (const Vector3& d : nodes_) side.push_back(CGAL::sign(normal * d));
+  const auto crosses = [&](const Arc& arc) {
+    return side[static_cast<std::size_t>(arc.a)] * side[static_cast<std::size_t>(arc.b)] < 0;
+  };
+  return std::count(side.begin(), side.end(), CGAL::ZERO) + std::count_if(arcs_.begin(), arcs_.end(), crosses) > 1;
+}
+
 LocalStar LocalStar::with_circle(const Vector3& normal) const {
   LocalStar star;
   star.nodes_ = nodes_;
@@ -176,14 +185,19 @@ LocalStar LocalStar::with_circle(const Vector3& normal) const {
   return star;
 }
 
-bool LocalStar::leads_across(const std::vector<int>& from, const std::vector<int>& to) const {
+std::vector<std::pair<std::vector<int>, std::vector<int>>> LocalStar::across_circle() const {
+  const bool connected = std::all_of(component_.begin(), component_.end(), [&](int c) { return c == component_[0]; });
+  std::vector<std::pair<std::vector<int>, std::vector<int>>> sides;
   for (std::size_t i = circle_; i < arcs_.size(); ++i) {
+    if (connected) {
+      const int left = static_cast<int>(2 * i);
+      sides.push_back({{root(left + 1)}, {root(left)}});
+      continue;
+    }
     const Vector3 &a = nodes_[static_cast<std::size_t>(arcs_[i].a)], &b = nodes_[static_cast<std::size_t>(arcs_[i].b)];
-    const Vector3 middle = a + b;
-    if (face_of(nudged(middle, -arcs_[i].normal)) == from && face_of(nudged(middle, arcs_[i].normal)) == to)
-      return true;
+    sides.emplace_back(face_of(nudged(a + b, -arcs_[i].normal)), face_of(nudged(a + b, arcs_[i].normal)));
   }
-  return false;
+  return sides;
 }
 
 int LocalStar::root(int side) const {

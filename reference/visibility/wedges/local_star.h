@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "exact/cell/convex_cell.h"
@@ -29,12 +30,13 @@ class LocalStar {
   static LocalStar around_vertex(const exact::Complex& complex, std::uint32_t point);
   static LocalStar around_edge_point(const exact::Complex& complex, std::uint32_t edge, const exact::Point3& x);
 
-  // The same star with the great circle of this normal drawn into it: arcs are cut where it crosses them, it is cut where they meet it, and
-  // what arcs cover of it is left out.
+  // Whether arcs meet the great circle of this normal in more than one place. If not, it divides no face next to it: one gets from one way through it to another along it.
+  bool meets_circle(const exact::Vector3& normal) const;
+  // The same star with that circle drawn into it: arcs are cut where it crosses them, it is cut where they meet it, and what arcs cover of it is left
+  // out.
   LocalStar with_circle(const exact::Vector3& normal) const;
-  // Of a star with a circle: whether some part of the circle that no arc covers has the face `from` on the negative side of the normal, and `to` on
-  // the positive one.
-  bool leads_across(const std::vector<int>& from, const std::vector<int>& to) const;
+  // Of a star with a circle, for each part of it that no arc covers: the faces on the negative and on the positive side of the normal.
+  std::vector<std::pair<std::vector<int>, std::vector<int>>> across_circle() const;
 
   // Names the face of the sphere that contains d (not on an arc): two directions lie in one face exactly when the names are equal.
   std::vector<int> face_of(const exact::Vector3& d) const;
