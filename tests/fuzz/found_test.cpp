@@ -136,8 +136,8 @@ Ids seen_exactly(const scene::TriangleMesh& mesh, const std::vector<scene::Point
   return reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(cell), options).visible;
 }
 
-// nonconvex_solids 0 of seed 20261124, subject bakes, 54 triangles before. Of triangle 8 the box sees a border and no more, so that it is not listed; without it the flat cell in the box sees triangle 4, which is
-// hidden from it in the scene. T6 has triangle 8; `clues bake --group` has not, and lists triangle 4.
+// nonconvex_solids 0 of seed 20261124, subject bakes, 54 triangles before. Of triangle 8 the box sees a border and no more, so that it is not listed; without it both kernels listed triangle 4 from the flat cell
+// in the box, which is hidden from it in the scene, until they had T13. T6 has triangle 8; `clues bake --group` has not.
 TEST(Found, ABoxOfAGroupListsNothingOfWhichItSeesABorder) {
   const auto mesh = mesh_of({{6, 0, 3},
                              {7, 0, 1},
@@ -169,7 +169,7 @@ TEST(Found, ABoxOfAGroupListsNothingOfWhichItSeesABorder) {
   EXPECT_EQ(seen_exactly(mesh, box_cell({1.0625, -2, 2}, {3.8125, 1.75, 2.421875})),
             (Ids{0, 1, 2, 3, 4, 5, 6, 7, 9, 10}));
   EXPECT_EQ(seen_exactly(mesh, cell), (Ids{0, 2, 3, 5, 6, 7, 9}));
-  EXPECT_EQ(seen_exactly(without, cell), (Ids{0, 2, 3, 4, 5, 6, 7, 8})) << "triangle 9 is number 8 there";
+  EXPECT_EQ(seen_exactly(without, cell), (Ids{0, 2, 3, 5, 6, 7, 8})) << "triangle 9 is number 8 there";
   for (const auto& c : {cell, box_cell({1.0625, -2, 2}, {3.8125, 1.75, 2.421875})}) {
     is_answered({"found", 0, 0, mesh, c});
     is_answered({"found", 0, 0, without, c});
