@@ -14,7 +14,7 @@ Apex::Apex(const LocalScene& scene, Pool& pool, bool on_edge, std::uint32_t id, 
   find_sectors(pool);
   if (on_edge || flat_) return;
   const auto add = [&](const Plane* plane) {
-    if (circles_.empty() || circles_.back().plane != plane) circles_.push_back({plane, false, false, {}, {}, {}});
+    if (circles_.empty() || circles_.back().plane != plane) circles_.push_back({plane, {}, false, {}, {}, {}});
   };
   for (const Plane* plane : contours) add(plane);
   for (const ApexSector& s : sectors_) add(s.plane);
@@ -159,6 +159,7 @@ struct Apex::Picture {
     bool doubtful;
     bool into_cell;  // of a sight line: strictly in H+ of all planes with V on that side
   };
+
   Picture(const Apex& apex, const std::vector<Probe>& probes)
       : star(*apex.scene_, apex.on_edge_, apex.id_, apex.x_, apex.arcs_) {
     for (const Probe& p : probes) {
@@ -176,7 +177,7 @@ struct Apex::Picture {
       lit.push_back(std::move(l));
     }
     for (const ExactPoint& s : apex.scene_->cell.vertices) anticone.push_back(direction<NT>(s, *apex.x_));
-    with_circles.assign(lit.size(), std::vector<Face>(apex.circles_.size()));
+    with_circles.resize(lit.size());
     away = anticone.front();
     for (std::size_t i = 1; i < anticone.size(); ++i) away = away + anticone[i];
   }
@@ -233,19 +234,22 @@ std::vector<std::uint32_t> Apex::existing(const std::vector<Probe>& probes) {
 bool Apex::passes_circles(std::size_t k, std::size_t sector, const Vec3<Integer>& inner,
                           const Picture<Integer>& around) {
   const auto& lit = around.lit[k];
+  std::vector<Face>& faces = around.with_circles[k];
+  faces.resize(circles_.size());
   for (std::size_t i = 0; i < circles_.size(); ++i) {
     Circle& c = circles_[i];
-    const Vec3<Integer> n = normal_direction<Integer>(*c.plane);
-    if (!c.asked) c.divides = around.star.meets_circle(n);
-    c.asked = true;
-    const int side = !c.divides ? 0 : lit.into_cell ? -1 : lit.beside.side_of(n);
+    if (!c.normal) {
+      c.normal = normal_direction<Integer>(*c.plane);
+      c.divides = around.star.meets_circle(*c.normal);
+    }
+    const int side = !c.divides ? 0 : lit.into_cell ? -1 : lit.beside.side_of(*c.normal);
     if (side == 0) continue;
     if (!c.star) {
-      c.star = around.star.with_circle(n);
+      c.star = around.star.with_circle(*c.normal);
       c.across = c.star->across_circle();
       c.inside.resize(sectors_.size());
     }
-    Face &from = around.with_circles[k][i], &to = c.inside[sector];
+    Face &from = faces[i], &to = c.inside[sector];
     if (from.empty()) from = c.star->face_of(lit.into_cell ? lit.beside.limit : c.star->moved(lit.beside));
     if (to.empty()) to = c.star->face_of(inner);
     const bool passes =

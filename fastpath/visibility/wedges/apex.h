@@ -79,7 +79,8 @@ class Apex {
   using Face = std::vector<int>;
   struct Circle {
     const Plane* plane;
-    bool asked, divides;
+    std::optional<Vec3<Integer>> normal;
+    bool divides = false;               // faces
     std::optional<Star<Integer>> star;  // with the circle
     std::vector<std::pair<Face, Face>> across;
     std::vector<Face> inside;  // of sectors

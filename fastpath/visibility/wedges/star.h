@@ -56,6 +56,14 @@ bool in_arc(const Vec3<NT>& a, const Vec3<NT>& b, const Vec3<NT>& normal, const 
   return det_sign(normal, a, x) >= 0 && det_sign(normal, x, b) >= 0;
 }
 
+// Where `to` lies in the turn about axis that starts at `from`: 0 at from, 1 in the first half turn, 2 opposite, 3 in the second half turn.
+template <class NT>
+int half_turn(const Vec3<NT>& axis, const Vec3<NT>& from, const Vec3<NT>& to) {
+  const int side = det_sign(axis, from, to);
+  if (side != 0) return side > 0 ? 1 : 3;
+  return sign_of(NT(dot(cross(axis, from), cross(axis, to)))) > 0 ? 0 : 2;
+}
+
 // Intervals that find no way leave the question to whole numbers.
 template <class NT>
 [[noreturn]] void give_up(const char* what) {
@@ -134,14 +142,10 @@ class Star {
       rim.push_back(static_cast<int>(out.nodes_.size()));
       out.nodes_.push_back(d);
     }
-    const auto half_of = [&](const V& d) {
-      const int s = det_sign(n, e, d);
-      return s != 0 ? (s > 0 ? 1 : 3) : (sign_of(NT(dot(e, d))) > 0 ? 0 : 2);
-    };
     std::sort(rim.begin(), rim.end(), [&](int i, int k) {
       if (i == k) return false;
       const V &di = out.nodes_[idx(i)], &dk = out.nodes_[idx(k)];
-      const int hi = half_of(di), hk = half_of(dk);
+      const int hi = half_turn(n, e, di), hk = half_turn(n, e, dk);
       return hi != hk ? hi < hk : det_sign(n, di, dk) > 0;
     });
     out.first_free_ = out.arcs_.size();
@@ -389,16 +393,11 @@ class Star {
     if (spokes.size() > 2) {
       const V& axis = nodes_[idx(n)];
       const V& zero = nodes_[idx(spokes.front().to)];
-      const auto half = [&](const Spoke& s) {
-        const V& to = nodes_[idx(s.to)];
-        const int side = det_sign(axis, zero, to);
-        if (side != 0) return side > 0 ? 1 : 3;
-        return sign_of(NT(dot(cross(axis, zero), cross(axis, to)))) > 0 ? 0 : 2;
-      };
       std::sort(spokes.begin() + 1, spokes.end(), [&](const Spoke& s, const Spoke& t) {
         if (s.to == t.to) return false;
-        const int hs = half(s), ht = half(t);
-        return hs != ht ? hs < ht : det_sign(axis, nodes_[idx(s.to)], nodes_[idx(t.to)]) > 0;
+        const V &to_s = nodes_[idx(s.to)], &to_t = nodes_[idx(t.to)];
+        const int hs = half_turn(axis, zero, to_s), ht = half_turn(axis, zero, to_t);
+        return hs != ht ? hs < ht : det_sign(axis, to_s, to_t) > 0;
       });
     }
     for (std::size_t i = 0; i < spokes.size(); ++i) {
@@ -456,7 +455,7 @@ class Star {
   std::vector<V> nodes_;
   std::vector<Arc> arcs_;
   std::vector<int> face_, component_;
-  std::size_t first_free_ = 0;  // arc of the circle
+  std::size_t first_free_ = 0;  // the first arc of the circle, which are the last ones
 };
 
 }  // namespace clues::fastpath
