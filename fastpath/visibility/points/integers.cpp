@@ -172,7 +172,8 @@ template <>
 Vec3<Interval> balanced_sum<Interval>(const Vec3<Interval>& a, const Vec3<Interval>& b) {
   const auto weight = [](const Vec3<Interval>& v) {
     const double size = size_of(v);
-    return Interval(size > 0 && std::isfinite(size) ? std::ldexp(1.0, -std::ilogb(size)) : 1.0);
+    // Of the smallest doubles the inverse is none.
+    return Interval(size > 0 && std::isfinite(size) ? std::ldexp(1.0, std::min(-std::ilogb(size), 1000)) : 1.0);
   };
   return weight(a) * a + weight(b) * b;
 }

@@ -90,7 +90,7 @@ std::optional<V> common(const V& a, const V& b, const Cone& cone) {
 }  // namespace
 
 std::vector<ExactPoint> Apex::views_of_cell(const ExactPoint& inside_cell) const {
-  const Star<Integer> star(*scene_, on_edge_, id_, x_, arcs_);
+  const auto star = this->star<Integer>();
   const Cone cone(*scene_, *x_);
   const V nothing{Integer(0), Integer(0), Integer(0)};
   std::vector<V> bounds;
@@ -150,7 +150,7 @@ bool Apex::in_one_part(const ExactPoint& p, const ExactPoint& q) const {
       std::any_of(sectors_.begin(), sectors_.end(), [&](const ApexSector& s) { return s.plane->side(p) >= 0; }))
     return false;
   return decide<Integer>([&]<class NT>() {
-    const Star<NT> star(*scene_, on_edge_, id_, x_, arcs_);
+    const auto star = this->star<NT>();
     return star.is_free(star.to(p), star.to(q));
   });
 }

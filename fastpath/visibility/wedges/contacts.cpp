@@ -42,8 +42,7 @@ std::unique_ptr<Contact> Contacts::make(bool on_edge, std::uint32_t id, const Ex
 
 void Contacts::make_apex(Contact& c, Pool& pool) const {
   if (c.apex) return;
-  static const std::vector<const Plane*> none;
-  c.apex = std::make_unique<Apex>(scene_, pool, c.on_edge, c.id, c.x, c.on_edge ? none : contour_planes_[c.id]);
+  c.apex = std::make_unique<Apex>(scene_, pool, c.on_edge, c.id, c.x);
   c.built.assign(c.apex->sectors().size(), false);
   c.wedges.resize(c.apex->sectors().size());
 }
@@ -113,6 +112,7 @@ std::vector<Contact*> Contacts::lit() {
 }
 
 void Contacts::find_sectors(const std::vector<Contact*>& contacts) {
+  static const std::vector<const Plane*> none;
   workers_.for_each(contacts.size(), [&](std::size_t i, Workers::Worker&) {
     Contact& c = *contacts[i];
     if (known_sectors(c) != c.known_sectors.end()) return;
@@ -120,7 +120,10 @@ void Contacts::find_sectors(const std::vector<Contact*>& contacts) {
     std::vector<std::uint32_t> sectors(c.apex->sectors().size());
     std::iota(sectors.begin(), sectors.end(), 0U);
     try {
-      if (!c.has_all_sectors) sectors = c.apex->existing(c.probes);
+      if (!c.has_all_sectors) {
+        if (!c.lit) c.lit = std::make_unique<LitSectors>(scene_, *c.apex, c.on_edge ? none : contour_planes_[c.id]);
+        sectors = c.lit->existing(c.probes);
+      }
     } catch (const scene::Error& error) {
       if (error.code() != scene::ErrorCode::internal) throw;
       c.has_all_sectors = true;

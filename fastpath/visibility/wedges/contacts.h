@@ -11,6 +11,7 @@
 
 #include "fastpath/visibility/wedges/apex.h"
 #include "fastpath/visibility/wedges/contour.h"
+#include "fastpath/visibility/wedges/lit_sectors.h"
 #include "fastpath/visibility/wedges/workers.h"
 
 namespace clues::fastpath {
@@ -21,6 +22,7 @@ struct Contact {
   std::uint32_t id = 0;                          // of the edge that x is a point of, or of the mesh vertex
   int generation = 0;                            // of its wedges; -1: a CSV not met in this round
   std::unique_ptr<Apex> apex;                    // made when the contact is lit
+  std::unique_ptr<LitSectors> lit;               // made when it is asked for
   bool has_all_sectors = false;                  // once lit: too intricate to tell which
   std::vector<Probe> probes;                     // of this round
   bool fresh = false;                            // some of them came since the last Contacts::lit()
