@@ -1,4 +1,4 @@
-// A progress bar on standard error, with the time that is left: only when that is a terminal, so that a pipe or a log never sees it.
+// How far a long run is, and the time that is left, on standard error: a bar when that is a terminal; a plain line a minute when it is a pipe or a log.
 #pragma once
 
 #include <chrono>
@@ -24,6 +24,7 @@ class ProgressBar {
       stage_;  // the running stage, when it was first shown, and how much was done then: for the time that is left
   std::chrono::steady_clock::time_point began_;
   std::uint64_t done_before_ = 0;
+  std::chrono::steady_clock::time_point said_ = std::chrono::steady_clock::now();  // elsewhere than on a terminal
   bool terminal_;
 };
 

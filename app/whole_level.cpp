@@ -20,14 +20,11 @@ scene::RationalPoint rational_of(const exact::Point3& p) {
 WholeLevel::WholeLevel(const scene::BspFile& level)
     : whole_(scene::scene_of_level(level, scene::HullSides::all).scene), brushes_(level) {}
 
-bool WholeLevel::confirms(const std::vector<scene::Point>& cell, const validate::Witness& witness) const {
-  if (!is_free_of_brushes(witness)) return false;
+bool WholeLevel::is_free_of_hulls(const exact::ConvexCell& cell, const validate::Witness& witness) const {
   validate::AskedAlone alone = validate::asked_alone(whole_, witness.triangle);
   const validate::NearSegment near =
       validate::near_segment(std::move(alone.mesh), alone.triangle, witness.v, witness.p);
-  return exact::check_witness(near.mesh, exact::ConvexCell::from_doubles(cell), near.triangle, witness.front, witness.v,
-                              witness.p)
-      .valid;
+  return exact::check_witness(near.mesh, cell, near.triangle, witness.front, witness.v, witness.p).valid;
 }
 
 void WholeLevel::take_back(validate::Judgement& judgement) const {

@@ -3,8 +3,7 @@
 // rounded, and between two of them may be a crack.
 #pragma once
 
-#include <vector>
-
+#include "exact/cell/convex_cell.h"
 #include "scene/levels/bsp_file.h"
 #include "scene/levels/bsp_solids.h"
 #include "scene/mesh/flagged_mesh.h"
@@ -18,11 +17,12 @@ class WholeLevel {
 
   const scene::FlaggedMesh& scene() const { return whole_; }  // with all sides of hulls
 
-  // Whether the sight line from this cell is free in the whole level.
-  bool confirms(const std::vector<scene::Point>& cell, const validate::Witness& witness) const;
-
-  // One of the two halves of that: of the brushes, before the end.
+  // Whether the sight line from this cell is free in the whole level: of all sides of hulls, and of the brushes, before its end.
+  bool confirms(const exact::ConvexCell& cell, const validate::Witness& witness) const {
+    return is_free_of_brushes(witness) && is_free_of_hulls(cell, witness);
+  }
   bool is_free_of_brushes(const validate::Witness& witness) const;
+  bool is_free_of_hulls(const exact::ConvexCell& cell, const validate::Witness& witness) const;
 
   // For who was judged in scene(): what is seen only through brushes becomes undecided, missing or listed.
   void take_back(validate::Judgement& judgement) const;

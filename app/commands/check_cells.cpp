@@ -49,6 +49,7 @@ struct JudgedCell {
 
 struct Asked {
   std::vector<JudgedCell> cells;
+  double far_plane = 0;       // 0: none
   std::uint64_t slivers = 0;  // without an inner cell
 };
 
@@ -99,15 +100,32 @@ Asked baked_in(const CheckCellsRequest& request, const std::string& sha256, std:
   return asked;
 }
 
-void confirm(Asked& asked, const WholeLevel& whole) {
+// Of lines that no brush stops: whether all sides of hulls let them through.
+void confirm(Asked& asked, const WholeLevel& whole, int threads, ProgressBar& bar) {
+  std::vector<JudgedCell*> accused;
+  std::uint64_t holes = 0, done = 0;
   for (auto& cell : asked.cells) {
-    std::erase_if(cell.judgement.holes, [&](const validate::Witness& w) {
-      if (whole.confirms(cell.points, w)) return false;
-      cell.judgement.undecided.push_back(w.triangle);
-      return true;
-    });
-    std::sort(cell.judgement.undecided.begin(), cell.judgement.undecided.end());
+    if (cell.judgement.holes.empty()) continue;
+    accused.push_back(&cell);
+    holes += cell.judgement.holes.size();
   }
+  bar.show("holes confirmed", 0, holes);
+  std::mutex mutex;
+  exact::by_threads(threads, [&] {
+    tbb::parallel_for(std::size_t{0}, accused.size(), [&](std::size_t i) {
+      auto& judgement = accused[i]->judgement;
+      const auto cell = exact::ConvexCell::from_doubles(accused[i]->points);
+      const std::uint64_t asked_here = judgement.holes.size();
+      std::erase_if(judgement.holes, [&](const validate::Witness& w) {
+        if (whole.is_free_of_hulls(cell, w)) return false;
+        judgement.undecided.push_back(w.triangle);
+        return true;
+      });
+      std::sort(judgement.undecided.begin(), judgement.undecided.end());
+      const std::lock_guard lock(mutex);
+      bar.show("holes confirmed", done += asked_here, holes);
+    });
+  });
 }
 
 void judge(Asked& asked, const scene::FlaggedMesh& mesh, const std::optional<scene::BspFile>& level,
@@ -116,9 +134,10 @@ void judge(Asked& asked, const scene::FlaggedMesh& mesh, const std::optional<sce
   // Only who is accused needs it.
   std::optional<WholeLevel> whole;
   std::once_flag made;
-  validate::Accuses accuses;
+  validate::Accuser accuser;
+  accuser.far_plane = asked.far_plane;
   if (level) {
-    accuses = [&](const validate::Witness& w) {
+    accuser.accuses = [&](const validate::Witness& w) {
       std::call_once(made, [&] { whole.emplace(*level); });
       return whole->is_free_of_brushes(w);
     };
@@ -131,12 +150,12 @@ void judge(Asked& asked, const scene::FlaggedMesh& mesh, const std::optional<sce
   exact::by_threads(request.threads, [&] {
     tbb::parallel_for(std::size_t{0}, asked.cells.size(), [&](std::size_t i) {
       auto& cell = asked.cells[i];
-      cell.judgement = exact::by_threads(1, [&] { return judge_one(scene, cell.points, cell.list, accuses); });
+      cell.judgement = exact::by_threads(1, [&] { return judge_one(scene, cell.points, cell.list, accuser); });
       const std::lock_guard lock(mutex);
       bar.show("cells", ++done, asked.cells.size());
     });
   });
-  if (whole) confirm(asked, *whole);
+  if (whole) confirm(asked, *whole, request.threads, bar);
 }
 
 struct Hole {
@@ -158,8 +177,8 @@ std::vector<Hole> holes_of(const std::vector<JudgedCell>& cells) {
 }
 
 struct Totals {
-  std::uint64_t listed = 0, ours = 0, witnessed = 0, with_holes = 0, holes = 0, undecided = 0, contradictions = 0,
-                sight_lines = 0, fallbacks = 0;
+  std::uint64_t listed = 0, ours = 0, witnessed = 0, with_holes = 0, holes = 0, undecided = 0, beyond = 0,
+                contradictions = 0, sight_lines = 0, fallbacks = 0;
 };
 
 Totals totals_of(const std::vector<JudgedCell>& cells) {
@@ -172,6 +191,7 @@ Totals totals_of(const std::vector<JudgedCell>& cells) {
     t.with_holes += j.holes.empty() ? 0 : 1;
     t.holes += j.holes.size();
     t.undecided += j.undecided.size();
+    t.beyond += j.beyond.size();
     t.contradictions += j.contradictions.size();
     t.sight_lines += j.sight_lines;
     t.fallbacks += j.fallbacks;
@@ -206,7 +226,8 @@ nlohmann::json json_of(const JudgedCell& cell, const scene::FlaggedMesh& mesh) {
           {"fallbacks", cell.judgement.fallbacks},
           {"holes", json_of(cell.judgement.holes, mesh)},
           {"contradictions", json_of(cell.judgement.contradictions, mesh)},
-          {"undecided", cell.judgement.undecided}};
+          {"undecided", cell.judgement.undecided},
+          {"beyond", cell.judgement.beyond}};
 }
 
 std::string json_text(const CheckCellsRequest& request, const std::string& sha256, const Asked& asked,
@@ -221,6 +242,8 @@ std::string json_text(const CheckCellsRequest& request, const std::string& sha25
              {"cells_with_holes", t.with_holes},
              {"holes", t.holes},
              {"undecided", t.undecided},
+             {"far_plane", asked.far_plane > 0 ? nlohmann::json(asked.far_plane) : nlohmann::json()},
+             {"beyond", t.beyond},
              {"contradictions", t.contradictions},
              {"sight_lines", t.sight_lines},
              {"cells", cells}}
@@ -236,6 +259,10 @@ std::string table_of(const Asked& asked, const scene::FlaggedMesh& mesh, const T
       "cells", "listed", "may be seen", "witnessed", "with holes", "holes", "undecided", asked.cells.size(),
       average(t.listed), by_lines_alone ? "-" : fmt::format("{:.1f}", average(t.ours)), average(t.witnessed),
       t.with_holes, t.holes, t.undecided);
+  if (asked.far_plane > 0)
+    text += fmt::format(
+        "{} missing triangles are no holes: only sight lines longer than {}, the far plane, were found to them\n",
+        t.beyond, asked.far_plane);
   if (asked.cells.empty()) text += "no cell was judged\n";
   if (asked.slivers > 0) text += fmt::format("{} slivers without an inner cell were not judged\n", asked.slivers);
   text += fmt::format("{} sight lines decided exactly{}\n", t.sight_lines,
@@ -256,16 +283,19 @@ std::string table_of(const Asked& asked, const scene::FlaggedMesh& mesh, const T
   return text;
 }
 
-// What nobody looked at is not fine: a sliver, or a level or bake without cells; and sight lines alone prove no list.
+// What nobody looked at is not fine: a sliver, or a level or bake without cells; and sight lines alone prove no list. Nor does it prove anything that those which were found are too long.
 int exit_code_of(const Asked& asked, const Totals& t, bool by_lines_alone) {
   if (t.contradictions > 0) return oracle_contradiction;
   if (t.holes > 0) return findings;
-  return by_lines_alone || t.undecided > 0 || asked.slivers > 0 || asked.cells.empty() ? not_everything_ran : fine;
+  return by_lines_alone || t.undecided + t.beyond > 0 || asked.slivers > 0 || asked.cells.empty() ? not_everything_ran
+                                                                                                  : fine;
 }
 
 }  // namespace
 
 int check_all_cells(const CheckCellsRequest& request) {
+  if (request.far_plane && !(std::isfinite(*request.far_plane) && *request.far_plane >= 0))
+    throw Error(ErrorCode::bad_argument, "--far-plane: give a distance, or 0 for none");
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.bake});
   const auto sha256 = scene::sha256_of_scene(request.scene);
@@ -277,6 +307,7 @@ int check_all_cells(const CheckCellsRequest& request) {
   const auto mesh = level ? of_level.scene : scene::read_scene(request.scene);
   Asked asked =
       request.bake.empty() ? shipped_with(*level, of_level) : baked_in(request, sha256, mesh.mesh.triangles.size());
+  asked.far_plane = request.far_plane.value_or(request.bake.empty() ? level->far_plane : 0);
   judge(asked, mesh, level, request);
   const Totals totals = totals_of(asked.cells);
   if (request.json.asked()) request.json.write(json_text(request, sha256, asked, mesh, totals));

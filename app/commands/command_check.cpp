@@ -29,6 +29,7 @@ namespace {
 struct CheckRequest {
   std::string scene, cell, pvs, bake;
   bool all_cells = false, sight_lines_only = false;
+  std::optional<double> far_plane;
   JsonOutput json;
   MethodOptions method;
 };
@@ -84,11 +85,12 @@ int run_check(const CheckRequest& request) {
                          "--all-cells judges lists of many cells; leave out --cell and --pvs");
     if (request.method.mode == "solid" || request.method.formulation != "plain")
       throw scene::Error(scene::ErrorCode::unsupported, "--all-cells: leave out --mode and --formulation");
-    return check_all_cells(
-        {request.scene, request.bake, request.method.threads, request.sight_lines_only, request.json});
+    return check_all_cells({request.scene, request.bake, request.method.threads, request.sight_lines_only,
+                            request.far_plane, request.json});
   }
   if (request.sight_lines_only)
     throw scene::Error(scene::ErrorCode::bad_argument, "--sight-lines-only needs --all-cells");
+  if (request.far_plane) throw scene::Error(scene::ErrorCode::bad_argument, "--far-plane needs --all-cells");
   if (!request.bake.empty())
     throw scene::Error(scene::ErrorCode::bad_argument, "--bake names the lists of many cells; it needs --all-cells");
   if (request.cell.empty() || request.pvs.empty())
@@ -154,6 +156,11 @@ void add_check_command(CLI::App& program, int& status) {
   command->add_option("--bake", request->bake, "With --all-cells: a store of clues bake")->type_name("FILE.bake");
   command->add_flag("--sight-lines-only", request->sight_lines_only,
                     "With --all-cells: look for holes by sight lines alone: quick, but no list is proved");
+  command
+      ->add_option("--far-plane", request->far_plane,
+                   "With --all-cells: lists need not hold what is farther away (default: what the level says of those "
+                   "that were shipped with it; 0: they must)")
+      ->type_name("DISTANCE");
   request->method.add_to(*command);
   request->json.add_to(*command, "The judgement");
   command->footer(
@@ -190,7 +197,12 @@ void add_check_command(CLI::App& program, int& status) {
           "from\n"
           "  the cell is seen, what of that is not listed is confirmed as above, and where no hole was found nothing "
           "is "
-          "proved.\n\n") +
+          "proved.\n"
+          "  A level may have been compiled with a far plane: its lists leave out what is farther away, on purpose. "
+          "Sight lines\n"
+          "  that are longer accuse nobody then; what only such lines reach is counted as beyond. The level says so "
+          "itself\n"
+          "  (_farplanedist), or --far-plane does.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt\n"

@@ -78,12 +78,14 @@ int run_level(const LevelRequest& request) {
                           {"file", std::filesystem::path(request.file).filename().string()},
                           {"sha256", scene::sha256_of(bytes)}};
   for (const auto& row : rows) about[row.key] = row.value;
+  about["far_plane"] = level.far_plane > 0 ? nlohmann::json(level.far_plane) : nlohmann::json();
   const std::string json = about.dump(2) + "\n";
   if (!request.folder.empty()) export_level(request.folder, level, scene, cells, json);
   if (request.json.asked()) request.json.write(json);
   if (request.json.on_stdout()) return fine;
   std::string table;
   for (const auto& row : rows) table += fmt::format("{:<45} {:>9}\n", row.text, row.value);
+  if (level.far_plane > 0) table += fmt::format("{:<45} {:>9}\n", "far plane of what was shipped", level.far_plane);
   print(table);
   return fine;
 }

@@ -114,8 +114,9 @@ class BakedTruth {
       for (std::uint32_t t = 0; t < served_.scene.mesh.triangles.size(); ++t) {
         if (!triangles.contains(t)) held.push_back(t);
       }
+      const auto cell = exact::ConvexCell::from_doubles(served_.inner[c]);
       for (const auto& w : validate::judge_cell(scene, served_.inner[c], held).holes) {
-        if (!level || level->confirms(served_.inner[c], w)) proofs[{c, w.triangle}] = w;
+        if (!level || level->confirms(cell, w)) proofs[{c, w.triangle}] = w;
       }
     }
     std::vector<validate::StreamDoubt> left;

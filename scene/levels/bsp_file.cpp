@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "scene/formats/place.h"
+#include "scene/levels/entities.h"
 
 namespace clues::scene {
 namespace {
@@ -20,6 +21,7 @@ constexpr std::uint64_t most_sides_of_brush = 1024, most_sides = std::uint64_t{1
 constexpr std::size_t lump_count = 17, header_size = 8 + 8 * lump_count;
 
 enum LumpId : std::size_t {
+  entities_lump = 0,
   shaders_lump = 1,
   planes_lump = 2,
   nodes_lump = 3,
@@ -124,6 +126,7 @@ class Parser {
     read_tree();
     check_tree();
     read_visibility();
+    level_.far_plane = far_plane_in(lumps_[entities_lump]);
     return std::move(level_);
   }
 

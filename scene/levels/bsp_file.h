@@ -69,6 +69,8 @@ struct BspFile {
   std::vector<std::uint32_t> corners;
   std::vector<Face> faces;
   Visibility visibility;
+  double far_plane =
+      0;  // the visibility leaves out what is farther away, as the level's compiler was told; 0: it does not
   std::vector<std::uint32_t>
       leaves_of_tree;  // that the root reaches, in the order of a walk that takes the front first
 

@@ -1,13 +1,17 @@
 // clues check --all-cells: holes are found with their sight lines, and only holes.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <gmpxx.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/bakes/bake_store.h"
@@ -125,6 +129,76 @@ TEST(CheckCells, LooksForHolesBySightLinesAlone) {
   EXPECT_THAT(page, Not(HasSubstr("<td>sound</td>")));
 }
 
+// A level that says how far it is seen, and one of which --far-plane says so.
+TEST(CheckCells, SightLinesLongerThanTheFarPlaneAccuseNobody) {
+  const TestFolder folder;
+  folder.write("made.bsp", two_rooms().bytes());
+  using Missing = std::set<std::pair<std::string, std::uint32_t>>;
+  struct Judged {
+    int exit_code;
+    nlohmann::json json;
+    Missing holes, others;
+    std::vector<mpq_class> squares;  // of the lengths of lines to holes
+  };
+  const auto judged = [&](const char* file, std::vector<std::string> words) {
+    words.insert(words.begin(), {"check", file, "--all-cells", "--json"});
+    const auto ran = run_clues(words, folder.path());
+    Judged out{ran.exit_code, nlohmann::json::parse(ran.out), {}, {}, {}};
+    for (const auto& cell : out.json["cells"]) {
+      for (const auto& hole : cell["holes"]) {
+        out.holes.emplace(cell["cell"], hole["triangle"].get<std::uint32_t>());
+        mpq_class square = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const mpq_class d = mpq_class(hole["v"][i].get<std::string>()) - mpq_class(hole["p"][i].get<std::string>());
+          square += d * d;
+        }
+        out.squares.push_back(square);
+      }
+      for (const char* kind : {"beyond", "undecided"}) {
+        for (const auto& t : cell[kind]) out.others.emplace(cell["cell"], t.get<std::uint32_t>());
+      }
+    }
+    return out;
+  };
+  const Judged everything = judged("made.bsp", {});
+  ASSERT_FALSE(everything.holes.empty());
+  EXPECT_TRUE(everything.json["far_plane"].is_null());
+  EXPECT_EQ(everything.json["beyond"], 0);
+  mpq_class longest = 0;
+  for (const auto& square : everything.squares) longest = std::max(longest, square);
+  const double half_way = std::sqrt(longest.get_d()) / 2;
+  for (const double far : {0x1p-10, half_way, 0x1p40}) {
+    SCOPED_TRACE(far);
+    MadeLevel level = two_rooms();
+    level.lumps[entities_lump] = fmt::format("{{\n\"classname\" \"worldspawn\"\n\"_farplanedist\" \"{}\"\n}}\n", far);
+    folder.write("far.bsp", level.bytes());
+    for (const bool alone : {false, true}) {
+      std::vector<std::string> words;
+      if (alone) words.emplace_back("--sight-lines-only");
+      const Judged said = judged("far.bsp", words);
+      EXPECT_EQ(said.json["far_plane"], far);
+      for (const auto& square : said.squares) EXPECT_TRUE(square <= mpq_class(far) * mpq_class(far));
+      Missing all = said.holes;
+      all.insert(said.others.begin(), said.others.end());
+      EXPECT_EQ(all, everything.holes);
+      words.insert(words.end(), {"--far-plane", fmt::format("{}", far)});
+      const Judged told = judged("made.bsp", words);
+      EXPECT_EQ(told.json["cells"], said.json["cells"]);
+      if (far == 0x1p40) {
+        EXPECT_EQ(said.holes, everything.holes);
+        EXPECT_EQ(said.exit_code, 1);
+      }
+      if (far == 0x1p-10) {
+        EXPECT_TRUE(said.holes.empty());
+        EXPECT_EQ(said.json["beyond"], everything.holes.size());
+        EXPECT_EQ(said.exit_code, 3);
+        EXPECT_THAT(run_clues({"check", "far.bsp", "--all-cells"}, folder.path()).out, HasSubstr("are no holes"));
+      }
+    }
+    EXPECT_EQ(judged("far.bsp", {"--far-plane", "0"}).holes, everything.holes);
+  }
+}
+
 TEST(CheckCells, SaysWhatItNeeds) {
   const TestFolder folder;
   folder.write("scene.off", screen_scene);
@@ -139,6 +213,9 @@ TEST(CheckCells, SaysWhatItNeeds) {
   refused({"scene.off"}, "give --cell and --pvs, or --all-cells");
   refused({"scene.off", "--bake", "x"}, "needs --all-cells");
   refused({"scene.off", "--cell", "box:0,0,0,1,1,1", "--pvs", "x", "--sight-lines-only"}, "needs --all-cells");
+  refused({"scene.off", "--cell", "box:0,0,0,1,1,1", "--pvs", "x", "--far-plane", "9"}, "needs --all-cells");
+  for (const char* distance : {"nan", "-1", "inf"})
+    refused({"made.bsp", "--all-cells", "--far-plane", distance}, "give a distance, or 0 for none");
   refused({"scene.off", "--all-cells", "--cell", "box:0,0,0,1,1,1"}, "leave out --cell and --pvs");
   refused({"scene.off", "--all-cells", "--bake", "missing.bake"}, "missing.bake: no such file");
   ASSERT_EQ(run_clues({"bake", "made.bsp", "--cells", "leaves", "-o", "l.bake"}, folder.path()).exit_code, 0);

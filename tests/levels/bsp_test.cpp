@@ -6,6 +6,7 @@
 
 #include "scene/levels/bsp_hulls.h"
 #include "scene/levels/bsp_scene.h"
+#include "scene/levels/entities.h"
 #include "scene/levels/rounding.h"
 #include "tests/levels/made_level.h"
 #include "tests/scene/support.h"
@@ -138,6 +139,23 @@ TEST(Level, HasItsLeavesAsCells) {
                           scene::Point{128, 128, -16}, scene::Point{128, 128, 128}));
   EXPECT_EQ(cells[0].inner, cells[0].outer);
   EXPECT_EQ(cells[1].outer.front(), (scene::Point{128, 0, -16}));
+}
+
+TEST(Level, SaysHowFarItIsSeen) {
+  const auto far = [](const std::string& text) { return scene::far_plane_in(text); };
+  EXPECT_EQ(far("{\n\"classname\" \"worldspawn\"\n\"_farplanedist\" \"2048\"\n}\n"), 2048);
+  EXPECT_EQ(far("{ \"fogclip\" \"12.5\" }"), 12.5);
+  EXPECT_EQ(far("{ \"distancecull\" \"7\" \"_farplanedist\" \"9\" }"), 9) << "the first of the keys, not of the text";
+  EXPECT_EQ(far("{ \"_farplanedist\" \"\" \"fogclip\" \"3\" }"), 3) << "an empty value is none";
+  EXPECT_EQ(far("{ \"message\" \"a {brace} and _farplanedist\" \"_farplanedist\" \"5\" }"), 5);
+  // What says nothing: no number above zero, another entity than the first, broken text.
+  for (const char* text :
+       {"", "{", "}", "{ \"_farplanedist\" }", "{ \"_farplanedist\" \"5", "{ \"_farplanedist\" \"-4\" }",
+        "{ \"_farplanedist\" \"nan\" }", "{ \"_farplanedist\" \"inf\" }", "{ \"_farplanedist\" \"1e999\" }",
+        "{ \"_farplanedist\" \"far\" }", "{ \"classname\" \"x\" } { \"_farplanedist\" \"5\" }",
+        "{ \"classname\" worldspawn \"_farplanedist\" \"5\" }", "\"_farplanedist\" \"5\""})
+    EXPECT_EQ(far(text), 0) << text;
+  EXPECT_EQ(far(std::string("{ \"_farplanedist\" \"5\" }\n") + '\0'), 5) << "texts in files end so";
 }
 
 TEST(Level, ListsWhatWasShipped) {

@@ -30,9 +30,9 @@ struct MadeLevel {
 };
 
 // Lumps by the number in the file.
-inline constexpr std::size_t shaders_lump = 1, planes_lump = 2, nodes_lump = 3, leaves_lump = 4, leaf_faces_lump = 5,
-                             models_lump = 7, brushes_lump = 8, sides_lump = 9, vertices_lump = 10, corners_lump = 11,
-                             faces_lump = 13, visibility_lump = 16;
+inline constexpr std::size_t entities_lump = 0, shaders_lump = 1, planes_lump = 2, nodes_lump = 3, leaves_lump = 4,
+                             leaf_faces_lump = 5, models_lump = 7, brushes_lump = 8, sides_lump = 9, vertices_lump = 10,
+                             corners_lump = 11, faces_lump = 13, visibility_lump = 16;
 
 MadeLevel two_rooms();
 

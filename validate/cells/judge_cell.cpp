@@ -53,8 +53,13 @@ class CellJudge {
     return walls + others;
   }
 
-  std::optional<Witness> find_witness(std::uint32_t id, int tries, const Accuses& accuses,
-                                      std::atomic<std::uint64_t>& sight_lines) const {
+  struct Search {
+    std::optional<Witness> witness;
+    bool beyond = false;  // none, and a line that is too long to accuse is free
+  };
+  Search find_witness(std::uint32_t id, int tries, const Accuser& accuser,
+                      std::atomic<std::uint64_t>& sight_lines) const {
+    Search out;
     const auto t = corners_of(id);
     fastpath::SegmentQueries queries(scene_.blocking());
     const auto at = scene_.find_blocking(id);
@@ -62,11 +67,18 @@ class CellJudge {
     std::mt19937_64 random(id);
     for (int i = 0; i < tries && !viewpoints_.empty(); ++i) {
       const Line line = line_to(t, i, random);
+      const bool too_long = is_too_long(line, accuser);
+      if (too_long && out.beyond) continue;
       ++sight_lines;
       if (queries.any_hit({line.v, line.p}, {itself, &lines_.cell()})) continue;
-      if (auto witness = confirmed(id, line.v, line.p, accuses)) return witness;
+      if (too_long) {
+        out.beyond = true;
+      } else if ((out.witness = confirmed(id, line.v, line.p, accuser))) {
+        out.beyond = false;
+        return out;
+      }
     }
-    return std::nullopt;
+    return out;
   }
 
   // What sight lines find, ascending: walls from neighbour to neighbour, each with the line that found it; the others by lines to each.
@@ -93,18 +105,27 @@ class CellJudge {
     return found;
   }
 
-  std::optional<Witness> find_witness(const Found& found, const Accuses& accuses,
-                                      std::atomic<std::uint64_t>& sight_lines) const {
-    if (found.ray) {
-      if (auto witness = confirmed(found.id, found.ray->a, found.ray->b, accuses)) return witness;
+  Search find_witness(const Found& found, const Accuser& accuser, std::atomic<std::uint64_t>& sight_lines) const {
+    const bool too_long = found.ray && is_too_long({found.ray->a, found.ray->b}, accuser);
+    if (found.ray && !too_long) {
+      if (auto witness = confirmed(found.id, found.ray->a, found.ray->b, accuser)) return {std::move(witness), false};
     }
-    return find_witness(found.id, lines_to_missing, accuses, sight_lines);
+    Search out = find_witness(found.id, lines_to_missing, accuser, sight_lines);
+    out.beyond = !out.witness && (out.beyond || too_long);
+    return out;
   }
 
  private:
   struct Line {
     Point v, p;
   };
+
+  // Or nearly: what accuses is surely no longer.
+  static bool is_too_long(const Line& line, const Accuser& accuser) {
+    if (accuser.far_plane == 0) return false;
+    const double far = accuser.far_plane * (1 - 0x1p-40);
+    return std::hypot(line.p[0] - line.v[0], line.p[1] - line.v[1], line.p[2] - line.v[2]) > far;
+  }
 
   // The i-th line to a triangle: a little beyond it, so that it crosses it or misses it.
   Line line_to(const fastpath::Corners& t, int i, std::mt19937_64& random) const {
@@ -142,7 +163,7 @@ class CellJudge {
   }
 
   // Where the line from v through p crosses the triangle, if the witness checker agrees.
-  std::optional<Witness> confirmed(std::uint32_t id, const Point& v, const Point& p, const Accuses& accuses) const {
+  std::optional<Witness> confirmed(std::uint32_t id, const Point& v, const Point& p, const Accuser& accuser) const {
     const auto& corners = scene_.scene().mesh.triangles[id];
     std::array<exact::Point3, 3> t;
     for (std::size_t i = 0; i < 3; ++i) t[i] = exact::to_exact(scene_.scene().mesh.points[corners[i]]);
@@ -155,7 +176,7 @@ class CellJudge {
     const exact::Point3 at = from + s * (to - from);
     const bool front = n * (from - t[0]) > 0;
     const Witness witness{id, front, from, at};
-    if (accuses && !accuses(witness)) return std::nullopt;
+    if (accuser.accuses && !accuser.accuses(witness)) return std::nullopt;
     // All that blocks, and the triangle itself where it does not.
     scene::TriangleMesh mesh = scene_.blocking().mesh();
     std::uint32_t place = 0;
@@ -182,12 +203,12 @@ class CellJudge {
   std::vector<Point> viewpoints_;
 };
 
-void take_verdicts(CellJudgement& out, const Ids& missing, const std::vector<std::optional<Witness>>& found) {
+void take_verdicts(CellJudgement& out, const Ids& missing, const std::vector<CellJudge::Search>& searches) {
   for (std::size_t i = 0; i < missing.size(); ++i) {
-    if (found[i]) {
-      out.holes.push_back(*found[i]);
+    if (searches[i].witness) {
+      out.holes.push_back(*searches[i].witness);
     } else {
-      out.undecided.push_back(missing[i]);
+      (searches[i].beyond ? out.beyond : out.undecided).push_back(missing[i]);
     }
   }
 }
@@ -195,7 +216,7 @@ void take_verdicts(CellJudgement& out, const Ids& missing, const std::vector<std
 }  // namespace
 
 CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vector<Point>& cell, const Ids& list,
-                         const Accuses& accuses) {
+                         const Accuser& accuser) {
   const auto seen = fastpath::visible_through(scene, cell, {});
   CellJudgement out;
   out.listed = list.size();
@@ -207,28 +228,27 @@ CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vect
   Ids missing;
   std::set_difference(out.may_be_seen.begin(), out.may_be_seen.end(), list.begin(), list.end(),
                       std::back_inserter(missing));
-  const auto search = [&](const Ids& ids, int tries, const Accuses& of) {
-    std::vector<std::optional<Witness>> found(ids.size());
+  const auto search = [&](const Ids& ids, int tries, const Accuser& of) {
+    std::vector<CellJudge::Search> searches(ids.size());
     tbb::parallel_for(std::size_t{0}, ids.size(),
-                      [&](std::size_t i) { found[i] = judge.find_witness(ids[i], tries, of, sight_lines); });
-    return found;
+                      [&](std::size_t i) { searches[i] = judge.find_witness(ids[i], tries, of, sight_lines); });
+    return searches;
   };
-  const auto found = search(missing, lines_to_missing, accuses);
-  take_verdicts(out, missing, found);
+  take_verdicts(out, missing, search(missing, lines_to_missing, accuser));
   Ids hidden;
   for (std::uint32_t t = 0; t < scene.scene().mesh.triangles.size(); ++t) {
     if (scene.scene().counting(t) && !std::binary_search(out.may_be_seen.begin(), out.may_be_seen.end(), t))
       hidden.push_back(t);
   }
-  for (const auto& witness : search(hidden, lines_to_hidden, {})) {
-    if (witness) out.contradictions.push_back(*witness);
+  for (const auto& found : search(hidden, lines_to_hidden, {})) {
+    if (found.witness) out.contradictions.push_back(*found.witness);
   }
   out.sight_lines = sight_lines;
   return out;
 }
 
 CellJudgement search_cell(const fastpath::SeeThroughScene& scene, const std::vector<Point>& cell, const Ids& list,
-                          const Accuses& accuses) {
+                          const Accuser& accuser) {
   CellJudgement out;
   out.listed = list.size();
   std::atomic<std::uint64_t> sight_lines{0};
@@ -239,10 +259,10 @@ CellJudgement search_cell(const fastpath::SeeThroughScene& scene, const std::vec
   std::erase_if(found, [&](const auto& one) { return std::binary_search(list.begin(), list.end(), one.id); });
   Ids missing;
   for (const auto& one : found) missing.push_back(one.id);
-  std::vector<std::optional<Witness>> witnesses(found.size());
+  std::vector<CellJudge::Search> searches(found.size());
   tbb::parallel_for(std::size_t{0}, found.size(),
-                    [&](std::size_t i) { witnesses[i] = judge.find_witness(found[i], accuses, sight_lines); });
-  take_verdicts(out, missing, witnesses);
+                    [&](std::size_t i) { searches[i] = judge.find_witness(found[i], accuser, sight_lines); });
+  take_verdicts(out, missing, searches);
   out.sight_lines = sight_lines;
   return out;
 }

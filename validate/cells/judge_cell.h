@@ -17,23 +17,28 @@ struct CellJudgement {
   std::uint64_t witnessed = 0;             // of those that may be seen: with a free sight line, decided exactly
   std::vector<Witness> holes;              // missing and visible, ascending by triangle
   std::vector<std::uint32_t> undecided;    // missing, and no sight line was found, ascending
+  std::vector<std::uint32_t>
+      beyond;  // missing, and all sight lines that were found are longer than the far plane is away, ascending
   std::vector<Witness> contradictions;  // hidden, says the kernel, and yet with a confirmed sight line. Must stay empty
   std::uint64_t sight_lines = 0;        // decided exactly
   std::uint64_t fallbacks = 0;          // of the kernel
   bool by_lines_alone = false;          // nobody knows what else may be seen
 };
 
-// What else a sight line that accuses somebody has to pass; asked before the witness checker, from any thread. None: nothing else.
-using Accuses = std::function<bool(const Witness&)>;
+// What a sight line that accuses somebody has to pass besides.
+struct Accuser {
+  std::function<bool(const Witness&)> accuses;  // asked before the witness checker, from any thread; none: nothing else
+  double far_plane = 0;  // the list does not claim to hold what is farther away; 0: it does. Longer lines accuse nobody
+};
 
 // `list` is ascending. The cell is W_in: who is accused of a hole has one. The same answer in every run and for any number of threads of the current arena.
 CellJudgement judge_cell(const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell,
-                         const std::vector<std::uint32_t>& list, const Accuses& accuses = {});
+                         const std::vector<std::uint32_t>& list, const Accuser& accuser = {});
 
 // Without the kernel: what sight lines find, from neighbour to neighbour, is witnessed, and what of it is not listed in question. Much faster; it finds most holes, and proves nothing where
 // it finds none. Undecided is what was found and not confirmed. Lines begin in the cell but for roundings, and only what is missing is confirmed: of a flat cell that is tilted, or one of some ulps,
 // a triangle may be witnessed that is listed and not visible. Contradictions are not looked for.
 CellJudgement search_cell(const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell,
-                          const std::vector<std::uint32_t>& list, const Accuses& accuses = {});
+                          const std::vector<std::uint32_t>& list, const Accuser& accuser = {});
 
 }  // namespace clues::validate

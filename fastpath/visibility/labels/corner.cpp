@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "fastpath/visibility/points/integers.h"
 #include "fastpath/visibility/wedges/star.h"
 #include "scene/messages/error.h"
 
@@ -15,15 +16,27 @@ using V = Vec3<Integer>;
 
 int side(const V& f, const V& d) { return dot(f, d).sign(); }
 
-// f with f * n > 0 for all of the first and f * v <= 0 for all of the second: the sum of the extreme ones among those that satisfy both weakly, each normal to two of the vectors.
+// f with f * n > 0 for all of the first and f * v <= 0 for all of the second: the sum of the extreme ones among those that satisfy both weakly, each normal to two of the vectors. Few of these
+// do, and for most intervals say so.
 std::optional<V> separating(const std::vector<V>& positive, const std::vector<V>& others) {
   std::vector<V> all = positive;
   all.insert(all.end(), others.begin(), others.end());
+  std::vector<Vec3<Interval>> about;
+  for (const V& v : all) about.push_back(around_multiple(v));
+  const auto may_satisfy = [&](const Vec3<Interval>& f) {
+    for (std::size_t i = 0; i < about.size(); ++i) {
+      const Interval at = dot(f, about[i]);
+      if (i < positive.size() ? at.sup() < 0 : at.inf() > 0) return false;
+    }
+    return true;
+  };
   V sum{Integer(0), Integer(0), Integer(0)};
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const V n = cross(all[i], all[j]);
-      for (const V& f : {n, -n}) {
+      const Vec3<Interval> about_n = cross(about[i], about[j]);
+      for (const int s : {1, -1}) {
+        if (!may_satisfy(s > 0 ? about_n : -about_n)) continue;
+        const V n = cross(all[i], all[j]), f = s > 0 ? n : -n;
         if (std::all_of(positive.begin(), positive.end(), [&](const V& p) { return side(f, p) >= 0; }) &&
             std::all_of(others.begin(), others.end(), [&](const V& v) { return side(f, v) <= 0; }))
           sum = sum + f;

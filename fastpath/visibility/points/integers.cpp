@@ -201,6 +201,17 @@ Vec3<Integer> moved_by<Integer>(const Vec3<Integer>& limit, const Vec3<Integer>&
   return as_long(limit, 2 * e) + as_long(aside, e) + as_long(off, 0);
 }
 
+Vec3<Interval> around_multiple(const Vec3<Integer>& v) {
+  constexpr unsigned kDigits = 53;
+  const unsigned n = bits(v), cut = n > kDigits ? n - kDigits : 0;
+  const auto around = [&](const Integer& c) {
+    const auto low = static_cast<double>(static_cast<std::int64_t>(Integer(abs(c) >> cut)));
+    const Interval size(low, cut > 0 && c.sign() != 0 ? low + 1 : low);
+    return c.sign() < 0 ? -size : size;
+  };
+  return {around(v.x), around(v.y), around(v.z)};
+}
+
 ExactPoint point_towards(const ExactPoint& x, const Vec3<Integer>& d, double distance) {
   // x may be a corner of V, in doubles even the point that is asked for; and twice the largest double is none.
   using Limits = std::numeric_limits<double>;

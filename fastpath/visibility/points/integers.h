@@ -49,6 +49,9 @@ template <>
 Vec3<Integer> moved_by<Integer>(const Vec3<Integer>& limit, const Vec3<Integer>& aside, const Vec3<Integer>& off,
                                 int exponent);
 
+// Around a positive multiple of v.
+Vec3<Interval> around_multiple(const Vec3<Integer>& v);
+
 // x + a positive multiple of d, exactly; about this far from x.
 ExactPoint point_towards(const ExactPoint& x, const Vec3<Integer>& d, double distance);
 

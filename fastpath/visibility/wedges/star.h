@@ -240,16 +240,18 @@ class Star {
     return name;
   }
 
-  // The directions in which the arcs that border this face end.
+  // The directions in which the arcs that border this face end, each once.
   std::vector<V> border_of(const std::vector<int>& face) const {
-    std::vector<V> ends;
+    std::vector<bool> is_end(nodes_.size(), false);
     for (std::size_t i = 0; i < arcs_.size(); ++i) {
       const auto is_side = [&](std::size_t side) {
         return std::find(face.begin(), face.end(), face_[side]) != face.end();
       };
-      if (!is_side(2 * i) && !is_side(2 * i + 1)) continue;
-      ends.push_back(nodes_[idx(arcs_[i].a)]);
-      ends.push_back(nodes_[idx(arcs_[i].b)]);
+      if (is_side(2 * i) || is_side(2 * i + 1)) is_end[idx(arcs_[i].a)] = is_end[idx(arcs_[i].b)] = true;
+    }
+    std::vector<V> ends;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      if (is_end[n]) ends.push_back(nodes_[n]);
     }
     return ends;
   }
