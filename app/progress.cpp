@@ -28,7 +28,7 @@ void ProgressBar::show(const std::string& stage, std::uint64_t done, std::uint64
     began_ = now;
     done_before_ = done;
   }
-  std::string so_far = fmt::format("{} {}/{}", stage, done, total);
+  std::string so_far = total > 0 ? fmt::format("{} {}/{}", stage, done, total) : fmt::format("{} {}", stage, done);
   const double spent = std::chrono::duration<double>(now - began_).count();
   if (done > done_before_ && done < total && spent > 2) {
     const auto left = static_cast<std::uint64_t>(spent * static_cast<double>(total - done) /

@@ -103,27 +103,30 @@ Asked baked_in(const CheckCellsRequest& request, const std::string& sha256, std:
 // Of lines that no brush stops: whether all sides of hulls let them through.
 void confirm(Asked& asked, const WholeLevel& whole, int threads, ProgressBar& bar) {
   std::vector<JudgedCell*> accused;
-  std::uint64_t holes = 0, done = 0;
+  std::uint64_t lines = 0, done = 0;
   for (auto& cell : asked.cells) {
-    if (cell.judgement.holes.empty()) continue;
+    const std::uint64_t found = cell.judgement.holes.size() + cell.judgement.beyond.size();
+    if (found == 0) continue;
     accused.push_back(&cell);
-    holes += cell.judgement.holes.size();
+    lines += found;
   }
-  bar.show("holes confirmed", 0, holes);
+  bar.show("sight lines confirmed", 0, lines);
   std::mutex mutex;
   exact::by_threads(threads, [&] {
     tbb::parallel_for(std::size_t{0}, accused.size(), [&](std::size_t i) {
       auto& judgement = accused[i]->judgement;
       const auto cell = exact::ConvexCell::from_doubles(accused[i]->points);
-      const std::uint64_t asked_here = judgement.holes.size();
-      std::erase_if(judgement.holes, [&](const validate::Witness& w) {
-        if (whole.is_free_of_hulls(cell, w)) return false;
-        judgement.undecided.push_back(w.triangle);
-        return true;
-      });
+      const std::uint64_t asked_here = judgement.holes.size() + judgement.beyond.size();
+      for (auto* witnesses : {&judgement.holes, &judgement.beyond}) {
+        std::erase_if(*witnesses, [&](const validate::Witness& w) {
+          if (whole.is_free_of_hulls(cell, w)) return false;
+          judgement.undecided.push_back(w.triangle);
+          return true;
+        });
+      }
       std::sort(judgement.undecided.begin(), judgement.undecided.end());
       const std::lock_guard lock(mutex);
-      bar.show("holes confirmed", done += asked_here, holes);
+      bar.show("sight lines confirmed", done += asked_here, lines);
     });
   });
 }
@@ -216,6 +219,8 @@ nlohmann::json json_of(const std::vector<validate::Witness>& witnesses, const sc
 }
 
 nlohmann::json json_of(const JudgedCell& cell, const scene::FlaggedMesh& mesh) {
+  Ids beyond;
+  for (const auto& w : cell.judgement.beyond) beyond.push_back(w.triangle);
   return {{"cell", cell.name},
           {"cluster", cell.group},
           {"points", cell.points},
@@ -227,7 +232,7 @@ nlohmann::json json_of(const JudgedCell& cell, const scene::FlaggedMesh& mesh) {
           {"holes", json_of(cell.judgement.holes, mesh)},
           {"contradictions", json_of(cell.judgement.contradictions, mesh)},
           {"undecided", cell.judgement.undecided},
-          {"beyond", cell.judgement.beyond}};
+          {"beyond", beyond}};
 }
 
 std::string json_text(const CheckCellsRequest& request, const std::string& sha256, const Asked& asked,
@@ -259,9 +264,10 @@ std::string table_of(const Asked& asked, const scene::FlaggedMesh& mesh, const T
       "cells", "listed", "may be seen", "witnessed", "with holes", "holes", "undecided", asked.cells.size(),
       average(t.listed), by_lines_alone ? "-" : fmt::format("{:.1f}", average(t.ours)), average(t.witnessed),
       t.with_holes, t.holes, t.undecided);
-  if (asked.far_plane > 0)
+  if (t.beyond > 0)
     text += fmt::format(
-        "{} missing triangles are no holes: only sight lines longer than {}, the far plane, were found to them\n",
+        "{} missing triangles are not called holes: they are seen, and no sight line to them was found that is not "
+        "longer than {}, the far plane\n",
         t.beyond, asked.far_plane);
   if (asked.cells.empty()) text += "no cell was judged\n";
   if (asked.slivers > 0) text += fmt::format("{} slivers without an inner cell were not judged\n", asked.slivers);

@@ -212,7 +212,7 @@ void add_check_command(CLI::App& program, int& status) {
       "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 -o town.bake\n"
       "  clues check town.obj --all-cells --bake town.bake\n\n"
       "EXIT CODES\n"
-      "  0 sound   1 unsound   2 bad usage or input   3 undecided, or not all cells were judged\n"
+      "  0 sound   1 unsound   2 bad usage or input   3 undecided or beyond, or not all cells were judged\n"
       "  4 an oracle contradicted itself");
   command->callback([request, &status] { status = run_check(*request); });
 }

@@ -31,12 +31,13 @@ std::uint64_t may_be_seen(const json& cell) {
 
 ReportRow row_of(const json& cell) {
   const json &holes = cell.at("holes"), &contradictions = cell.at("contradictions");
-  const auto undecided = cell.at("undecided").size();
+  const auto undecided = cell.at("undecided").size(), beyond = cell.value("beyond", json::array()).size();
   const bool by_lines_alone = cell.at("may_be_seen").is_null();
   ReportRow row;
   row.verdict = !contradictions.empty() ? "contradiction"
                 : !holes.empty()        ? "holes"
                 : undecided > 0         ? "undecided"
+                : beyond > 0            ? "beyond"
                 : by_lines_alone        ? "nothing found"
                                         : "sound";
   row.bad = !contradictions.empty() || !holes.empty();
@@ -47,6 +48,7 @@ ReportRow row_of(const json& cell) {
       fmt::format("{} listed, {}{} witnessed; {} holes, {} undecided", whole_number<std::uint64_t>(cell, "listed"),
                   by_lines_alone ? std::string() : fmt::format("{} may be seen, ", may_be_seen(cell)),
                   whole_number<std::uint64_t>(cell, "witnessed"), holes.size(), undecided);
+  if (beyond > 0) row.note += fmt::format(", {} beyond the far plane", beyond);
   row.details = lines_of(holes);
   if (!contradictions.empty())
     row.details += "called hidden by clues, and seen; please report:\n" + lines_of(contradictions);
@@ -70,13 +72,15 @@ ReportSection cells_section(const json& report) {
   const auto average = [&](std::uint64_t n) {
     return cells.empty() ? 0.0 : static_cast<double>(n) / static_cast<double>(cells.size());
   };
+  const auto beyond = report.contains("beyond") ? whole_number<std::uint64_t>(report, "beyond") : 0;
   section.summary = fmt::format(
       "scene: {}\nlists: {}\n{} cells: on average {:.1f} triangles listed, {}{:.1f} witnessed\n"
-      "{} holes in {} cells, {} undecided; {} sight lines decided exactly{}\n",
+      "{} holes in {} cells, {} undecided{}; {} sight lines decided exactly{}\n",
       report.at("scene").at("file").get<std::string>(), report.at("lists").get<std::string>(), cells.size(),
       average(listed), by_lines_alone ? std::string() : fmt::format("{:.1f} may be seen, ", average(seen)),
       average(witnessed), whole_number<std::uint64_t>(report, "holes"),
       whole_number<std::uint64_t>(report, "cells_with_holes"), whole_number<std::uint64_t>(report, "undecided"),
+      beyond > 0 ? fmt::format(", {} missing and beyond the far plane", beyond) : std::string(),
       whole_number<std::uint64_t>(report, "sight_lines"),
       by_lines_alone ? ", and nothing else: where they found no hole, nothing is proved" : "");
   return section;

@@ -1,7 +1,7 @@
 #include "scene/levels/entities.h"
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
@@ -17,6 +17,13 @@ struct Pair {
 };
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+// Games do not tell large letters from small ones in keys.
+bool is_key(const Pair& pair, std::string_view key) {
+  return std::equal(pair.key.begin(), pair.key.end(), key.begin(), key.end(), [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == static_cast<unsigned char>(b);
+  });
+}
 
 // { "key" "value" ... }, up to its end or to what is something else.
 std::vector<Pair> first_entity(std::string_view text) {
@@ -50,8 +57,9 @@ std::vector<Pair> first_entity(std::string_view text) {
 double far_plane_in(std::string_view entities) {
   const auto world = first_entity(entities);
   for (const char* key : {"_farplanedist", "fogclip", "distancecull"}) {
-    const auto at = std::find_if(world.begin(), world.end(), [&](const Pair& p) { return p.key == key; });
-    if (at == world.end() || at->value.empty()) continue;
+    // Of a key that is given twice the last counts.
+    const auto at = std::find_if(world.rbegin(), world.rend(), [&](const Pair& p) { return is_key(p, key); });
+    if (at == world.rend() || at->value.empty()) continue;
     const double distance = std::strtod(at->value.c_str(), nullptr);
     return std::isfinite(distance) && distance > 0 ? distance : 0;
   }

@@ -192,11 +192,25 @@ TEST(CheckCells, SightLinesLongerThanTheFarPlaneAccuseNobody) {
         EXPECT_TRUE(said.holes.empty());
         EXPECT_EQ(said.json["beyond"], everything.holes.size());
         EXPECT_EQ(said.exit_code, 3);
-        EXPECT_THAT(run_clues({"check", "far.bsp", "--all-cells"}, folder.path()).out, HasSubstr("are no holes"));
+        EXPECT_THAT(run_clues({"check", "far.bsp", "--all-cells"}, folder.path()).out, HasSubstr("not called holes"));
+        // Nor does the page call it sound.
+        std::filesystem::create_directory(folder.path() / "results");
+        folder.write("results/far.json", said.json.dump());
+        ASSERT_EQ(run_clues({"report", "results"}, folder.path()).exit_code, 0);
+        const std::string page = read_all(folder.path() / "results/report.html");
+        EXPECT_THAT(page, HasSubstr("<td>beyond</td><td>cell 0, cluster 0</td>"));
+        EXPECT_THAT(page, HasSubstr("missing and beyond the far plane"));
       }
     }
     EXPECT_EQ(judged("far.bsp", {"--far-plane", "0"}).holes, everything.holes);
   }
+  bool some_of_each = false;
+  for (int part = 1; part < 16 && !some_of_each; ++part) {
+    const Judged told = judged("made.bsp", {"--far-plane", fmt::format("{}", half_way * part / 8)});
+    some_of_each = !told.holes.empty() && told.json["beyond"] > 0;
+    EXPECT_EQ(told.exit_code, told.holes.empty() ? 3 : 1);
+  }
+  EXPECT_TRUE(some_of_each);
 }
 
 TEST(CheckCells, SaysWhatItNeeds) {

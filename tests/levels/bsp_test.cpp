@@ -148,6 +148,8 @@ TEST(Level, SaysHowFarItIsSeen) {
   EXPECT_EQ(far("{ \"distancecull\" \"7\" \"_farplanedist\" \"9\" }"), 9) << "the first of the keys, not of the text";
   EXPECT_EQ(far("{ \"_farplanedist\" \"\" \"fogclip\" \"3\" }"), 3) << "an empty value is none";
   EXPECT_EQ(far("{ \"message\" \"a {brace} and _farplanedist\" \"_farplanedist\" \"5\" }"), 5);
+  EXPECT_EQ(far("{ \"_FarPlaneDist\" \"6\" }"), 6);
+  EXPECT_EQ(far("{ \"fogclip\" \"6\" \"FogClip\" \"8\" }"), 8) << "the last of two";
   // What says nothing: no number above zero, another entity than the first, broken text.
   for (const char* text :
        {"", "{", "}", "{ \"_farplanedist\" }", "{ \"_farplanedist\" \"5", "{ \"_farplanedist\" \"-4\" }",

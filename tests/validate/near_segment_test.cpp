@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "exact/sight/witness.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
@@ -60,6 +62,29 @@ TEST(NearSegment, WhatOnlyTouchesItsBoxIsNear) {
     }
     mesh.points[3][1] += side * 0x1p-50;
     EXPECT_EQ(validate::near_segment(mesh, 0, v, p).mesh.triangles.size(), 1U);
+  }
+}
+
+// A line along the diagonal of its box: what lies elsewhere in the box is left out, what touches the line in a corner is not.
+TEST(NearSegment, WhatADiagonalLinePassesByIsNotNear) {
+  const exact::Point3 v(0, 0, 0), p(8, 8, 8);
+  for (const int far : {0, 1, 2}) {
+    for (const double side : {1.0, 7.0}) {
+      scene::TriangleMesh mesh;
+      const auto at = [&](double x, double y, double z) {
+        scene::Point q{x, y, z};
+        std::rotate(q.begin(), q.begin() + far, q.end());
+        mesh.points.push_back(q);
+      };
+      at(8, 0, 9), at(8, 9, 9), at(8, 9, 0);  // the one that is asked
+      at(side, 4, 4), at(side, 5, 4), at(side, 4, 5);
+      at(3, 3, 3), at(2, 3, 4), at(2, 4, 4);
+      mesh.triangles = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+      mesh.face_of = {0, 1, 2};
+      const auto near = validate::near_segment(mesh, 0, v, p);
+      ASSERT_EQ(near.mesh.triangles.size(), 2U);
+      EXPECT_EQ(near.mesh.triangles[1], mesh.triangles[2]) << "it touches the line in a corner";
+    }
   }
 }
 

@@ -53,31 +53,15 @@ class CellJudge {
     return walls + others;
   }
 
+  // What accuses, or would if it were not too long; none where shorter lines were free and refused.
   struct Search {
-    std::optional<Witness> witness;
-    bool beyond = false;  // none, and a line that is too long to accuse is free
+    std::optional<Witness> witness, beyond;
+    bool refused = false;  // a line that is not too long
   };
   Search find_witness(std::uint32_t id, int tries, const Accuser& accuser,
                       std::atomic<std::uint64_t>& sight_lines) const {
     Search out;
-    const auto t = corners_of(id);
-    fastpath::SegmentQueries queries(scene_.blocking());
-    const auto at = scene_.find_blocking(id);
-    const Ids itself = at ? Ids{*at} : Ids{};
-    std::mt19937_64 random(id);
-    for (int i = 0; i < tries && !viewpoints_.empty(); ++i) {
-      const Line line = line_to(t, i, random);
-      const bool too_long = is_too_long(line, accuser);
-      if (too_long && out.beyond) continue;
-      ++sight_lines;
-      if (queries.any_hit({line.v, line.p}, {itself, &lines_.cell()})) continue;
-      if (too_long) {
-        out.beyond = true;
-      } else if ((out.witness = confirmed(id, line.v, line.p, accuser))) {
-        out.beyond = false;
-        return out;
-      }
-    }
+    look_for_witness(out, id, tries, accuser, sight_lines);
     return out;
   }
 
@@ -106,12 +90,9 @@ class CellJudge {
   }
 
   Search find_witness(const Found& found, const Accuser& accuser, std::atomic<std::uint64_t>& sight_lines) const {
-    const bool too_long = found.ray && is_too_long({found.ray->a, found.ray->b}, accuser);
-    if (found.ray && !too_long) {
-      if (auto witness = confirmed(found.id, found.ray->a, found.ray->b, accuser)) return {std::move(witness), false};
-    }
-    Search out = find_witness(found.id, lines_to_missing, accuser, sight_lines);
-    out.beyond = !out.witness && (out.beyond || too_long);
+    Search out;
+    if (!found.ray || !take(out, found.id, {found.ray->a, found.ray->b}, accuser))
+      look_for_witness(out, found.id, lines_to_missing, accuser, sight_lines);
     return out;
   }
 
@@ -119,6 +100,36 @@ class CellJudge {
   struct Line {
     Point v, p;
   };
+
+  void look_for_witness(Search& out, std::uint32_t id, int tries, const Accuser& accuser,
+                        std::atomic<std::uint64_t>& sight_lines) const {
+    const auto t = corners_of(id);
+    fastpath::SegmentQueries queries(scene_.blocking());
+    const auto at = scene_.find_blocking(id);
+    const Ids itself = at ? Ids{*at} : Ids{};
+    std::mt19937_64 random(id);
+    for (int i = 0; i < tries && !viewpoints_.empty(); ++i) {
+      const Line line = line_to(t, i, random);
+      if (out.beyond && is_too_long(line, accuser)) continue;
+      ++sight_lines;
+      if (queries.any_hit({line.v, line.p}, {itself, &lines_.cell()})) continue;
+      if (take(out, id, line, accuser)) return;
+    }
+  }
+
+  // Of a free line: whether it accuses.
+  bool take(Search& out, std::uint32_t id, const Line& line, const Accuser& accuser) const {
+    const auto crossing = crossing_of(id, line);
+    if (!crossing) return false;
+    const bool too_long = is_too_long(line, accuser);
+    auto& found = too_long ? out.beyond : out.witness;
+    if (confirmed(*crossing, accuser)) {
+      found = *crossing;
+    } else {
+      out.refused = out.refused || !too_long;
+    }
+    return out.witness.has_value();
+  }
 
   // Or nearly: what accuses is surely no longer.
   static bool is_too_long(const Line& line, const Accuser& accuser) {
@@ -162,39 +173,41 @@ class CellJudge {
     return false;
   }
 
-  // Where the line from v through p crosses the triangle, if the witness checker agrees.
-  std::optional<Witness> confirmed(std::uint32_t id, const Point& v, const Point& p, const Accuser& accuser) const {
+  // Where the line crosses the plane of the triangle, not beyond its end.
+  std::optional<Witness> crossing_of(std::uint32_t id, const Line& line) const {
     const auto& corners = scene_.scene().mesh.triangles[id];
     std::array<exact::Point3, 3> t;
     for (std::size_t i = 0; i < 3; ++i) t[i] = exact::to_exact(scene_.scene().mesh.points[corners[i]]);
-    const exact::Point3 from = exact::to_exact(v), to = exact::to_exact(p);
+    const exact::Point3 from = exact::to_exact(line.v), to = exact::to_exact(line.p);
     const auto n = CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
     const exact::FT slope = n * (to - from);
     if (slope == 0) return std::nullopt;
     const exact::FT s = n * (t[0] - from) / slope;
     if (s <= 0 || s > 1) return std::nullopt;
-    const exact::Point3 at = from + s * (to - from);
-    const bool front = n * (from - t[0]) > 0;
-    const Witness witness{id, front, from, at};
-    if (accuser.accuses && !accuser.accuses(witness)) return std::nullopt;
+    return Witness{id, n * (from - t[0]) > 0, from, from + s * (to - from)};
+  }
+
+  // Whether the accuser and the witness checker agree.
+  bool confirmed(const Witness& witness, const Accuser& accuser) const {
+    if (accuser.accuses && !accuser.accuses(witness)) return false;
     // All that blocks, and the triangle itself where it does not.
     scene::TriangleMesh mesh = scene_.blocking().mesh();
     std::uint32_t place = 0;
-    if (const auto there = scene_.find_blocking(id)) {
+    if (const auto there = scene_.find_blocking(witness.triangle)) {
       place = *there;
     } else {
       place = static_cast<std::uint32_t>(mesh.triangles.size());
+      const fastpath::Corners corners = corners_of(witness.triangle);
       scene::Triangle own{};
       for (std::size_t i = 0; i < 3; ++i) {
         own[i] = static_cast<std::uint32_t>(mesh.points.size());
-        mesh.points.push_back(scene_.scene().mesh.points[corners[i]]);
+        mesh.points.push_back(corners[i]);
       }
       mesh.triangles.push_back(own);
       mesh.face_of.push_back(place);
     }
-    const NearSegment near = near_segment(std::move(mesh), place, from, at);
-    if (!exact::check_witness(near.mesh, cell_, near.triangle, front, from, at).valid) return std::nullopt;
-    return witness;
+    const NearSegment near = near_segment(std::move(mesh), place, witness.v, witness.p);
+    return exact::check_witness(near.mesh, cell_, near.triangle, witness.front, witness.v, witness.p).valid;
   }
 
   const fastpath::SeeThroughScene& scene_;
@@ -205,10 +218,13 @@ class CellJudge {
 
 void take_verdicts(CellJudgement& out, const Ids& missing, const std::vector<CellJudge::Search>& searches) {
   for (std::size_t i = 0; i < missing.size(); ++i) {
-    if (searches[i].witness) {
-      out.holes.push_back(*searches[i].witness);
+    const CellJudge::Search& found = searches[i];
+    if (found.witness) {
+      out.holes.push_back(*found.witness);
+    } else if (found.beyond && !found.refused) {
+      out.beyond.push_back(*found.beyond);
     } else {
-      (searches[i].beyond ? out.beyond : out.undecided).push_back(missing[i]);
+      out.undecided.push_back(missing[i]);
     }
   }
 }

@@ -16,9 +16,9 @@ struct CellJudgement {
   std::uint64_t listed = 0;                // by the list that is judged
   std::uint64_t witnessed = 0;             // of those that may be seen: with a free sight line, decided exactly
   std::vector<Witness> holes;              // missing and visible, ascending by triangle
-  std::vector<std::uint32_t> undecided;    // missing, and no sight line was found, ascending
-  std::vector<std::uint32_t>
-      beyond;  // missing, and all sight lines that were found are longer than the far plane is away, ascending
+  std::vector<std::uint32_t> undecided;    // missing, and no sight line was confirmed, ascending
+  // Missing, and a sight line was confirmed that is longer than the far plane is away, while no shorter one was found, not even a doubtful one; ascending by triangle.
+  std::vector<Witness> beyond;
   std::vector<Witness> contradictions;  // hidden, says the kernel, and yet with a confirmed sight line. Must stay empty
   std::uint64_t sight_lines = 0;        // decided exactly
   std::uint64_t fallbacks = 0;          // of the kernel

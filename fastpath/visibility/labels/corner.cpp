@@ -16,8 +16,8 @@ using V = Vec3<Integer>;
 
 int side(const V& f, const V& d) { return dot(f, d).sign(); }
 
-// f with f * n > 0 for all of the first and f * v <= 0 for all of the second: the sum of the extreme ones among those that satisfy both weakly, each normal to two of the vectors. Few of these
-// do, and for most intervals say so.
+// f with f * n > 0 for all of the first and f * v <= 0 for all of the second: the sum of the extreme ones among those that satisfy both weakly, each normal to two of the vectors. Of most,
+// intervals say that they do not.
 std::optional<V> separating(const std::vector<V>& positive, const std::vector<V>& others) {
   std::vector<V> all = positive;
   all.insert(all.end(), others.begin(), others.end());

@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "fastpath/visibility/wedges/star.h"
+#include "fastpath/visibility/wedges/circle_star.h"
 
 namespace clues::fastpath {
 
@@ -21,12 +21,13 @@ class MadeOnce {
   template <class Make>
   T& get(const Make& make) {
     if (failed_) throw Unsure{};
-    if (!made_) {
+    if (made_) return *made_;
+    try {
+      return made_.emplace(make());
+    } catch (const Unsure&) {
       failed_ = true;
-      made_.emplace(make());
-      failed_ = false;
+      throw;
     }
-    return *made_;
   }
 
  private:
@@ -93,8 +94,8 @@ class Picture {
 struct Circle {
   const Plane* plane;
   std::optional<Vec3<Integer>> normal;
-  bool divides = false;               // faces
-  std::optional<Star<Integer>> star;  // with the circle
+  bool divides = false;  // faces
+  std::optional<CircleStar> star;
   std::vector<std::pair<Face, Face>> across;
   std::vector<Face> inside;  // of sectors
 };
@@ -242,7 +243,7 @@ class LitSectors::Work {
     }
   }
 
-  // By way of a direction beside that of the probe, towards one of A(x): with n the normal of a circle, n x does not grow on such ways. So they cross the circle as light does, and
+  // By way of a direction beside that of the probe, towards one of A(x): with n the normal of a circle, into H-, n x does not fall on such ways. So they cross the circle as light does, and
   // passes_circles() need not be asked.
   static bool gets_there_by_a_ray(const Star<Interval>& star, const Beside<Interval>& from, const Vec3<Interval>& inner,
                                   const std::vector<Vec3<Interval>>& anticone) {
@@ -269,13 +270,13 @@ class LitSectors::Work {
       Circle& c = circles_[i];
       if (!c.normal) {
         c.normal = normal_direction<Integer>(*c.plane);
-        c.divides = picture.star.meets_circle(*c.normal);
+        c.divides = CircleStar::divides(picture.star, *c.normal);
       }
       const int side = !c.divides ? 0 : into_cell ? -1 : lit.side_of(*c.normal);
       if (side == 0) continue;
       if (!c.star) {
-        c.star = picture.star.with_circle(*c.normal);
-        c.across = c.star->across_circle();
+        c.star.emplace(picture.star, *c.normal);
+        c.across = c.star->across();
         c.inside.resize(apex_->sectors().size());
       }
       Face &from = seen_[p].faces[i], &to = c.inside[sector];

@@ -99,85 +99,6 @@ class Star {
 
   V to(const ExactPoint& p) const { return direction<NT>(*x_, p); }
 
-  // Whether arcs meet the great circle of this normal in more than one place. If not, it divides no face next to it: one gets from one way through it to another along it.
-  bool meets_circle(const V& n) const {
-    std::vector<int> side;
-    for (const V& d : nodes_) side.push_back(sign_of(NT(dot(n, d))));
-    return std::count(side.begin(), side.end(), 0) +
-               std::count_if(arcs_.begin(), arcs_.end(),
-                             [&](const Arc& arc) { return side[idx(arc.a)] * side[idx(arc.b)] < 0; }) >
-           1;
-  }
-  // The same with that circle: arcs are cut where it crosses them, it is cut where they meet it, and what they do not cover of it is free. For a type without
-  // rounding.
-  Star with_circle(const V& n) const {
-    Star out(*scene_, *x_);
-    out.nodes_ = nodes_;
-    std::vector<NT> at;
-    std::vector<int> sign, rim;
-    for (int i = 0; i < static_cast<int>(nodes_.size()); ++i) {
-      at.push_back(dot(n, nodes_[idx(i)]));
-      sign.push_back(sign_of(at.back()));
-      if (sign.back() == 0) rim.push_back(i);
-    }
-    std::vector<const Arc*> in_circle;
-    for (const Arc& arc : arcs_) {
-      const int sa = sign[idx(arc.a)], sb = sign[idx(arc.b)];
-      if (sa == 0 && sb == 0) in_circle.push_back(&arc);
-      if (sa * sb >= 0) {
-        out.arcs_.push_back(arc);
-        continue;
-      }
-      const NT to_b = sa > 0 ? at[idx(arc.a)] : NT(-at[idx(arc.a)]),
-               to_a = sa > 0 ? NT(-at[idx(arc.b)]) : at[idx(arc.b)];
-      const int c = static_cast<int>(out.nodes_.size());
-      out.nodes_.push_back(to_a * nodes_[idx(arc.a)] + to_b * nodes_[idx(arc.b)]);
-      rim.push_back(c);
-      out.arcs_.push_back({arc.a, c, arc.piece, arc.normal});
-      out.arcs_.push_back({c, arc.b, arc.piece, arc.normal});
-    }
-    const V e = sign_of(n.x) != 0 || sign_of(n.y) != 0 ? V{-n.y, n.x, NT(0)} : V{n.z, NT(0), NT(0)}, f = cross(n, e);
-    for (const V& d : {e, f, V(-e), V(-f)}) {
-      if (std::any_of(rim.begin(), rim.end(), [&](int i) { return same_direction(out.nodes_[idx(i)], d); })) continue;
-      rim.push_back(static_cast<int>(out.nodes_.size()));
-      out.nodes_.push_back(d);
-    }
-    std::sort(rim.begin(), rim.end(), [&](int i, int k) {
-      if (i == k) return false;
-      const V &di = out.nodes_[idx(i)], &dk = out.nodes_[idx(k)];
-      const int hi = half_turn(n, e, di), hk = half_turn(n, e, dk);
-      return hi != hk ? hi < hk : det_sign(n, di, dk) > 0;
-    });
-    out.first_free_ = out.arcs_.size();
-    for (std::size_t i = 0; i < rim.size(); ++i) {
-      const int a = rim[i], b = rim[(i + 1) % rim.size()];
-      const V middle = out.nodes_[idx(a)] + out.nodes_[idx(b)];
-      if (std::any_of(in_circle.begin(), in_circle.end(), [&](const Arc* arc) {
-            return in_arc(nodes_[idx(arc->a)], nodes_[idx(arc->b)], arc->normal, middle);
-          }))
-        continue;
-      out.arcs_.push_back({a, b, kNoPiece, n});
-    }
-    out.find_faces();
-    return out;
-  }
-  // Of a star with a circle, for each free part of it: the faces on the side away from its normal, and on the other.
-  std::vector<std::pair<std::vector<int>, std::vector<int>>> across_circle() const {
-    const bool connected =
-        std::all_of(component_.begin(), component_.end(), [&](int c) { return c == component_.front(); });
-    const V nothing{NT(0), NT(0), NT(0)};
-    std::vector<std::pair<std::vector<int>, std::vector<int>>> sides;
-    for (std::size_t i = first_free_; i < arcs_.size(); ++i) {
-      if (connected) {
-        sides.push_back({{face_[2 * i + 1]}, {face_[2 * i]}});
-        continue;
-      }
-      const V &n = arcs_[i].normal, middle = nodes_[idx(arcs_[i].a)] + nodes_[idx(arcs_[i].b)];
-      sides.emplace_back(face_of(moved({middle, -n, nothing, {}})), face_of(moved({middle, n, nothing, {}})));
-    }
-    return sides;
-  }
-
   // limit, moved so little that no arc's great circle lies between, and that it is `good`.
   template <class Good>
   std::optional<V> moved_if_possible(const Beside<NT>& d, const Good& good) const {
@@ -353,17 +274,35 @@ class Star {
     return false;
   }
 
- private:
+ protected:
   static constexpr std::uint32_t kNoPiece = ~0U;
-  Star(const LocalScene& scene, const ExactPoint& x) : scene_(&scene), x_(&x) {}
-
   struct Arc {
     int a, b;
-    std::uint32_t piece;
+    std::uint32_t piece;  // kNoPiece: of none
     V normal;
   };
-  static constexpr auto anywhere = [](const V&) { return true; };
   static std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+  // Once all arcs are there.
+  void find_faces() {
+    face_ = joined_sides([](const V&) { return true; });
+    std::vector<int> of_node(nodes_.size());
+    std::iota(of_node.begin(), of_node.end(), 0);
+    for (const Arc& arc : arcs_) {
+      const int from = of_node[idx(arc.a)], to = of_node[idx(arc.b)];
+      std::replace(of_node.begin(), of_node.end(), from, to);
+    }
+    component_.clear();
+    for (const Arc& arc : arcs_) component_.push_back(of_node[idx(arc.a)]);
+  }
+
+  const LocalScene* scene_;
+  const ExactPoint* x_;
+  std::vector<V> nodes_;
+  std::vector<Arc> arcs_;
+  std::vector<int> face_, component_;  // of sides of arcs; of arcs
+
+ private:
+  static constexpr auto anywhere = [](const V&) { return true; };
 
   // Whether the arc's great circle holds the limit of d because both are of one piece: then no sign need be computed.
   bool is_on(const Arc& arc, const Beside<NT>& d) const {
@@ -408,17 +347,6 @@ class Star {
     }
   }
 
-  void find_faces() {
-    face_ = joined_sides([](const V&) { return true; });
-    std::vector<int> of_node(nodes_.size());
-    std::iota(of_node.begin(), of_node.end(), 0);
-    for (const Arc& arc : arcs_) {
-      const int from = of_node[idx(arc.a)], to = of_node[idx(arc.b)];
-      std::replace(of_node.begin(), of_node.end(), from, to);
-    }
-    for (const Arc& arc : arcs_) component_.push_back(of_node[idx(arc.a)]);
-  }
-
   // The side of the first arc of this component on the way from d to a point of one of its arcs; -1: not a clean way, or not surely one. Every
   // clean way leads to the same face, so there is no need to decide what is unsure.
   int side_met(const V& d, std::size_t aim_arc, int aim) const {
@@ -451,13 +379,6 @@ class Star {
     }
     return side;
   }
-
-  const LocalScene* scene_;
-  const ExactPoint* x_;
-  std::vector<V> nodes_;
-  std::vector<Arc> arcs_;
-  std::vector<int> face_, component_;
-  std::size_t first_free_ = 0;  // the first arc of the circle, which are the last ones
 };
 
 }  // namespace clues::fastpath
