@@ -15,17 +15,7 @@ class CircleStar : public Star<Integer> {
  public:
   using Face = std::vector<int>;
 
-  // Whether arcs of the star meet the circle in more than one place. If not, it divides no face next to it: one gets from one way through it to another along it.
-  static bool divides(const Star<Integer>& star, const V& normal) {
-    const CircleStar whole(star);
-    const std::vector<int> side = whole.sides(normal);
-    return std::count(side.begin(), side.end(), 0) +
-               std::count_if(whole.arcs_.begin(), whole.arcs_.end(),
-                             [&](const Arc& arc) { return side[idx(arc.a)] * side[idx(arc.b)] < 0; }) >
-           1;
-  }
-
-  CircleStar(const Star<Integer>& star, const V& normal) : CircleStar(star) {
+  CircleStar(const Star<Integer>& star, const V& normal) : Star<Integer>(star) {
     std::vector<int> rim;
     const std::vector<Arc> covering = cut_arcs(normal, rim);
     first_free_ = arcs_.size();
@@ -51,17 +41,9 @@ class CircleStar : public Star<Integer> {
   }
 
  private:
-  explicit CircleStar(const Star<Integer>& star) : Star<Integer>(star) {}
-
-  std::vector<int> sides(const V& n) const {
-    std::vector<int> side;
-    for (const V& d : nodes_) side.push_back(dot(n, d).sign());
-    return side;
-  }
-
   // Arcs that the circle crosses, in two. Tells the nodes on it, and gives the arcs that lie in it.
   std::vector<Arc> cut_arcs(const V& n, std::vector<int>& rim) {
-    const std::vector<int> side = sides(n);
+    const std::vector<int> side = sides_of(n);
     for (int i = 0; i < static_cast<int>(side.size()); ++i) {
       if (side[idx(i)] == 0) rim.push_back(i);
     }

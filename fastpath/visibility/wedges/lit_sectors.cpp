@@ -270,7 +270,7 @@ class LitSectors::Work {
       Circle& c = circles_[i];
       if (!c.normal) {
         c.normal = normal_direction<Integer>(*c.plane);
-        c.divides = CircleStar::divides(picture.star, *c.normal);
+        c.divides = picture.star.is_divided_by(*c.normal);
       }
       const int side = !c.divides ? 0 : into_cell ? -1 : lit.side_of(*c.normal);
       if (side == 0) continue;

@@ -99,6 +99,15 @@ class Star {
 
   V to(const ExactPoint& p) const { return direction<NT>(*x_, p); }
 
+  // Whether arcs meet the great circle of this normal in more than one place. If not, it divides no face next to it: one gets from one way through it to another along it.
+  bool is_divided_by(const V& n) const {
+    const std::vector<int> side = sides_of(n);
+    return std::count(side.begin(), side.end(), 0) +
+               std::count_if(arcs_.begin(), arcs_.end(),
+                             [&](const Arc& arc) { return side[idx(arc.a)] * side[idx(arc.b)] < 0; }) >
+           1;
+  }
+
   // limit, moved so little that no arc's great circle lies between, and that it is `good`.
   template <class Good>
   std::optional<V> moved_if_possible(const Beside<NT>& d, const Good& good) const {
@@ -282,6 +291,12 @@ class Star {
     V normal;
   };
   static std::size_t idx(int i) { return static_cast<std::size_t>(i); }
+  // Of the nodes.
+  std::vector<int> sides_of(const V& normal) const {
+    std::vector<int> side;
+    for (const V& d : nodes_) side.push_back(sign_of(NT(dot(normal, d))));
+    return side;
+  }
   // Once all arcs are there.
   void find_faces() {
     face_ = joined_sides([](const V&) { return true; });
