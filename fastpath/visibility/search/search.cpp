@@ -206,7 +206,7 @@ class Search::Work {
                    [&](const Contact* c) { return !left_out_contacts.contains(c); });
     }
     for (Contact* c : lit) {
-      for (const std::uint32_t k : Contacts::existing_sectors(*c)) {
+      for (const std::uint32_t k : c->sectors) {
         if (c->built[k]) continue;
         c->built[k] = true;
         jobs.push_back({0, -1, nullptr, nullptr, c, k});

@@ -8,17 +8,6 @@
 
 namespace clues::fastpath {
 
-namespace {
-
-// For these probes, in whatever order they came.
-auto known_sectors(const Contact& c) {
-  return std::find_if(c.known_sectors.begin(), c.known_sectors.end(), [&](const auto& k) {
-    return k.first.size() == c.probes.size() && std::is_permutation(k.first.begin(), k.first.end(), c.probes.begin());
-  });
-}
-
-}  // namespace
-
 Contacts::Contacts(const LocalScene& scene, const std::vector<ContourEdge>& contours, Workers& workers)
     : scene_(scene),
       contour_planes_(scene.points.size()),
@@ -115,7 +104,6 @@ void Contacts::find_sectors(const std::vector<Contact*>& contacts) {
   static const std::vector<const Plane*> none;
   workers_.for_each(contacts.size(), [&](std::size_t i, Workers::Worker&) {
     Contact& c = *contacts[i];
-    if (known_sectors(c) != c.known_sectors.end()) return;
     // A sector too many only makes more visible: where the vertex is too intricate to decide, all of them.
     std::vector<std::uint32_t> sectors(c.apex->sectors().size());
     std::iota(sectors.begin(), sectors.end(), 0U);
@@ -129,10 +117,8 @@ void Contacts::find_sectors(const std::vector<Contact*>& contacts) {
       c.has_all_sectors = true;
       ++fallbacks_;
     }
-    c.known_sectors.emplace_back(c.probes, std::move(sectors));
+    c.sectors = std::move(sectors);
   });
 }
-
-const std::vector<std::uint32_t>& Contacts::existing_sectors(const Contact& c) { return known_sectors(c)->second; }
 
 }  // namespace clues::fastpath

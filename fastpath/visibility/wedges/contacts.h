@@ -28,7 +28,7 @@ struct Contact {
   bool fresh = false;                            // some of them came since the last Contacts::lit()
   std::vector<bool> built;                       // by sector: in this round
   std::vector<std::unique_ptr<OnWedge>> wedges;  // by sector, once made
-  std::vector<std::pair<std::vector<Probe>, std::vector<std::uint32_t>>> known_sectors;  // that exist given probes
+  std::vector<std::uint32_t> sectors;            // that exist given the probes, once found
 };
 
 class Contacts {
@@ -57,9 +57,8 @@ class Contacts {
   void add(Contact* contact, const Probe& probe);
   // Contacts that have got probes since the last call, in this order, but those without sectors.
   std::vector<Contact*> lit();
-  // Afterwards existing_sectors() is known for the probes of these contacts.
+  // Those that exist given the probes of these contacts.
   void find_sectors(const std::vector<Contact*>& contacts);
-  static const std::vector<std::uint32_t>& existing_sectors(const Contact& contact);
 
   // Vertices too intricate to decide, which have all their sectors.
   std::uint64_t conservative_fallbacks() const { return fallbacks_; }
