@@ -28,7 +28,7 @@ CHAPTERS = {
                   "visibility/refinement", "delta", "contours", "streams", "link", "motion", "multires/stars", "multires"],
     "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
-                 "visibility/refinement", "contours", "motion", "multires", "bakes"],
+                 "visibility/refinement", "contours", "motion/bounds", "motion", "multires", "bakes"],
     "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "cells", "vectors", "conform",
                  "motion", "multires", "stream"],
     "fuzz": ["generators", "levels", "motion", "multires", "findings", "trials", "subjects", "oracles", "shrinking", "campaign", "report",

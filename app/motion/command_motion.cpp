@@ -21,11 +21,11 @@
 #include "app/progress.h"
 #include "fastpath/motion/walk.h"
 #include "scene/files/atomic_file.h"
-#include "scene/mesh_io.h"
 #include "scene/messages/error.h"
 #include "scene/motion/motion_files.h"
 #include "scene/motion/view_path.h"
 #include "scene/motion/walk_file.h"
+#include "scene/scenes/scene_io.h"
 
 namespace clues::app {
 namespace {
@@ -154,7 +154,7 @@ int run_motion(const MotionRequest& request) {
     if (!file->empty()) require_writable_parent(*file);
   }
   require_apart(outputs, {&request.scene, &request.path});
-  const auto mesh = scene::read_mesh(request.scene);
+  const auto mesh = scene::read_drawn_scene(request.scene);
   const fastpath::Bvh bvh(mesh);
 
   scene::WalkWriter writer;
@@ -209,7 +209,8 @@ void add_motion_command(CLI::App& program, int& status) {
   auto* command = program.add_subcommand(
       "motion", "Keep a depth mesh valid while the viewpoint moves, by motion bounds; judge such bounds");
   auto request = std::make_shared<MotionRequest>();
-  command->add_option("SCENE", request->scene, "The scene: OBJ, OFF, PLY or STL");
+  command->add_option("SCENE", request->scene,
+                      std::string("The scene: ") + scene::scene_formats + "; what is drawn of it");
   command
       ->add_option("--path", request->path,
                    "Where the viewpoint goes: FILE with x y z a line; orbit:x,y,z,r[,turns];\nwalk:x,y,z:x,y,z[:...]")

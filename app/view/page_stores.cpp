@@ -5,7 +5,7 @@
 #include <map>
 
 #include "app/view/base64.h"
-#include "fastpath/motion/bounds.h"
+#include "fastpath/motion/bounds/bounds.h"
 #include "scene/messages/error.h"
 #include "scene/motion/walk_file.h"
 

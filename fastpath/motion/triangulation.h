@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "fastpath/motion/predicates.h"
+#include "fastpath/motion/bounds/predicates.h"
 #include "fastpath/motion/sphere_mesh.h"
 
 namespace clues::fastpath::motion {

@@ -5,17 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "fastpath/motion/base_mesh.h"
-#include "fastpath/motion/sketch_bound.h"
+#include "fastpath/motion/bounds/sketch_bound.h"
 #include "scene/messages/error.h"
 
 namespace clues::fastpath::motion {
 namespace {
-
-double sum_up(double a, double b) { return std::nextafter(a + b, kInfinity); }
-double sum_down(double a, double b) { return std::isfinite(b) ? std::nextafter(a + b, -kInfinity) : b; }
 
 void require_viewpoint(const MotionPoint& at) {
   for (const double x : at) {
@@ -36,7 +33,7 @@ const WalkOptions& checked(const WalkOptions& options) {
 
 }  // namespace
 
-void Walk::Part::resize(std::size_t n) {
+void Walk::TriangleBounds::resize(std::size_t n) {
   bound.resize(n, kInfinity);
   key.resize(n, kInfinity);
   for (auto* list : {&x, &y, &z}) list->resize(n);
@@ -66,9 +63,10 @@ void Walk::rebuild() {
   old_view_->look_from(at_);
   removed_.clear();
   out_.clear();
-  for (auto* of_the_old_mesh : {&failing_, &failed_, &not_delaunay_}) of_the_old_mesh->clear();
+  for (auto* of_the_old_mesh : {&failing_, &failed_, &failed_edges_, &not_delaunay_}) of_the_old_mesh->clear();
   calendar_.reset();
-  for (Part& part : parts_) part = {};
+  edges_.reset();
+  bounds_ = {};
   stamps_.clear();
   changed_.clear();
   changed_in_.clear();
@@ -105,73 +103,103 @@ void Walk::note_changes() {
 
 // ---- bounds
 
-double Walk::part_bound(std::uint32_t f, std::size_t part) {
-  const Face& face = mesh().face(f);
+double Walk::bound_of(std::uint32_t f) const {
+  const auto [a, b, c] = mesh().face(f).corner;
   const View& view = triangulation_->view();
-  const auto [a, b, c] = face.corner;
   view.row(a), view.row(b), view.row(c);
-  if (part == 0) {
-    return options_.bounds == WalkOptions::Bounds::sketch_unsound
-               ? sketch_bound_unsound(view.row(a), view.row(b), view.row(c), limits_)
-               : triangle_bound(view.row(a), view.row(b), view.row(c), limits_);
-  }
-  const std::size_t i = part - 1;
-  const std::uint32_t g = face.across[i], d = mesh().face(g).corner[mesh().face(g).place_of_face(f)];
-  view.row(d);
-  return delaunay_bound(view.row(face.corner[i]), view.row(face.corner[(i + 1) % 3]),
-                        view.row(face.corner[(i + 2) % 3]), view.row(d));
+  return options_.bounds == WalkOptions::Bounds::sketch_unsound
+             ? sketch_bound_unsound(view.row(a), view.row(b), view.row(c), limits_)
+             : triangle_bound(view.row(a), view.row(b), view.row(c), limits_);
 }
 
-bool Walk::part_holds(std::uint32_t f, std::size_t part) {
-  return part == 0 ? triangulation_->face_holds(f) : triangulation_->delaunay(f, part - 1) >= 0;
-}
-
-void Walk::set_part(std::uint32_t f, std::size_t part, double bound) {
-  Part& p = parts_[part];
-  p.bound[f] = bound;
-  p.key[f] = sum_down(odometer_, bound);
-  p.x[f] = at_[0];
-  p.y[f] = at_[1];
-  p.z[f] = at_[2];
+void Walk::set_bound(std::uint32_t f, double bound) {
+  bounds_.bound[f] = bound;
+  bounds_.key[f] = sum_down(odometer_, bound);
+  bounds_.x[f] = at_[0];
+  bounds_.y[f] = at_[1];
+  bounds_.z[f] = at_[2];
 }
 
 void Walk::queue(std::uint32_t f) {
   ++stamps_[f];
-  double key = parts_[0].key[f];
-  if (delaunay()) key = std::min({key, parts_[1].key[f], parts_[2].key[f], parts_[3].key[f]});
-  if (calendar_) calendar_->put({key, f, stamps_[f]});
+  if (calendar_) calendar_->put({bounds_.key[f], f, stamps_[f]});
+}
+
+std::array<const Row*, 4> Walk::rows_of_edge(std::uint32_t f, std::size_t i) const {
+  const Face& face = mesh().face(f);
+  const Face& other = mesh().face(face.across[i]);
+  const std::array<std::uint32_t, 4> vertices{face.corner[i], face.corner[(i + 1) % 3], face.corner[(i + 2) % 3],
+                                              other.corner[other.place_of_face(f)]};
+  const View& view = triangulation_->view();
+  for (const std::uint32_t v : vertices) view.row(v);  // the first use of a vertex may move the others
+  return {&view.row(vertices[0]), &view.row(vertices[1]), &view.row(vertices[2]), &view.row(vertices[3])};
+}
+
+bool Walk::set_edge(std::uint32_t f, std::size_t i) {
+  const auto [a, b, c, d] = rows_of_edge(f, i);
+  return edges_->set(slot_of(f, i), delaunay_model(*a, *b, *c, *d), at_);
+}
+
+// At the viewpoint before the first step, where all bounds are known. What the width of a bin should be is not known earlier.
+void Walk::begin_bounds(double step, const MotionPoint& to) {
+  const double width = (options_.step > 0 ? options_.step : step) / 4;
+  calendar_.emplace(width);
+  if (delaunay()) {
+    edges_.emplace(width);
+    edges_->resize(3 * mesh().faces().size());
+    edges_->expect(at_, to);
+  }
+  for (std::uint32_t f = 0; f < mesh().faces().size(); ++f) {
+    if (!mesh().face(f).alive()) continue;
+    queue(f);
+    for (std::size_t i = 0; i < 3 && delaunay(); ++i) {
+      if (f < mesh().face(f).across[i]) edges_->set_ball(slot_of(f, i), first_balls_[slot_of(f, i)], at_);
+    }
+  }
+  first_balls_.clear();
 }
 
 // Each edge is kept by one of its triangles: a changed one, and of two such the one with the lesser number. All changed triangles hold.
 void Walk::bounds_of_changed() {
   if (options_.bounds != WalkOptions::Bounds::sound && options_.bounds != WalkOptions::Bounds::sketch_unsound) return;
   const std::size_t n = mesh().faces().size();
-  for (Part& part : parts_) part.resize(n);
+  bounds_.resize(n);
   stamps_.resize(n, 0);
+  if (edges_) edges_->resize(3 * n);
+  if (delaunay() && !edges_) first_balls_.resize(3 * n);
   for (const std::uint32_t f : changed_) {
-    if (!mesh().face(f).alive()) {
+    const Face& face = mesh().face(f);
+    if (!face.alive()) {
       ++stamps_[f];
+      for (std::size_t i = 0; i < 3 && edges_; ++i) edges_->drop(slot_of(f, i));
       continue;
     }
-    set_part(f, 0, part_bound(f, 0));
+    set_bound(f, bound_of(f));
+    queue(f);
     for (std::size_t i = 0; i < 3 && delaunay(); ++i) {
-      const std::uint32_t g = mesh().face(f).across[i];
-      if (changed_now(g) && g < f) {
-        parts_[1 + i].key[f] = kInfinity;
+      const std::uint32_t g = face.across[i];
+      if (!edges_) {
+        const auto [a, b, c, d] = rows_of_edge(f, i);
+        first_balls_[f < g ? slot_of(f, i) : slot_of(g, mesh().face(g).place_of_face(f))] =
+            delaunay_bound(*a, *b, *c, *d);
         continue;
       }
-      set_part(f, 1 + i, part_bound(f, 1 + i));
-      if (!changed_now(g)) parts_[1 + mesh().face(g).place_of_face(f)].key[g] = kInfinity;
+      if (changed_now(g) && g < f) {
+        edges_->drop(slot_of(f, i));
+        continue;
+      }
+      set_edge(f, i);
+      if (!changed_now(g)) edges_->drop(slot_of(g, mesh().face(g).place_of_face(f)));
     }
-    queue(f);
   }
   // An edge that failed may have got another triangle on its other side, which keeps it now: then the first one is as it was.
   for (const std::uint32_t f : failed_) {
     if (!mesh().face(f).alive() || changed_now(f)) continue;
-    for (std::size_t p = 0; p < 4; ++p) {
-      if (parts_[p].key[f] <= odometer_) set_part(f, p, part_bound(f, p));
-    }
+    set_bound(f, bound_of(f));
     queue(f);
+  }
+  for (const std::uint32_t s : failed_edges_) {
+    if (mesh().face(s / 3).alive() && !changed_now(s / 3) && edges_ && edges_->keeps(s)) set_edge(s / 3, s % 3);
   }
 }
 
@@ -190,16 +218,16 @@ std::vector<double> Walk::bounds_left() const {
   for (std::uint32_t f = 0; f < mesh().faces().size(); ++f) {
     const Face& face = mesh().face(f);
     if (!face.alive()) continue;
-    if (f >= parts_[0].key.size()) {
+    if (f >= bounds_.key.size()) {
       left.push_back(0);
       continue;
     }
-    double key = parts_[0].key[f];
+    double at_least = left_of(bounds_.key[f]);
     for (std::size_t i = 0; i < 3 && delaunay(); ++i) {
-      const std::uint32_t g = face.across[i];
-      key = std::min({key, parts_[1 + i].key[f], parts_[1 + mesh().face(g).place_of_face(f)].key[g]});
+      const auto [a, b, c, d] = rows_of_edge(f, i);
+      at_least = std::min(at_least, delaunay_bound(*a, *b, *c, *d));
     }
-    left.push_back(left_of(key));
+    left.push_back(at_least);
   }
   return left;
 }
@@ -208,36 +236,45 @@ std::vector<double> Walk::bounds_left() const {
 
 void Walk::examine_due(FrameReport& report) {
   due_.clear();
+  due_edges_.clear();
   if (calendar_) calendar_->take_due(odometer_, due_);
+  if (edges_) edges_->take_due(due_edges_);
+  examined_in_.resize(mesh().faces().size(), 0);
+  computed_in_.resize(mesh().faces().size(), 0);
+  const auto count = [&](std::vector<std::uint32_t>& frames, std::uint32_t f, std::uint64_t& of) {
+    if (std::exchange(frames[f], frame_) != frame_) ++of;
+  };
   for (const auto& entry : due_) {
     const std::uint32_t f = entry.item;
     if (entry.stamp != stamps_[f]) continue;
-    ++report.examined;
-    bool tested = false, failed = false;
-    for (std::size_t p = 0; p < (delaunay() ? 4U : 1U); ++p) {
-      Part& part = parts_[p];
-      if (part.key[f] > odometer_) continue;
-      const double way = distance_up(at_, part.origin(f));
-      // Where little of the bound is left it would be due again at once.
-      if (way < 0.75 * part.bound[f]) {
-        part.key[f] = sum_down(odometer_, std::nextafter(part.bound[f] - way, 0.0));
-        if (part.key[f] > odometer_) continue;
-      }
-      tested = true;
-      const double bound = part_bound(f, p);
-      if (bound > 0 || part_holds(f, p)) {
-        set_part(f, p, bound);
+    count(examined_in_, f, report.examined);
+    const double way = distance_up(at_, bounds_.origin(f));
+    // Where little of the bound is left it would be due again at once.
+    if (way < 0.75 * bounds_.bound[f]) {
+      bounds_.key[f] = sum_down(odometer_, std::nextafter(bounds_.bound[f] - way, 0.0));
+      if (bounds_.key[f] > odometer_) {
+        queue(f);
         continue;
       }
-      failed = true;
-      (p == 0 ? failing_ : not_delaunay_).push_back(f);
     }
-    report.tested += tested ? 1 : 0;
-    if (failed) {
-      failed_.push_back(f);
-    } else {
+    count(computed_in_, f, report.tested);
+    const double bound = bound_of(f);
+    if (bound > 0 || triangulation_->face_holds(f)) {
+      set_bound(f, bound);
       queue(f);
+    } else {
+      failing_.push_back(f);
+      failed_.push_back(f);
     }
+  }
+  for (const std::uint32_t s : due_edges_) {
+    const std::uint32_t f = s / 3;
+    count(examined_in_, f, report.examined);
+    if (edges_->has_some_left(s, at_)) continue;
+    count(computed_in_, f, report.tested);
+    if (set_edge(f, s % 3) || triangulation_->delaunay(f, s % 3) >= 0) continue;
+    not_delaunay_.push_back(f);
+    failed_edges_.push_back(s);
   }
 }
 
@@ -260,25 +297,22 @@ FrameReport Walk::move_to(const MotionPoint& at) {
   report.at = at;
   const std::uint64_t rays = sampler_.rays, exact_before = triangulation_->constraints().counts.exact;
   const double step = distance_up(at, at_);
+  const bool with_bounds =
+      options_.bounds == WalkOptions::Bounds::sound || options_.bounds == WalkOptions::Bounds::sketch_unsound;
+  if (with_bounds && step > 0 && !calendar_) begin_bounds(step, at);
+  if (edges_) edges_->move(at_, at);
   if (step > 0) odometer_ = sum_up(odometer_, step);
   ++frame_;
   changed_.clear();
   touched_.clear();
   failing_.clear();
   failed_.clear();
+  failed_edges_.clear();
   not_delaunay_.clear();
   old_view_->look_from(at_);
   triangulation_->view().look_from(at);
   at_ = at;
   triangulation_->flips = 0;
-  const bool with_bounds =
-      options_.bounds == WalkOptions::Bounds::sound || options_.bounds == WalkOptions::Bounds::sketch_unsound;
-  if (!calendar_ && with_bounds && step > 0) {
-    calendar_.emplace((options_.step > 0 ? options_.step : step) / 4);
-    for (std::uint32_t f = 0; f < mesh().faces().size(); ++f) {
-      if (mesh().face(f).alive()) queue(f);
-    }
-  }
   bool again = options_.bounds == WalkOptions::Bounds::rebuild;
   if (!again) {
     with_bounds ? examine_due(report) : examine_all(report);

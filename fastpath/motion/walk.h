@@ -20,8 +20,9 @@
 #include <optional>
 #include <vector>
 
-#include "fastpath/motion/bounds.h"
-#include "fastpath/motion/calendar.h"
+#include "fastpath/motion/bounds/bounds.h"
+#include "fastpath/motion/bounds/calendar.h"
+#include "fastpath/motion/bounds/edge_bounds.h"
 #include "fastpath/motion/sampling.h"
 #include "fastpath/motion/triangulation.h"
 
@@ -48,7 +49,7 @@ struct FrameReport {
   double odometer = 0;
   std::uint64_t triangles = 0, samples = 0;  // after the frame; samples without the base
   std::uint64_t examined = 0;                // triangles that were due
-  std::uint64_t tested = 0;                  // of these: those whose old bound did not cover where the viewpoint is now
+  std::uint64_t tested = 0;                  // of these: those for which what was computed earlier did not do any more
   std::uint64_t removed = 0, flipped = 0;    // samples, edges
   std::uint64_t inserted = 0, reinserted = 0;  // samples; of these, such as had been removed before
   std::uint64_t reused = 0;                    // triangles that were there before and stayed as they were
@@ -74,8 +75,8 @@ class Walk {
   std::vector<double> bounds_left() const;
 
  private:
-  // Bounds by part: 0 facing, edges and separations of the triangle; 1 + i the Delaunay condition of its edge i, which one of its two triangles keeps.
-  struct Part {
+  // Facing, edges and separations of the triangles: bounds, where they were computed, and keys in the odometer.
+  struct TriangleBounds {
     std::vector<double> bound, key, x, y, z;
     void resize(std::size_t n);
     MotionPoint origin(std::uint32_t f) const { return {x[f], y[f], z[f]}; }
@@ -96,10 +97,14 @@ class Walk {
   bool remove_sample(std::uint32_t v, std::uint32_t f, const View& view, FrameReport& report);
   std::uint32_t furthest_sample(std::uint32_t f) const;
   std::uint32_t sample_that_moves(std::uint32_t f);
-  double part_bound(std::uint32_t f, std::size_t part);
-  bool part_holds(std::uint32_t f, std::size_t part);
-  void set_part(std::uint32_t f, std::size_t part, double bound);
+  double bound_of(std::uint32_t f) const;
+  void set_bound(std::uint32_t f, double bound);
   void queue(std::uint32_t f);
+  // The Delaunay condition of edge i of triangle f is slot 3 f + i of edges_; one of its two triangles keeps it.
+  std::array<const Row*, 4> rows_of_edge(std::uint32_t f, std::size_t i) const;
+  static std::uint32_t slot_of(std::uint32_t f, std::size_t i) { return static_cast<std::uint32_t>(3 * f + i); }
+  bool set_edge(std::uint32_t f, std::size_t i);
+  void begin_bounds(double step, const MotionPoint& to);
   void bounds_of_changed();
   bool is_thin(std::uint32_t f);
   bool changed_now(std::uint32_t f) const { return f < changed_in_.size() && changed_in_[f] == frame_; }
@@ -115,12 +120,15 @@ class Walk {
   std::uint32_t frame_ = 1;
 
   std::optional<Calendar> calendar_;
-  std::array<Part, 4> parts_;
-  std::vector<std::uint32_t> stamps_, changed_in_, tested_in_;
+  std::optional<EdgeBounds> edges_;
+  TriangleBounds bounds_;
+  std::vector<double>
+      first_balls_;  // by slot of the triangle with the lesser number: Delaunay bounds until the first step
+  std::vector<std::uint32_t> stamps_, changed_in_, tested_in_, examined_in_, computed_in_;  // the last two: frames
   std::uint32_t tested_now_ = 0;
   std::vector<std::uint32_t> changed_;                 // of this frame, each once
   std::vector<std::uint32_t> failing_, not_delaunay_;  // due triangles by what failed, and all of them
-  std::vector<std::uint32_t> failed_, touched_, stack_;
+  std::vector<std::uint32_t> failed_, failed_edges_, due_edges_, touched_, stack_;
   std::vector<Calendar::Entry> due_;
   std::deque<DepthSample> removed_;
   // Taken out in this frame, and base vertices that are out for longer: with a vertex that was next to it.

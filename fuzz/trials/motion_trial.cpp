@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "fastpath/motion/bounds.h"
+#include "fastpath/motion/bounds/bounds.h"
 #include "fastpath/motion/walk.h"
 #include "fuzz/findings/case_random.h"
 #include "fuzz/generators/random_scenes.h"

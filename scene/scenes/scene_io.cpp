@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 #include "scene/formats/file_bytes.h"
 #include "scene/gltf/gltf_reader.h"
@@ -38,6 +39,16 @@ TriangleMesh read_plain_scene(const std::filesystem::path& path) {
   throw Error(ErrorCode::unsupported, fmt::format("{}: {} triangles do not block and {} do not count (glass, curves, "
                                                   "hulls); `clues map`, check, bake, query and verify take such scenes",
                                                   path.string(), without(scene.blocks), without(scene.counts)));
+}
+
+TriangleMesh read_drawn_scene(const std::filesystem::path& path) {
+  auto scene = read_scene(path);
+  if (scene.counts.empty()) return std::move(scene.mesh);
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) {
+    if (scene.counting(t)) ids.push_back(t);
+  }
+  return part_of(scene.mesh, ids);
 }
 
 }  // namespace clues::scene

@@ -22,4 +22,7 @@ std::optional<BspFile> read_level(const std::filesystem::path& path);
 // to take it for opaque would hide what is seen.
 TriangleMesh read_plain_scene(const std::filesystem::path& path);
 
+// What is drawn of a scene: its triangles that count, whether they block or not, with all of its points. Throws as read_scene.
+TriangleMesh read_drawn_scene(const std::filesystem::path& path);
+
 }  // namespace clues::scene

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "exact/motion/compare_bounds.h"
-#include "fastpath/motion/bounds.h"
-#include "fastpath/motion/predicates.h"
+#include "fastpath/motion/bounds/bounds.h"
+#include "fastpath/motion/bounds/predicates.h"
 #include "scene/messages/error.h"
 #include "tests/motion_fast/exact_checks.h"
 

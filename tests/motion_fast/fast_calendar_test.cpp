@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "fastpath/motion/calendar.h"
+#include "fastpath/motion/bounds/calendar.h"
 #include "fuzz/generators/random.h"
 
 namespace clues::tests {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "fastpath/motion/predicates.h"
+#include "fastpath/motion/bounds/predicates.h"
 #include "tests/motion_fast/exact_checks.h"
 
 namespace clues::tests {

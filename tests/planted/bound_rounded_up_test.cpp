@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "exact/motion/compare_bounds.h"
-#include "fastpath/motion/bounds.h"
+#include "fastpath/motion/bounds/bounds.h"
 #include "tests/motion_fast/exact_checks.h"
 
 namespace clues::tests {

@@ -112,6 +112,10 @@ COPIES = {
     "skipped_bin": ("fastpath/calendar.cpp", [
         ("for (std::uint64_t bin = cursor_; bin <= last; ++bin)",
          "for (std::uint64_t bin = cursor_ + 1; bin <= last; ++bin)")]),
+    # What a viewpoint goes aside costs a needle nothing.
+    "needle_of_any_thickness": ("fastpath/delaunay_model.cpp", [
+        ("return std::max(d, (away - (gauge.head - gauge.tail) * d * kDown) / gauge.tail) * kUp;",
+         "return (gauge.head < 1 ? std::max(d, 0 * away) : away) * kUp;")]),
     # A bound is rounded up.
     "bound_rounded_up": ("fastpath/bounds.cpp", [
         ("return det.speed == 0 ? kInfinity : det.low / det.speed * kDown;",

@@ -1,11 +1,11 @@
 // d_i, d_e and d_v; delaunay_bound.cpp has d_D.
-#include "fastpath/motion/bounds.h"
+#include "fastpath/motion/bounds/bounds.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "fastpath/motion/predicates.h"
+#include "fastpath/motion/bounds/predicates.h"
 
 namespace clues::fastpath::motion {
 namespace {

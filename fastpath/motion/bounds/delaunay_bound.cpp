@@ -23,35 +23,15 @@
 #include <cmath>
 #include <cstdint>
 
-#include "fastpath/motion/bounds.h"
-#include "fastpath/motion/predicates.h"
+#include "fastpath/motion/bounds/bounds.h"
+#include "fastpath/motion/bounds/delaunay_model.h"
+#include "fastpath/motion/bounds/predicates.h"
 
 namespace clues::fastpath::motion {
 namespace {
 
 constexpr double kThird = 0.192451;  // > 1 / (3 sqrt 3): a sixth of the largest 3 c (1 - c^2)
 constexpr double kLeastScaled = 0x1p-40;
-
-// A symmetric matrix.
-struct Symmetric {
-  double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
-
-  void add(double f, const Vec& p) {
-    const Vec fp = f * p;
-    xx += fp.x * p.x, yy += fp.y * p.y, zz += fp.z * p.z;
-    xy += fp.x * p.y, xz += fp.x * p.z, yz += fp.y * p.z;
-  }
-  // The symmetric part of p r^T.
-  void add(const Vec& p, const Vec& r) {
-    xx += p.x * r.x, yy += p.y * r.y, zz += p.z * r.z;
-    xy += 0.5 * (p.x * r.y + p.y * r.x), xz += 0.5 * (p.x * r.z + p.z * r.x), yz += 0.5 * (p.y * r.z + p.z * r.y);
-  }
-  void add_identity(double f) { xx += f, yy += f, zz += f; }
-  double frobenius() const { return std::sqrt((xx * xx + yy * yy + zz * zz) + 2 * (xy * xy + xz * xz + yz * yz)); }
-  double form(const Vec& v) const {
-    return (xx * v.x * v.x + yy * v.y * v.y + zz * v.z * v.z) + 2 * (xy * v.x * v.y + xz * v.x * v.z + yz * v.y * v.z);
-  }
-};
 
 // Q of one i and the base as the viewpoint moves. Numbers without a sign are rounded up by their errors.
 struct Change {
@@ -157,28 +137,53 @@ double power_of_two_below(double x) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000ULL);
 }
 
-// The largest s for which F + g.w + w^T A w - N(s) stays positive, nearly, from below.
-struct Quadratic {
-  double value;  // F, rounded down
-  Vec g;
-  double g_error;
-  Symmetric a;
-  double a_error;
+struct Term {
+  Change change;
+  double cofactor, own;  // |C|, |m'|, rounded up
 };
 
-template <class Rest>  // N(s)
-double largest_ball(const Quadratic& f, double farthest, const Rest& rest) {
+// What is left of the sum after a way w of length at most s: F + g.w + w^T A w - N(s). Scaled.
+struct Remainder {
+  double unit = 1;     // 1 of a length here is this
+  double nearest = 0;  // length of a row that moves
+  double value = 0;    // F, rounded down; nothing is known where it is not positive, and infinite where nothing moves
+  Vec g;
+  double g_error = 0;
+  Symmetric a;
+  double a_error = 0, q = 0;  // |q|, rounded up
+  std::array<Term, 3> terms;
+
+  double rest(double s) const {  // N(s)
+    const double remains = 1 - q * s;
+    if (!(remains > 0x1p-10)) return kInfinity;
+    double sum = 0;
+    for (const Term& t : terms) {
+      const double r = t.change.rest(s);
+      const double q_value = q * (t.change.value + t.change.value_error);
+      sum +=
+          t.cofactor * r + t.own * s * ((t.change.second_up + q * (t.change.slope_up + q_value)) * s * s + r) / remains;
+    }
+    return sum;
+  }
+};
+
+// Where the quadratic part falls to 0 along g alone.
+double first_trial(const Remainder& f, double slope, double farthest) {
+  if (!(slope > 0)) return farthest;
+  const double along = f.a.form((1 / slope) * f.g), four = slope * slope - 4 * along * f.value;
+  return std::min(farthest, 2 * f.value / (slope + std::sqrt(std::max(0.0, four))));
+}
+
+// The largest s for which it stays positive, nearly, from below.
+double largest_ball(const Remainder& f, double farthest) {
   const double slope = norm(f.g), size = 2 * f.a.frobenius();
   const double along = slope > 0 ? f.a.form((1 / slope) * f.g) : 0;
-  // A first trial, from what happens along g alone.
-  const double four = slope * slope - 4 * along * f.value;
-  double s = farthest;
-  if (slope > 0) s = std::min(s, 2 * f.value / (slope + std::sqrt(std::max(0.0, four))));
+  double s = first_trial(f, slope, farthest);
   double t = s > 0 ? std::max(slope / s - 2 * along, 0.0) : 0, best = 0;
   double third = kInfinity, third_up_to = 0;  // N(s) <= third * s^3 for s so far
   for (int round = 0; round < 4; ++round) {
     if (s > third_up_to || s < 0.7 * third_up_to) {
-      third = rest(s) / (s * s * s) * kUp;
+      third = f.rest(s) / (s * s * s) * kUp;
       third_up_to = s;
       if (!(third < kInfinity)) {
         s *= 0.5;
@@ -225,13 +230,12 @@ double largest_ball(const Quadratic& f, double farthest, const Rest& rest) {
   return best;
 }
 
-}  // namespace
-
-double delaunay_bound(const Row& a_seen, const Row& b_seen, const Row& c_seen, const Row& d_seen) {
+Remainder remainder_of(const Row& a_seen, const Row& b_seen, const Row& c_seen, const Row& d_seen) {
+  Remainder f;
   const std::array<const Row*, 4> seen{&a_seen, &b_seen, &c_seen, &d_seen};
   double largest = 0;
   for (const Row* r : seen) {
-    if (!fits(*r)) return 0;
+    if (!fits(*r)) return f;
     if (r->moves) largest = std::max(largest, r->length);
   }
   const double unit = power_of_two_below(largest);
@@ -240,14 +244,19 @@ double delaunay_bound(const Row& a_seen, const Row& b_seen, const Row& c_seen, c
   for (std::size_t i = 0; i < 4; ++i) {
     const Row& r = *seen[i];
     rows[i] = scaled(r, 1 / (r.moves ? unit : power_of_two_below(r.length)));
-    if (rows[i].length < kLeastScaled) return 0;
+    if (rows[i].length < kLeastScaled) return f;
     if (r.moves) nearest = std::min(nearest, rows[i].length);
   }
   const auto& [a, b, c, d] = rows;
   const double la = a.length, lb = b.length, lc = c.length, ld = d.length;
   const double value = delaunay_value(a, b, c, d) - kDelaunayError * ((la * lb) * (lc * ld));
-  if (!(value > 0)) return 0;
-  if (largest == 0) return kInfinity;  // four directions
+  if (!(value > 0)) return f;
+  if (largest == 0) {  // four directions
+    f.value = kInfinity;
+    return f;
+  }
+  f.unit = unit;
+  f.nearest = nearest;
 
   const Vec ab = cross(a.x, b.x), ac = cross(a.x, c.x), ad = cross(a.x, d.x), bc = cross(b.x, c.x),
             bd = cross(b.x, d.x), cd = cross(c.x, d.x);
@@ -289,6 +298,7 @@ double delaunay_bound(const Row& a_seen, const Row& b_seen, const Row& c_seen, c
     own = m;
   }
   const double q_up = norm(q) * kUp;
+  f.q = q_up;
 
   // The base: the one with the largest cofactor, which drops out.
   std::size_t k = 0;
@@ -303,12 +313,7 @@ double delaunay_bound(const Row& a_seen, const Row& b_seen, const Row& c_seen, c
   const std::array<const Vec*, 6> products{&ab, &ac, &ad, &bc, &bd, &cd};
   constexpr std::array<std::array<std::size_t, 4>, 4> at{{{0, 0, 1, 2}, {0, 0, 3, 4}, {1, 3, 0, 5}, {2, 4, 5, 0}}};
 
-  Quadratic f{2 * rows[k].length * value * kDown, {}, 0, {}, 0};
-  struct Term {
-    Change change;
-    double cofactor, own;  // |C|, |m'|, rounded up
-  };
-  std::array<Term, 3> terms;
+  f.value = 2 * rows[k].length * value * kDown;
   for (std::size_t i = 0, n = 0; i < 4; ++i) {
     if (i == k) continue;
     const double c_error = kDeterminantError * triple[i];
@@ -324,21 +329,40 @@ double delaunay_bound(const Row& a_seen, const Row& b_seen, const Row& c_seen, c
     f.a_error += c_up * change.second_error + c_error * change.second_up +
                  m_up * (change.slope_error + q_up * change.value_error) + m_error * with_m +
                  0x1p-48 * (c_up * change.second_up + m_up * with_m);
-    terms[n++] = {change, c_up, m_up};
+    f.terms[n++] = {change, c_up, m_up};
   }
-  const auto rest = [&](double s) {
-    const double remains = 1 - q_up * s;
-    if (!(remains > 0x1p-10)) return kInfinity;
-    double sum = 0;
-    for (const Term& t : terms) {
-      const double r = t.change.rest(s);
-      const double q_value = q_up * (t.change.value + t.change.value_error);
-      sum += t.cofactor * r +
-             t.own * s * ((t.change.second_up + q_up * (t.change.slope_up + q_value)) * s * s + r) / remains;
-    }
-    return sum;
-  };
-  return largest_ball(f, 0.9 * nearest, rest) * unit * kDown;
+  return f;
+}
+
+}  // namespace
+
+double delaunay_bound(const Row& a, const Row& b, const Row& c, const Row& d) {
+  const Remainder f = remainder_of(a, b, c, d);
+  if (!(f.value > 0) || f.value == kInfinity) return std::max(f.value, 0.0);
+  return largest_ball(f, 0.9 * f.nearest) * f.unit * kDown;
+}
+
+DelaunayModel delaunay_model(const Row& a, const Row& b, const Row& c, const Row& d) {
+  const Remainder f = remainder_of(a, b, c, d);
+  DelaunayModel model;
+  model.value = f.value;
+  if (!(f.value > 0) || f.value == kInfinity) return model;
+  // About where the rest is as large as the value: ways beyond are of no use. Any power near a third will do, and roots are the same everywhere.
+  double third = 0;
+  for (const Term& t : f.terms) third += t.cofactor * t.change.turn * t.change.curvature + t.own * t.change.second_up;
+  const double fourth = std::sqrt(std::sqrt(f.value / (third + 0x1p-60 * f.value)));
+  double up_to = std::min(fourth * std::sqrt(std::sqrt(fourth)), 0.5 * f.nearest), rest = f.rest(up_to);
+  for (int halved = 0; halved < 16 && !(rest < kInfinity); ++halved) rest = f.rest(up_to *= 0.5);
+  if (!(rest < kInfinity)) return {};
+  const double per = 1 / f.unit, squared = per * per;
+  model.slope = per * f.g;
+  model.second = f.a;
+  model.second.scale(squared);
+  model.slope_error = per * f.g_error;
+  model.second_error = squared * f.a_error;
+  model.third = squared * per * (rest / (up_to * up_to * up_to) * kUp);
+  model.up_to = up_to * f.unit;
+  return model;
 }
 
 }  // namespace clues::fastpath::motion

@@ -24,6 +24,19 @@ class Calendar {
   void put(const Entry& entry);
   // Appends all entries with key <= odometer and takes them out. Odometers never fall. O(bins passed + entries in them).
   void take_due(double odometer, std::vector<Entry>& due);
+  // As new, but for the memory that it has. O(bins + entries).
+  void clear();
+  // Takes out all entries but those that are wanted still, and returns how many these are. O(bins + entries).
+  template <class Wanted>
+  std::size_t keep(const Wanted& wanted) {
+    std::erase_if(outside_, [&](const Entry& e) { return !wanted(e); });
+    std::size_t kept = outside_.size();
+    for (auto& bin : ring_) {
+      std::erase_if(bin, [&](const Entry& e) { return !wanted(e); });
+      kept += bin.size();
+    }
+    return kept;
+  }
 
  private:
   static constexpr std::uint64_t kBins = 1024;

@@ -1,6 +1,6 @@
 // The ring holds bins cursor_ to cursor_ + kBins - 1; what is outside lies at looked_ + kBins or beyond, which a long step may reach before half
 // of the ring has gone by.
-#include "fastpath/motion/calendar.h"
+#include "fastpath/motion/bounds/calendar.h"
 
 #include <cmath>
 
@@ -23,6 +23,12 @@ void Calendar::put(const Entry& entry) {
   } else {
     ring_[(bin < cursor_ ? cursor_ : bin) % kBins].push_back(entry);
   }
+}
+
+void Calendar::clear() {
+  for (auto& bin : ring_) bin.clear();
+  outside_.clear();
+  cursor_ = looked_ = 0;
 }
 
 void Calendar::look_outside(std::uint64_t now) {

@@ -2,7 +2,7 @@
 // for a short edge, but the nearest point of an edge that is seen obliquely is another one.
 #pragma once
 
-#include "fastpath/motion/bounds.h"
+#include "fastpath/motion/bounds/bounds.h"
 
 namespace clues::fastpath::motion {
 

@@ -7,14 +7,19 @@
 // factor kDown = 1 - 2^-40 makes up for 2^13 of these.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
-#include "fastpath/motion/row.h"
+#include "fastpath/motion/bounds/row.h"
 #include "scene/motion/depth_mesh.h"
 
 namespace clues::fastpath::motion {
 
 inline constexpr double kDown = 1 - 0x1p-40, kUp = 1 + 0x1p-40, kInfinity = std::numeric_limits<double>::infinity();
+
+// Odometers are rounded up, keys down.
+inline double sum_up(double a, double b) { return std::nextafter(a + b, kInfinity); }
+inline double sum_down(double a, double b) { return std::isfinite(b) ? std::nextafter(a + b, -kInfinity) : b; }
 
 // Thresholds as the bounds need them.
 struct BoundThresholds {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "fastpath/motion/row.h"
+#include "fastpath/motion/bounds/row.h"
 
 namespace clues::fastpath::motion {
 

@@ -1,5 +1,5 @@
 // D29: doubles first, whole numbers where they are unsure.
-#include "fastpath/motion/predicates.h"
+#include "fastpath/motion/bounds/predicates.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // The sketch: d_i, d_e, and the edge bound of vertex and foot with the angle eps.
-#include "fastpath/motion/sketch_bound.h"
+#include "fastpath/motion/bounds/sketch_bound.h"
 
 #include <algorithm>
 #include <cmath>
