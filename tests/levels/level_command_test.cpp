@@ -8,7 +8,9 @@
 
 #include "scene/formats/file_bytes.h"
 #include "scene/levels/bsp_scene.h"
+#include "scene/mesh_io.h"
 #include "scene/result.h"
+#include "scene/scenes/scene_io.h"
 #include "tests/app/program.h"
 #include "tests/levels/made_gltf.h"
 #include "tests/levels/made_level.h"
@@ -35,6 +37,23 @@ TEST(LevelCommand, SaysWhatALevelHolds) {
   EXPECT_EQ(json["blocking_triangles"], 26);
   EXPECT_EQ(json["cells"], 2);
   EXPECT_THAT(run_clues({"level", "made.bsp"}, folder.path()).out, HasSubstr("Bezier patches drawn"));
+}
+
+// What is not drawn stands in no sight line of a depth mesh.
+TEST(LevelCommand, MotionWalksThroughWhatIsDrawn) {
+  const TestFolder folder;
+  folder.write("made.bsp", two_rooms().bytes());
+  const auto drawn = scene::read_drawn_scene(folder.path() / "made.bsp");
+  EXPECT_EQ(drawn.triangles.size(), 40U);
+  folder.write("drawn.off", scene::to_off_text(drawn));
+  const auto walk = [&](const std::string& scene) {
+    const auto ran = run_clues({"motion", scene, "--path", "walk:-32,0,32:-20,0,32", "--frames", "3", "--samples",
+                                "100", "--csv", scene + ".csv"},
+                               folder.path());
+    EXPECT_EQ(ran.exit_code, 0) << ran.err;
+    return read_all(folder.path() / (scene + ".csv"));
+  };
+  EXPECT_EQ(walk("made.bsp"), walk("drawn.off"));
 }
 
 // From the level to a verdict on what it was shipped with, as docs/real-levels.md says.
