@@ -81,8 +81,14 @@ scene::BakePlan plan_of(const BakeRequest& request, const std::string& sha256, c
   return plan;
 }
 
+// Of a map with more fallbacks much was given up.
+constexpr std::uint64_t kLoose = 200;
+
 struct Summary {
   std::uint64_t cells = 0, least = 0, most = 0, all = 0, fallbacks = 0, mapped = 0, counting = 0;
+  std::uint64_t tight = 0, loose = 0;  // cells without a fallback, and with more than kLoose
+  std::uint64_t most_fallbacks = 0;    // of a cell
+  std::string loosest;                 // its name
   double average() const { return static_cast<double>(all) / static_cast<double>(cells); }
 };
 
@@ -93,8 +99,14 @@ Summary summary_of(const scene::FinishedBake& bake, const scene::FlaggedMesh& sc
     s.least = i == 0 ? cell.list.size() : std::min<std::uint64_t>(s.least, cell.list.size());
     s.most = std::max<std::uint64_t>(s.most, cell.list.size());
     s.all += cell.list.size();
-    s.fallbacks += static_cast<std::uint64_t>(cell.fallbacks);
     s.mapped += static_cast<std::uint64_t>(cell.mapped);
+    const auto fallbacks = static_cast<std::uint64_t>(cell.fallbacks);
+    s.fallbacks += fallbacks;
+    s.tight += fallbacks == 0 ? 1 : 0;
+    s.loose += fallbacks > kLoose ? 1 : 0;
+    if (fallbacks <= s.most_fallbacks) continue;
+    s.most_fallbacks = fallbacks;
+    s.loosest = bake.plan().cells[i].name;
   }
   s.cells = bake.plan().cells.size();
   for (std::uint32_t t = 0; t < scene.mesh.triangles.size(); ++t) s.counting += scene.counting(t) ? 1 : 0;
@@ -111,6 +123,8 @@ void report(const BakeRequest& request, const Summary& s, const std::string& not
                               {"listed_least", s.least},
                               {"listed_most", s.most},
                               {"fallbacks", s.fallbacks},
+                              {"tight", s.tight},
+                              {"loose", s.loose},
                               {"mapped", s.mapped},
                               {"bytes", fs::file_size(request.out)},
                               {"note", note}};
@@ -122,6 +136,9 @@ void report(const BakeRequest& request, const Summary& s, const std::string& not
                   "{:>7}  {:>9}  {:>8.1f}  {:>7}  {:>7}  {:>9}  {:>9}\n{}\n",
                   "cells", "triangles", "listed", "least", "most", "fallbacks", "bytes", s.cells, s.counting,
                   s.average(), s.least, s.most, s.fallbacks, fs::file_size(request.out), note));
+  if (s.tight == s.cells) return;
+  print(fmt::format("{} of {} lists without a fallback; {} with more than {}; most are in cell {}: {}\n", s.tight,
+                    s.cells, s.loose, kLoose, s.loosest, s.most_fallbacks));
 }
 
 // What could only be found when hours are over, or with a store begun that nobody can use.

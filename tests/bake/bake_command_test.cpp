@@ -222,6 +222,25 @@ TEST(Bake, GoesOnWhereItWasStopped) {
   }
 }
 
+TEST(Bake, SaysWhichListsAreLoose) {
+  const TestFolder folder;
+  folder.write("scene.off", screen_scene);
+  const auto tight = run_clues(bake("tight.bake"), folder.path());
+  EXPECT_EQ(tight.exit_code, 0) << tight.err;
+  EXPECT_THAT(tight.out, testing::Not(HasSubstr("without a fallback")));
+  // Loose triangles, with which the least effort does not come to an end: all of them are listed.
+  std::string off = "OFF\n180 60 0\n";
+  for (int i = 0; i < 180; ++i) off += fmt::format("{} {} {}\n", i * 37 % 101 - 50, i * 53 % 97 - 48, 20 + i * 71 % 89);
+  for (int i = 0; i < 180; i += 3) off += fmt::format("3 {} {} {}\n", i, i + 1, i + 2);
+  folder.write("loose.off", off);
+  const auto loose =
+      run_clues({"bake", "loose.off", "--cells", "grid:1x1x1:box:-9,-9,-9,9,9,9", "--effort", "1", "-o", "loose.bake"},
+                folder.path());
+  EXPECT_EQ(loose.exit_code, 0) << loose.err;
+  EXPECT_THAT(loose.out,
+              HasSubstr("0 of 1 lists without a fallback; 0 with more than 200; most are in cell 0,0,0: 60\n"));
+}
+
 TEST(Bake, OthersStoresAreNotTouched) {
   const TestFolder folder;
   folder.write("scene.off", screen_scene);
