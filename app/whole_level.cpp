@@ -18,7 +18,7 @@ scene::RationalPoint rational_of(const exact::Point3& p) {
 }  // namespace
 
 WholeLevel::WholeLevel(const scene::BspFile& level)
-    : whole_(scene::scene_of_level(level, scene::HullSides::all).scene), brushes_(level) {}
+    : whole_(scene::scene_of_level(level, scene::HullSides::all).scene), brushes_(level), far_plane_(level.far_plane) {}
 
 bool WholeLevel::is_free_of_hulls(const exact::ConvexCell& cell, const validate::Witness& witness) const {
   validate::AskedAlone alone = validate::asked_alone(whole_, witness.triangle);

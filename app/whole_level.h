@@ -17,6 +17,8 @@ class WholeLevel {
 
   const scene::FlaggedMesh& scene() const { return whole_; }  // with all sides of hulls
 
+  double far_plane() const { return far_plane_; }  // as in scene/levels/bsp_file.h
+
   // Whether the sight line from this cell is free in the whole level: of all sides of hulls, and of the brushes, before its end.
   bool confirms(const exact::ConvexCell& cell, const validate::Witness& witness) const {
     return is_free_of_brushes(witness) && is_free_of_hulls(cell, witness);
@@ -30,6 +32,7 @@ class WholeLevel {
  private:
   scene::FlaggedMesh whole_;
   scene::SolidBrushes brushes_;
+  double far_plane_;
 };
 
 }  // namespace clues::app

@@ -299,9 +299,13 @@ int exit_code_of(const Asked& asked, const Totals& t, bool by_lines_alone) {
 
 }  // namespace
 
-int check_all_cells(const CheckCellsRequest& request) {
-  if (request.far_plane && !(std::isfinite(*request.far_plane) && *request.far_plane >= 0))
+void require_far_plane(const std::optional<double>& far_plane) {
+  if (far_plane && !(std::isfinite(*far_plane) && *far_plane >= 0))
     throw Error(ErrorCode::bad_argument, "--far-plane: give a distance, or 0 for none");
+}
+
+int check_all_cells(const CheckCellsRequest& request) {
+  require_far_plane(request.far_plane);
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.bake});
   const auto sha256 = scene::sha256_of_scene(request.scene);

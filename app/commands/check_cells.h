@@ -17,6 +17,9 @@ struct CheckCellsRequest {
   JsonOutput json;
 };
 
+// Throws Error bad_argument for what is no distance.
+void require_far_plane(const std::optional<double>& far_plane);
+
 // The exit code.
 int check_all_cells(const CheckCellsRequest& request);
 

@@ -1,4 +1,7 @@
 // clues check: judges one PVS for one scene and cell (D19, basic form).
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,6 +81,41 @@ SceneAndList read_what_is_judged(const CheckRequest& request, const std::vector<
   return {std::move(scene), std::move(pvs), std::move(whole)};
 }
 
+// What is missing and was seen by a line that is longer than this is undecided: a shorter one may be free, or none. How many there were.
+std::size_t leave_what_is_beyond(validate::Judgement& judgement, double far) {
+  const exact::FT square = exact::FT(far) * exact::FT(far);
+  const std::size_t beyond = std::erase_if(judgement.witnesses, [&](const validate::Witness& witness) {
+    auto& verdict = judgement.triangles[witness.triangle];
+    if (verdict != validate::TriangleVerdict::missing_visible ||
+        CGAL::squared_distance(witness.v, witness.p) <= square) {
+      return false;
+    }
+    verdict = validate::TriangleVerdict::missing_undecided;
+    --judgement.missing_visible;
+    ++judgement.missing_undecided;
+    return true;
+  });
+  judgement.verdict = validate::verdict_of(judgement);
+  return beyond;
+}
+
+// On standard error, where the verdict hangs on how far the list claims to hold what is seen.
+void say_how_far(const CheckRequest& request, const validate::Judgement& judgement, std::size_t beyond,
+                 double of_level) {
+  std::string said;
+  if (beyond > 0) {
+    said =
+        fmt::format("{} missing triangles are left undecided: the sight lines found are longer than {}, the far plane",
+                    beyond, *request.far_plane);
+  } else if (!request.far_plane && of_level > 0 && judgement.verdict == validate::Verdict::unsound) {
+    said = fmt::format(
+        "{} was compiled with a far plane of {}: where the list leaves out what is farther away, say "
+        "--far-plane {}",
+        request.scene, of_level, of_level);
+  }
+  if (!said.empty()) std::fputs(fmt::format("clues check: {}\n", said).c_str(), stderr);
+}
+
 int run_check(const CheckRequest& request) {
   if (request.all_cells) {
     if (!request.cell.empty() || !request.pvs.empty())
@@ -90,7 +128,6 @@ int run_check(const CheckRequest& request) {
   }
   if (request.sight_lines_only)
     throw scene::Error(scene::ErrorCode::bad_argument, "--sight-lines-only needs --all-cells");
-  if (request.far_plane) throw scene::Error(scene::ErrorCode::bad_argument, "--far-plane needs --all-cells");
   if (!request.bake.empty())
     throw scene::Error(scene::ErrorCode::bad_argument, "--bake names the lists of many cells; it needs --all-cells");
   if (request.cell.empty() || request.pvs.empty())
@@ -100,6 +137,7 @@ int run_check(const CheckRequest& request) {
   require_writable_parent(request.json.file());
   require_apart({&request.json.file()}, {&request.scene, &request.cell, &request.pvs});
   const auto spec = scene::parse_cell(request.cell);
+  require_far_plane(request.far_plane);
   const auto [scene, pvs, level] = read_what_is_judged(request, spec.points);
   const auto& mesh = scene.mesh;
   if (!scene.is_plain() && request.method.mode == "solid") {
@@ -108,6 +146,7 @@ int run_check(const CheckRequest& request) {
   }
   const auto cell = exact::ConvexCell::from_doubles(spec.points);
 
+  std::size_t beyond = 0;
   validate::Judgement judgement;
   validate::Surroundings around{request.scene, spec.points, {}, {}, {}};
   {
@@ -123,11 +162,13 @@ int run_check(const CheckRequest& request) {
       judge_plain(judgement, around, mesh, cell, pvs, options, bar);
     }
     if (level) level->take_back(judgement);
+    if (request.far_plane.value_or(0) > 0) beyond = leave_what_is_beyond(judgement, *request.far_plane);
     around.counts = validate::count_weights(judgement);
     around.areas = validate::area_weights(judgement, mesh);
   }
   if (request.json.asked()) request.json.write(validate::to_json_text(judgement, around));
   if (!request.json.on_stdout()) print(validate::to_text(judgement, around));
+  say_how_far(request, judgement, beyond, level ? level->far_plane() : 0);
   if (!judgement.contradictions.empty()) return oracle_contradiction;
   switch (judgement.verdict) {
     case validate::Verdict::sound:
@@ -158,8 +199,8 @@ void add_check_command(CLI::App& program, int& status) {
                     "With --all-cells: look for holes by sight lines alone: quick, but no list is proved");
   command
       ->add_option("--far-plane", request->far_plane,
-                   "With --all-cells: lists need not hold what is farther away (default: what the level says of those "
-                   "that were shipped with it; 0: they must)")
+                   "A list need not hold what is farther away. Default: what a level says of those that were shipped "
+                   "with it, with --all-cells; else, and for 0, it must")
       ->type_name("DISTANCE");
   request->method.add_to(*command);
   request->json.add_to(*command, "The judgement");
@@ -202,7 +243,8 @@ void add_check_command(CLI::App& program, int& status) {
           "Sight lines\n"
           "  that are longer accuse nobody then; what only such lines reach is counted as beyond. The level says so "
           "itself\n"
-          "  (_farplanedist), or --far-plane does.\n\n") +
+          "  (_farplanedist), or --far-plane does. With --cell and --far-plane, what is seen by a longer line alone is "
+          "undecided.\n\n") +
       cell_help +
       "\n\nEXAMPLES\n"
       "  clues check town.obj --cell box:0,0,1,2,2,2 --pvs baked.txt\n"

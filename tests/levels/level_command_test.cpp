@@ -39,6 +39,31 @@ TEST(LevelCommand, SaysWhatALevelHolds) {
   EXPECT_THAT(run_clues({"level", "made.bsp"}, folder.path()).out, HasSubstr("Bezier patches drawn"));
 }
 
+TEST(LevelCommand, OneListNeedNotHoldWhatIsBeyondItsFarPlane) {
+  const TestFolder folder;
+  auto level = two_rooms();
+  folder.write("made.bsp", level.bytes());
+  ASSERT_EQ(run_clues({"level", "made.bsp", "--export", "out"}, folder.path()).exit_code, 0);
+  level.lumps[entities_lump] = "{\n\"classname\" \"worldspawn\"\n\"_farplanedist\" \"1024\"\n}\n";
+  folder.write("far.bsp", level.bytes());
+  const auto judged = [&](const std::string& file, std::vector<std::string> words) {
+    words.insert(words.begin(), {"check", file, "--cell", "out/cells/0.in.obj", "--pvs", "out/pvs/0.txt"});
+    return run_clues(words, folder.path());
+  };
+  // What touches the cell is missing however near the far plane is.
+  const auto near = judged("made.bsp", {"--far-plane", "0.001", "--json"});
+  EXPECT_EQ(near.exit_code, 1);
+  EXPECT_THAT(near.err, HasSubstr("left undecided: the sight lines found are longer than 0.001, the far plane"));
+  const auto hint = judged("far.bsp", {"--json"});
+  EXPECT_EQ(hint.exit_code, 1);
+  EXPECT_THAT(hint.err, HasSubstr("compiled with a far plane of 1024: where the list leaves out what is farther away, "
+                                  "say --far-plane 1024"));
+  const auto counts = [](const Ran& ran) { return nlohmann::json::parse(ran.out)["counts"]; };
+  EXPECT_LT(counts(near)["missing_visible"], counts(hint)["missing_visible"]);
+  EXPECT_GT(counts(near)["missing_undecided"], counts(hint)["missing_undecided"]);
+  EXPECT_EQ(judged("made.bsp", {"--far-plane", "-1"}).exit_code, 2);
+}
+
 // What is not drawn stands in no sight line of a depth mesh.
 TEST(LevelCommand, MotionWalksThroughWhatIsDrawn) {
   const TestFolder folder;
