@@ -63,7 +63,7 @@ void Walk::rebuild() {
   old_view_->look_from(at_);
   removed_.clear();
   out_.clear();
-  for (auto* of_the_old_mesh : {&failing_, &failed_, &failed_edges_, &not_delaunay_}) of_the_old_mesh->clear();
+  for (auto* of_the_old_mesh : {&failing_, &not_delaunay_}) of_the_old_mesh->clear();
   calendar_.reset();
   edges_.reset();
   bounds_ = {};
@@ -141,13 +141,12 @@ bool Walk::set_edge(std::uint32_t f, std::size_t i) {
 }
 
 // At the viewpoint before the first step, where all bounds are known. What the width of a bin should be is not known earlier.
-void Walk::begin_bounds(double step, const MotionPoint& to) {
+void Walk::begin_bounds(double step) {
   const double width = (options_.step > 0 ? options_.step : step) / 4;
   calendar_.emplace(width);
   if (delaunay()) {
     edges_.emplace(width);
     edges_->resize(3 * mesh().faces().size());
-    edges_->expect(at_, to);
   }
   for (std::uint32_t f = 0; f < mesh().faces().size(); ++f) {
     if (!mesh().face(f).alive()) continue;
@@ -178,28 +177,19 @@ void Walk::bounds_of_changed() {
     queue(f);
     for (std::size_t i = 0; i < 3 && delaunay(); ++i) {
       const std::uint32_t g = face.across[i];
+      if (changed_now(g) && g < f) {
+        if (edges_) edges_->drop(slot_of(f, i));
+        continue;
+      }
       if (!edges_) {
         const auto [a, b, c, d] = rows_of_edge(f, i);
         first_balls_[f < g ? slot_of(f, i) : slot_of(g, mesh().face(g).place_of_face(f))] =
             delaunay_bound(*a, *b, *c, *d);
         continue;
       }
-      if (changed_now(g) && g < f) {
-        edges_->drop(slot_of(f, i));
-        continue;
-      }
       set_edge(f, i);
       if (!changed_now(g)) edges_->drop(slot_of(g, mesh().face(g).place_of_face(f)));
     }
-  }
-  // An edge that failed may have got another triangle on its other side, which keeps it now: then the first one is as it was.
-  for (const std::uint32_t f : failed_) {
-    if (!mesh().face(f).alive() || changed_now(f)) continue;
-    set_bound(f, bound_of(f));
-    queue(f);
-  }
-  for (const std::uint32_t s : failed_edges_) {
-    if (mesh().face(s / 3).alive() && !changed_now(s / 3) && edges_ && edges_->keeps(s)) set_edge(s / 3, s % 3);
   }
 }
 
@@ -264,7 +254,6 @@ void Walk::examine_due(FrameReport& report) {
       queue(f);
     } else {
       failing_.push_back(f);
-      failed_.push_back(f);
     }
   }
   for (const std::uint32_t s : due_edges_) {
@@ -274,7 +263,6 @@ void Walk::examine_due(FrameReport& report) {
     count(computed_in_, f, report.tested);
     if (set_edge(f, s % 3) || triangulation_->delaunay(f, s % 3) >= 0) continue;
     not_delaunay_.push_back(f);
-    failed_edges_.push_back(s);
   }
 }
 
@@ -299,15 +287,13 @@ FrameReport Walk::move_to(const MotionPoint& at) {
   const double step = distance_up(at, at_);
   const bool with_bounds =
       options_.bounds == WalkOptions::Bounds::sound || options_.bounds == WalkOptions::Bounds::sketch_unsound;
-  if (with_bounds && step > 0 && !calendar_) begin_bounds(step, at);
+  if (with_bounds && step > 0 && !calendar_) begin_bounds(step);
   if (edges_) edges_->move(at_, at);
   if (step > 0) odometer_ = sum_up(odometer_, step);
   ++frame_;
   changed_.clear();
   touched_.clear();
   failing_.clear();
-  failed_.clear();
-  failed_edges_.clear();
   not_delaunay_.clear();
   old_view_->look_from(at_);
   triangulation_->view().look_from(at);

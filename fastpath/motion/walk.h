@@ -70,8 +70,8 @@ class Walk {
   scene::DepthMesh depth_mesh() const { return mesh().to_depth_mesh(); }
   // The same with places of their own for all frames: samples that are gone are in no triangle, triangles that are gone have corners kNone.
   scene::DepthMesh mesh_in_places() const;
-  // The bound of each triangle of depth_mesh() from where it was computed, less the way since: no violation is nearer to the viewpoint. Infinite where none
-  // can be; 0 without bounds.
+  // For each triangle of depth_mesh() a bound at the viewpoint: of its own constraints what is left of the one that the walk keeps, of those of its edges computed
+  // here. No violation is nearer. Infinite where none can be; 0 without bounds. O(triangles).
   std::vector<double> bounds_left() const;
 
  private:
@@ -104,7 +104,7 @@ class Walk {
   std::array<const Row*, 4> rows_of_edge(std::uint32_t f, std::size_t i) const;
   static std::uint32_t slot_of(std::uint32_t f, std::size_t i) { return static_cast<std::uint32_t>(3 * f + i); }
   bool set_edge(std::uint32_t f, std::size_t i);
-  void begin_bounds(double step, const MotionPoint& to);
+  void begin_bounds(double step);
   void bounds_of_changed();
   bool is_thin(std::uint32_t f);
   bool changed_now(std::uint32_t f) const { return f < changed_in_.size() && changed_in_[f] == frame_; }
@@ -128,7 +128,7 @@ class Walk {
   std::uint32_t tested_now_ = 0;
   std::vector<std::uint32_t> changed_;                 // of this frame, each once
   std::vector<std::uint32_t> failing_, not_delaunay_;  // due triangles by what failed, and all of them
-  std::vector<std::uint32_t> failed_, failed_edges_, due_edges_, touched_, stack_;
+  std::vector<std::uint32_t> due_edges_, touched_, stack_;
   std::vector<Calendar::Entry> due_;
   std::deque<DepthSample> removed_;
   // Taken out in this frame, and base vertices that are out for longer: with a vertex that was next to it.

@@ -1,6 +1,7 @@
 #include "fastpath/visibility/engine_part.h"
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "exact/complex/cut_memory.h"
@@ -56,10 +57,14 @@ ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, cons
                             std::span<const std::uint8_t> counting) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   exact::CutMemory memory;
+  std::optional<std::size_t> first;
   const auto make_map = [&](const scene::TriangleMesh& part,
                             const std::vector<std::uint32_t>& ids) -> std::shared_ptr<const PartialMap> {
+    if (!first) first = ids.size();
+    LocalMapOptions of_part = options;
+    of_part.effort = effort_of_part(options.effort, ids.size(), *first);
     try {
-      return std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, options, &outside));
+      return std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, of_part, &outside));
     } catch (const EffortSpent&) {
       return nullptr;
     }

@@ -347,6 +347,17 @@ TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
   EXPECT_GT(came_to_an_end, 2U);
 }
 
+// A part that has grown to much more than the first one gets no more effort for it.
+TEST(Closure, APartThatHasGrownGetsNoMoreEffort) {
+  using fastpath::effort_of_part;
+  EXPECT_EQ(effort_of_part(1000, 700, 700), 1000U);
+  EXPECT_EQ(effort_of_part(1000, 1400, 700), 1000U);
+  EXPECT_EQ(effort_of_part(1000, 2800, 700), 500U);
+  EXPECT_EQ(effort_of_part(1000, 1024, 3), 1000U) << "as if the first had 512";
+  EXPECT_EQ(effort_of_part(1000, 1U << 30U, 3), 1U) << "not 0, which is without end";
+  EXPECT_EQ(effort_of_part(0, 1U << 30U, 3), 0U);
+}
+
 // By the engine itself, which gives up when its effort is spent.
 TEST(Closure, AnEffortThatIsSpentListsMoreAndNothingLess) {
   scene::FlaggedMesh scene;

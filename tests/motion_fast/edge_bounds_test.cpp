@@ -11,6 +11,7 @@
 #include "exact/motion/constraints.h"
 #include "fastpath/motion/bounds/bounds.h"
 #include "fastpath/motion/bounds/edge_bounds.h"
+#include "fastpath/motion/bounds/predicates.h"
 #include "tests/motion_fast/exact_checks.h"
 
 namespace clues::tests {
@@ -29,7 +30,8 @@ Gauge gauge_of(fuzz::Random& random) {
 }
 
 Vec step_of(fuzz::Random& random, const Gauge& gauge) {
-  const Vec any = std::ldexp(1, -static_cast<int>(random.between(0, 30))) * vec(direction(random));
+  const int least = random.one_in(4) ? 1074 : 30;
+  const Vec any = std::ldexp(1, -static_cast<int>(random.between(0, least))) * vec(direction(random));
   if (random.one_in(3)) return any;
   return std::ldexp(1, static_cast<int>(random.between(-4, 4))) * (gauge.u + any);
 }
@@ -49,7 +51,7 @@ bool in_body(const Exact& w, const mpq_class& d, const mpq_class& t, const Gauge
 TEST(EdgeBounds, StepsAndTheirSumsAreInTheBodiesOfTheirGauges) {
   fuzz::Random random(1);
   int longer = 0;
-  for (int k = 0; k < 20000; ++k) {
+  for (int k = 0; k < 40000; ++k) {
     const Gauge gauge = gauge_of(random);
     const Vec first = step_of(random, gauge), second = step_of(random, gauge);
     const double t = gauge_up(gauge, first), more = gauge_up(gauge, second);
@@ -58,7 +60,8 @@ TEST(EdgeBounds, StepsAndTheirSumsAreInTheBodiesOfTheirGauges) {
     Exact sum = exact_vec(first);
     for (std::size_t i = 0; i < 3; ++i) sum[i] += exact_vec(second)[i];
     ASSERT_TRUE(in_body(sum, along(first) + along(second), mpq_class(t) + mpq_class(more), gauge)) << k;
-    longer += in_body(exact_vec(first), along(first), mpq_class(t * (1 - 1e-9)), gauge) ? 1 : 0;
+    const bool tiny = norm(first) < 0x1p-450;  // squares underflow
+    longer += !tiny && in_body(exact_vec(first), along(first), mpq_class(t * (1 - 1e-9)), gauge) ? 1 : 0;
   }
   EXPECT_EQ(longer, 0);  // none is too long by more than that
 }
@@ -101,7 +104,37 @@ struct NeedleAttack {
   int bounds = 0, further_than_the_ball = 0, violations = 0;
 };
 
-// Viewpoints on the surface of t B times a factor, half of them where the model falls most.
+// G of the four in units of their lengths: as the filter sees it, which is enough to look for the worst place.
+double value_at(const Quadrangle& q, const Vec& w) {
+  std::array<Row, 4> r;
+  for (std::size_t i = 0; i < 4; ++i) r[i] = row_of(q.s[i], {w.x, w.y, w.z});
+  return delaunay_value(r[0], r[1], r[2], r[3]) / ((r[0].length * r[1].length) * (r[2].length * r[3].length));
+}
+
+// The place (share of d, direction off the axis) with the least value that a climb from there finds.
+template <class Place>
+Vec worst_near(const Quadrangle& q, fuzz::Random& random, double share, Vec off, const Place& place) {
+  Vec worst = place(share, off);
+  double least = value_at(q, worst);
+  double reach = 0.5;
+  for (int k = 0; k < 200; ++k) {
+    const double next = std::clamp(share + reach * uniform(random, -1, 1), 0.0, 1.0);
+    const Vec turned = off + reach * vec(direction(random));
+    const Vec w = place(next, turned);
+    const double value = value_at(q, w);
+    if (value < least) {
+      least = value;
+      worst = w;
+      share = next;
+      off = turned;
+    } else {
+      reach *= 0.9;
+    }
+  }
+  return worst;
+}
+
+// Viewpoints on the surface of t B times a factor: some by chance, half of them where the model falls most, and where climbs from there end.
 NeedleAttack attack_needles(int wanted, double factor, std::uint64_t seed) {
   fuzz::Random random(seed);
   NeedleAttack sum;
@@ -117,14 +150,18 @@ NeedleAttack attack_needles(int wanted, double factor, std::uint64_t seed) {
     if (!(t > 0) || !std::isfinite(t)) continue;
     ++sum.bounds;
     sum.further_than_the_ball += t > reaches.of({}) ? 1 : 0;
-    for (int k = 0; k < 64; ++k) {
-      const double d = random.one_in(2) ? t : random.one_in(2) ? 0 : t * uniform(random, 0, 1);
+    const bool is_needle = norm(gauge.u) > 0;
+    const auto place = [&](double share, const Vec& off) {
+      const double d = is_needle ? share * t : 0;
+      const Vec aside = off - dot(off, gauge.u) * gauge.u;
+      const double radius = gauge.tail * t + d * (gauge.head - gauge.tail), length = norm(aside);
+      return factor * (1 - 1e-12) * (d * gauge.u + (length > 0 ? radius / length : 0) * aside);
+    };
+    for (int k = 0; k < 24; ++k) {
+      const double share = random.one_in(2) ? 1 : random.one_in(2) ? 0 : uniform(random, 0, 1);
       Vec off = vec(direction(random));
       if (k % 2 == 0 && slope > 0) off = (-1 / slope) * model.slope + std::ldexp(1, -(k % 16)) * off;
-      off = off - dot(off, gauge.u) * gauge.u;
-      if (!(norm(off) > 0)) continue;
-      const double radius = gauge.tail * t + d * (gauge.head - gauge.tail);
-      const Vec w = factor * (1 - 1e-12) * ((norm(gauge.u) > 0 ? d : 0) * gauge.u + (radius / norm(off)) * off);
+      const Vec w = k % 4 == 0 ? worst_near(q, random, share, off, place) : place(share, off);
       sum.violations += q.sign_at({w.x, w.y, w.z}) < 0 ? 1 : 0;
     }
   }
@@ -139,7 +176,7 @@ TEST(EdgeBounds, NoViewpointInANeedleViolatesAnything) {
 
 TEST(EdgeBoundsLong, NoViewpointInANeedleViolatesAnything) { EXPECT_EQ(attack_needles(200'000, 1, 3).violations, 0); }
 
-TEST(EdgeBounds, ATenthMoreIsFoundOut) { EXPECT_GT(attack_needles(3000, 1.1, 2).violations, 0); }
+TEST(EdgeBounds, AThousandthMoreIsFoundOut) { EXPECT_GT(attack_needles(3000, 1.001, 2).violations, 0); }
 
 // Which edges hold, asked in each frame of those that are not due: all have to.
 struct Looks {
@@ -163,10 +200,10 @@ Looks walk(const std::vector<MotionPoint>& path, bool with_needles, std::uint64_
       bounds.set_ball(i, delaunay_bound(row_of(s[0], at), row_of(s[1], at), row_of(s[2], at), row_of(s[3], at)), at);
     }
   };
-  bounds.expect(path[0], path[1]);
   for (std::uint32_t i = 0; i < edges.size(); ++i) set(i, path[0]);
   Looks looks;
   std::vector<std::uint32_t> due;
+  std::vector<bool> kept(edges.size(), true);
   for (std::size_t k = 1; k < path.size(); ++k) {
     bounds.move(path[k - 1], path[k]);
     due.clear();
@@ -178,11 +215,12 @@ Looks walk(const std::vector<MotionPoint>& path, bool with_needles, std::uint64_
         set(i, path[k]);
       } else {
         bounds.drop(i);
+        kept[i] = false;
         ++looks.lost;
       }
     }
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
-      looks.unseen += bounds.keeps(i) && edges[i].sign_at(path[k]) < 0 ? 1 : 0;
+      looks.unseen += kept[i] && edges[i].sign_at(path[k]) < 0 ? 1 : 0;
     }
   }
   return looks;
@@ -201,6 +239,10 @@ std::vector<MotionPoint> path_of(const char* kind, int frames) {
     if (jitters) step = {1 + 0.3 * any[0], 0.3 * any[1], 0.3 * any[2]};
     if (random_walk) step = any;
     if (back && k % 20 >= 10) step = {-1, -0.3, 0.2};
+    if (kind[0] == 'h') {
+      const double turn = 2.4 * static_cast<double>(k / 12);
+      step = {0.02 * std::cos(turn), 0.02 * std::sin(turn), 0.02 * std::sin(0.7 * turn)};
+    }
     if (k % 17 == 0 && !back) step = {};  // stands still
     for (std::size_t i = 0; i < 3; ++i) at[i] += 0.008 * step[i];
     path.push_back(at);
@@ -209,8 +251,9 @@ std::vector<MotionPoint> path_of(const char* kind, int frames) {
 }
 
 TEST(EdgeBounds, WhatIsNotDueHoldsHoweverTheViewpointGoes) {
-  for (const char* kind : {"straight", "turning", "jitter", "random", "back and forth"}) {
-    const auto path = path_of(kind, 200);
+  // The last one has more headings than there are bodies in use at a time, and on each of them it goes far enough for keys along it.
+  for (const char* kind : {"straight", "turning", "jitter", "random", "back and forth", "headings"}) {
+    const auto path = path_of(kind, kind[0] == 'h' ? 1200 : 200);
     const Looks with = walk(path, true, 4), balls = walk(path, false, 4);
     EXPECT_EQ(with.unseen, 0) << kind;
     EXPECT_EQ(balls.unseen, 0) << kind;
@@ -219,7 +262,7 @@ TEST(EdgeBounds, WhatIsNotDueHoldsHoweverTheViewpointGoes) {
     if (kind[0] == 's' || kind[0] == 't') {
       EXPECT_LT(with.computed, 0.95 * balls.computed) << kind;
     } else {
-      EXPECT_LT(with.computed, 1.4 * balls.computed) << kind;
+      EXPECT_LT(with.computed, 2 * balls.computed) << kind;
     }
   }
 }

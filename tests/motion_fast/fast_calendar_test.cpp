@@ -49,6 +49,23 @@ TEST(Calendar, GivesWhatIsDueAndNothingElse) {
   }
 }
 
+// What nobody wants any more goes, from the ring and from outside of it, and nothing else does; and a calendar that was cleared is a new one.
+TEST(Calendar, KeepsWhatIsWantedAndForgetsAll) {
+  Calendar calendar(1);
+  for (const bool again : {false, true}) {
+    SCOPED_TRACE(again);
+    for (std::uint32_t i = 0; i < 3000; ++i) calendar.put({i + 0.5, i, i % 3});
+    EXPECT_EQ(calendar.keep([](const Calendar::Entry& e) { return e.stamp == 1; }), 1000U);
+    std::vector<Calendar::Entry> due;
+    calendar.take_due(2000, due);
+    EXPECT_EQ(due.size(), 667U);
+    for (const auto& entry : due) EXPECT_EQ(entry.stamp, 1U);
+    EXPECT_EQ(calendar.keep([](const Calendar::Entry&) { return true; }), 333U);
+    calendar.clear();
+    EXPECT_EQ(calendar.keep([](const Calendar::Entry&) { return true; }), 0U);
+  }
+}
+
 // What is outside of the ring may be due before half of the ring has gone by and it is looked through: after a step that is longer than that half.
 TEST(Calendar, GivesWhatIsDueOutsideOfTheRingAfterALongStep) {
   Calendar calendar(1);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <vector>
 
@@ -296,6 +297,10 @@ TEST(FastWalk, BoundsThatAreLeftHold) {
   const auto left = walk.bounds_left();
   ASSERT_EQ(left.size(), depth.triangles.size());
   const exact::ExactThresholds limits(options.thresholds);
+  std::map<std::array<std::uint32_t, 2>, std::uint32_t> opposite;
+  for (const auto& t : depth.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) opposite[{t[(i + 1) % 3], t[(i + 2) % 3]}] = t[i];
+  }
   fuzz::Random random(9);
   int finite = 0;
   for (std::size_t t = 0; t < left.size(); ++t) {
@@ -307,7 +312,13 @@ TEST(FastWalk, BoundsThatAreLeftHold) {
     std::array<exact::SightRow, 3> r;
     for (std::size_t i = 0; i < 3; ++i) r[i] = exact::sight_row(depth.samples[depth.triangles[t][i]], p);
     EXPECT_GT(exact::facing_sign(r[0], r[1], r[2]), 0);
-    EXPECT_TRUE(exact::edge_length_holds(r[0], r[1], limits));
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto &a = r[i], &b = r[(i + 1) % 3], &c = r[(i + 2) % 3];
+      EXPECT_TRUE(exact::edge_length_holds(a, b, limits));
+      EXPECT_TRUE(exact::separation_holds(a, b, c, limits));
+      const auto across = opposite.at({depth.triangles[t][(i + 2) % 3], depth.triangles[t][(i + 1) % 3]});
+      EXPECT_GE(exact::delaunay_sign(a, b, c, exact::sight_row(depth.samples[across], p)), 0);
+    }
   }
   EXPECT_GT(finite, 300);
 }

@@ -28,17 +28,20 @@ struct Det {
 };
 
 // The gradient is the sum of the products of two rows, each where the third row moves. Its error is at most 16u times the sum of the products of
-// their lengths: below 7.2u each (predicates.h), three sums.
+// their lengths that are in it: below 7.2u each (predicates.h), three sums.
 Det det_of(const Row& a, const Row& b, const Row& c) {
   const Vec bc = cross(b.x, c.x), ca = cross(c.x, a.x), ab = cross(a.x, b.x);
   Vec gradient;
-  if (a.moves) gradient = gradient + bc;
-  if (b.moves) gradient = gradient + ca;
-  if (c.moves) gradient = gradient + ab;
-  const bool moves = a.moves || b.moves || c.moves;
-  const double sizes = a.length * b.length + b.length * c.length + c.length * a.length;
-  return {dot(a.x, bc) - kDeterminantError * (a.length * b.length * c.length),
-          moves ? norm(gradient) + 0x1p-49 * sizes : 0};
+  double sizes = 0;
+  const auto add = [&](const Row& moves, const Vec& product, const Row& p, const Row& q) {
+    if (!moves.moves) return;
+    gradient = gradient + product;
+    sizes += p.length * q.length;
+  };
+  add(a, bc, b, c);
+  add(b, ca, c, a);
+  add(c, ab, a, b);
+  return {dot(a.x, bc) - kDeterminantError * (a.length * b.length * c.length), norm(gradient) + 0x1p-49 * sizes};
 }
 
 // A1.3 as a determinant: the sine of the angle from p to the great circle of ab is det / (|a x b| |p|), so that the pair holds while

@@ -352,8 +352,7 @@ DelaunayModel delaunay_model(const Row& a, const Row& b, const Row& c, const Row
   for (const Term& t : f.terms) third += t.cofactor * t.change.turn * t.change.curvature + t.own * t.change.second_up;
   const double fourth = std::sqrt(std::sqrt(f.value / (third + 0x1p-60 * f.value)));
   double up_to = std::min(fourth * std::sqrt(std::sqrt(fourth)), 0.5 * f.nearest), rest = f.rest(up_to);
-  for (int halved = 0; halved < 16 && !(rest < kInfinity); ++halved) rest = f.rest(up_to *= 0.5);
-  if (!(rest < kInfinity)) return {};
+  for (int halved = 0; halved < 4 && !(rest < kInfinity); ++halved) rest = f.rest(up_to *= 0.5);
   const double per = 1 / f.unit, squared = per * per;
   model.slope = per * f.g;
   model.second = f.a;

@@ -1,5 +1,5 @@
 // With g the slope and A the second order, for w = d u + e in t B, that is 0 <= d <= t and |e| <= y = t tail + d (head - tail):
-//     g.w + w^T A w >= d (g.u) + d^2 min(0, u^T A u) - 2 d |A u| y - a y^2 - |g| y,   -a <= 0 below all eigenvalues of A.
+//     g.w + w^T A w >= d (g.u) + d^2 min(0, u^T A u) - 2 d |A u| y - sinks y^2 - |g| y,     -sinks <= 0 below all eigenvalues of A.
 // As y is linear in d, this is concave in d, and its least value is at d = 0 or at d = t. What is returned was put into this inequality, with the rest and
 // with room for rounding: nothing hangs on how it was found.
 #include "fastpath/motion/bounds/delaunay_model.h"
@@ -19,11 +19,12 @@ double root_of(double value, double b, double c) {
 
 }  // namespace
 
-// Each coordinate of step - d u is within 3 * 2^-53 of |step|, and the step as computed within 2^-53 of it.
+// Each coordinate of step - d u is within 3 * 2^-53 of |step|, or of the least double, and the step as computed within 2^-53 of it. Where squares underflow 2^-500 makes
+// up for it.
 double gauge_up(const Gauge& gauge, const Vec& step) {
-  const double length = norm(step) * kUp + 0x1p-500;
+  const double length = norm(step) * kUp;
   const double d = std::max(0.0, dot(step, gauge.u));
-  const double away = norm(step - d * gauge.u) * kUp + 0x1p-49 * length;
+  const double away = norm(step - d * gauge.u) * kUp + 0x1p-49 * length + 0x1p-500;
   return std::max(d, (away - (gauge.head - gauge.tail) * d * kDown) / gauge.tail) * kUp;
 }
 
@@ -51,7 +52,7 @@ double Reaches::guess(const Gauge& gauge) const {
 double Reaches::of(const Gauge& gauge) const {
   const DelaunayModel& m = model_;
   if (m.value == kInfinity) return kInfinity;
-  if (!(m.value > 0x1p-800)) return 0;
+  if (!(m.value > 0)) return 0;
   const Falls f = falls(gauge);
   const double length = gauge.u.x == 0 && gauge.u.y == 0 && gauge.u.z == 0 ? 1 : 1 + gauge.head;
   // What is left is concave in t. Newton's method comes down to its root; the chord of the rest up to there gives a t below it.

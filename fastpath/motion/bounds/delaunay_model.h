@@ -61,6 +61,7 @@ DelaunayModel delaunay_model(const Row& a, const Row& b, const Row& c, const Row
 class Reaches {
  public:
   explicit Reaches(const DelaunayModel& model);
+  explicit Reaches(const DelaunayModel&&) = delete;
   // A t, nearly the largest, for which no viewpoint in t B violates the condition, as long as both triangles face the viewpoint; 0 where none is found, or
   // infinite. O(1), some 50 ns.
   double of(const Gauge& gauge) const;

@@ -26,11 +26,10 @@ void EdgeBounds::move(const MotionPoint& from, const MotionPoint& to) {
   const Vec step = vector_of(from, to);
   if (step.x == 0 && step.y == 0 && step.z == 0) return;
   for (Clock& clock : clocks_) clock.odometer = sum_up(clock.odometer, gauge_up(clock.gauge, step));
-  expect(from, to);
+  expect(step);
 }
 
-void EdgeBounds::expect(const MotionPoint& from, const MotionPoint& to) {
-  const Vec step = vector_of(from, to);
+void EdgeBounds::expect(const Vec& step) {
   const double length = norm(step);
   choices_ = 1;
   if (!(length >= kLeastLength && length <= kLargestLength)) return;
@@ -101,6 +100,7 @@ void EdgeBounds::set_ball(std::uint32_t slot, double radius, const MotionPoint& 
   put(slot, 0, radius);
 }
 
+// What is left must be worth it, or the edge is due again at once; of a needle, more, as the viewpoint has turned away from it.
 bool EdgeBounds::has_some_left(std::uint32_t slot, const MotionPoint& at) {
   const Edge& edge = edges_[slot];
   const double used = gauge_up(clocks_[edge.clock].gauge, vector_of(edge.from, at));

@@ -18,21 +18,21 @@ class EdgeBounds {
   explicit EdgeBounds(double width) : width_(width) { clocks_.emplace_back(Gauge{}, width); }
 
   void resize(std::size_t slots);  // an edge is a slot, as the caller numbers them
-  // That the viewpoint will go on about like this: a guess, for the keys of the edges that are set next. move() says so itself.
-  void expect(const MotionPoint& from, const MotionPoint& to);
-  // All odometers go on by a step. O(gauges in use).
+  // All odometers go on by a step; the keys of edges that are set next take it that the viewpoint goes on like that. O(gauges in use), and that of a calendar
+  // where one is cleared.
   void move(const MotionPoint& from, const MotionPoint& to);
-  // The edges that are due, each once; they are due until they are set or dropped. O(due).
+  // The edges that are due, each once; they are due until they are set or dropped. O(due + bins that odometers have passed), and each time half of a ring
+  // has gone by, what waits outside of it.
   void take_due(std::vector<std::uint32_t>& slots);
 
   // Where the viewpoint has turned round, a due edge has much left of its bound: if so, true, and it is due later. O(1).
   bool has_some_left(std::uint32_t slot, const MotionPoint& at);
-  // An edge whose model was made at the viewpoint, or that holds within this radius. False where the model says nothing: then it is due with the next step, if
-  // the condition holds at all.
+  // An edge whose model was made at the viewpoint. False where the model says nothing: then it is due each time until it is set again, and whether the
+  // condition holds is for the caller to find out.
   bool set(std::uint32_t slot, const DelaunayModel& model, const MotionPoint& at);
+  // An edge that holds within this radius.
   void set_ball(std::uint32_t slot, double radius, const MotionPoint& at);
   void drop(std::uint32_t slot);  // it is kept no more
-  bool keeps(std::uint32_t slot) const { return edges_[slot].clock != kNowhere; }
 
  private:
   struct Clock {
@@ -53,6 +53,7 @@ class EdgeBounds {
   bool is_of(const Calendar::Entry& e, std::uint32_t clock) const {
     return edges_[e.item].clock == clock && edges_[e.item].stamp == e.stamp;
   }
+  void expect(const Vec& step);
   std::uint32_t clock_along(const Vec& direction, const Gauge& shape);
   void put(std::uint32_t slot, std::uint32_t clock, double more);
   double steps_to(const Clock& clock, double reach) const;
