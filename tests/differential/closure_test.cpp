@@ -351,9 +351,9 @@ TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
 TEST(Closure, APartThatHasGrownGetsNoMoreEffort) {
   using fastpath::effort_of_part;
   EXPECT_EQ(effort_of_part(1000, 700, 700), 1000U);
-  EXPECT_EQ(effort_of_part(1000, 1400, 700), 1000U);
-  EXPECT_EQ(effort_of_part(1000, 2800, 700), 500U);
-  EXPECT_EQ(effort_of_part(1000, 1024, 3), 1000U) << "as if the first had 512";
+  EXPECT_EQ(effort_of_part(1000, 2100, 700), 1000U);
+  EXPECT_EQ(effort_of_part(1000, 4200, 700), 500U);
+  EXPECT_EQ(effort_of_part(1000, 1536, 3), 1000U) << "as if the first had 512";
   EXPECT_EQ(effort_of_part(1000, 1U << 30U, 3), 1U) << "not 0, which is without end";
   EXPECT_EQ(effort_of_part(0, 1U << 30U, 3), 0U);
 }

@@ -25,7 +25,7 @@ struct LocalMapOptions {
 
 // The same for a part of the scene that has grown out of a first one (closure.h). Where it has grown to much more than that, light leaks into most of the scene,
 // and hardly any such map comes to an end: a part gets effort for its triangles, but for no more than kGrowth times those of the first.
-inline constexpr std::uint64_t kGrowth = 2;
+inline constexpr std::uint64_t kGrowth = 3;
 inline std::uint64_t effort_of_part(std::uint64_t effort, std::uint64_t triangles, std::uint64_t first) {
   const std::uint64_t most = kGrowth * std::max(first, LocalMapOptions::kLeastTriangles);
   return effort == 0 || triangles <= most ? effort : std::max<std::uint64_t>(1, effort * most / triangles);
