@@ -227,7 +227,8 @@ TEST(CheckCells, SaysWhatItNeeds) {
   refused({"scene.off"}, "give --cell and --pvs, or --all-cells");
   refused({"scene.off", "--bake", "x"}, "needs --all-cells");
   refused({"scene.off", "--cell", "box:0,0,0,1,1,1", "--pvs", "x", "--sight-lines-only"}, "needs --all-cells");
-  refused({"scene.off", "--cell", "box:0,0,0,1,1,1", "--pvs", "x", "--far-plane", "-9"}, "give a distance, or 0 for none");
+  refused({"scene.off", "--cell", "box:0,0,0,1,1,1", "--pvs", "x", "--far-plane", "-9"},
+          "give a distance, or 0 for none");
   for (const char* distance : {"nan", "-1", "inf"})
     refused({"made.bsp", "--all-cells", "--far-plane", distance}, "give a distance, or 0 for none");
   refused({"scene.off", "--all-cells", "--cell", "box:0,0,0,1,1,1"}, "leave out --cell and --pvs");
