@@ -27,9 +27,10 @@ bool WholeLevel::is_free_of_hulls(const exact::ConvexCell& cell, const validate:
   return exact::check_witness(near.mesh, cell, near.triangle, witness.front, witness.v, witness.p).valid;
 }
 
-void WholeLevel::take_back(validate::Judgement& judgement) const {
-  std::erase_if(judgement.witnesses, [&](const validate::Witness& witness) {
-    if (is_free_of_brushes(witness)) return false;
+std::size_t take_back(validate::Judgement& judgement,
+                      const std::function<bool(const validate::Witness&)>& proves_nothing) {
+  const std::size_t taken = std::erase_if(judgement.witnesses, [&](const validate::Witness& witness) {
+    if (!proves_nothing(witness)) return false;
     auto& verdict = judgement.triangles[witness.triangle];
     if (verdict == validate::TriangleVerdict::missing_visible) {
       verdict = validate::TriangleVerdict::missing_undecided;
@@ -43,6 +44,11 @@ void WholeLevel::take_back(validate::Judgement& judgement) const {
     return true;
   });
   judgement.verdict = validate::verdict_of(judgement);
+  return taken;
+}
+
+void WholeLevel::take_back(validate::Judgement& judgement) const {
+  app::take_back(judgement, [&](const validate::Witness& witness) { return !is_free_of_brushes(witness); });
 }
 
 bool WholeLevel::is_free_of_brushes(const validate::Witness& witness) const {

@@ -3,6 +3,9 @@
 // rounded, and between two of them may be a crack.
 #pragma once
 
+#include <cstddef>
+#include <functional>
+
 #include "exact/cell/convex_cell.h"
 #include "scene/levels/bsp_file.h"
 #include "scene/levels/bsp_solids.h"
@@ -10,6 +13,10 @@
 #include "validate/verdicts/judge.h"
 
 namespace clues::app {
+
+// Sight lines that prove nothing leave the judgement, and what was seen by them becomes undecided, missing or listed. How many there were.
+std::size_t take_back(validate::Judgement& judgement,
+                      const std::function<bool(const validate::Witness&)>& proves_nothing);
 
 class WholeLevel {
  public:
@@ -26,7 +33,7 @@ class WholeLevel {
   bool is_free_of_brushes(const validate::Witness& witness) const;
   bool is_free_of_hulls(const exact::ConvexCell& cell, const validate::Witness& witness) const;
 
-  // For who was judged in scene(): what is seen only through brushes becomes undecided, missing or listed.
+  // For who was judged in scene(): the lines that pass through brushes.
   void take_back(validate::Judgement& judgement) const;
 
  private:

@@ -84,19 +84,10 @@ SceneAndList read_what_is_judged(const CheckRequest& request, const std::vector<
 // What is missing and was seen by a line that is longer than this is undecided: a shorter one may be free, or none. How many there were.
 std::size_t leave_what_is_beyond(validate::Judgement& judgement, double far) {
   const exact::FT square = exact::FT(far) * exact::FT(far);
-  const std::size_t beyond = std::erase_if(judgement.witnesses, [&](const validate::Witness& witness) {
-    auto& verdict = judgement.triangles[witness.triangle];
-    if (verdict != validate::TriangleVerdict::missing_visible ||
-        CGAL::squared_distance(witness.v, witness.p) <= square) {
-      return false;
-    }
-    verdict = validate::TriangleVerdict::missing_undecided;
-    --judgement.missing_visible;
-    ++judgement.missing_undecided;
-    return true;
+  return take_back(judgement, [&](const validate::Witness& witness) {
+    return judgement.triangles[witness.triangle] == validate::TriangleVerdict::missing_visible &&
+           CGAL::squared_distance(witness.v, witness.p) > square;
   });
-  judgement.verdict = validate::verdict_of(judgement);
-  return beyond;
 }
 
 // On standard error, where the verdict hangs on how far the list claims to hold what is seen.
