@@ -135,6 +135,11 @@ std::array<const Row*, 4> Walk::rows_of_edge(std::uint32_t f, std::size_t i) con
   return {&view.row(vertices[0]), &view.row(vertices[1]), &view.row(vertices[2]), &view.row(vertices[3])};
 }
 
+double Walk::ball_of_edge(std::uint32_t f, std::size_t i) const {
+  const auto [a, b, c, d] = rows_of_edge(f, i);
+  return delaunay_bound(*a, *b, *c, *d);
+}
+
 bool Walk::set_edge(std::uint32_t f, std::size_t i) {
   const auto [a, b, c, d] = rows_of_edge(f, i);
   return edges_->set(slot_of(f, i), delaunay_model(*a, *b, *c, *d), at_);
@@ -182,9 +187,7 @@ void Walk::bounds_of_changed() {
         continue;
       }
       if (!edges_) {
-        const auto [a, b, c, d] = rows_of_edge(f, i);
-        first_balls_[f < g ? slot_of(f, i) : slot_of(g, mesh().face(g).place_of_face(f))] =
-            delaunay_bound(*a, *b, *c, *d);
+        first_balls_[f < g ? slot_of(f, i) : slot_of(g, mesh().face(g).place_of_face(f))] = ball_of_edge(f, i);
         continue;
       }
       set_edge(f, i);
@@ -213,10 +216,7 @@ std::vector<double> Walk::bounds_left() const {
       continue;
     }
     double at_least = left_of(bounds_.key[f]);
-    for (std::size_t i = 0; i < 3 && delaunay(); ++i) {
-      const auto [a, b, c, d] = rows_of_edge(f, i);
-      at_least = std::min(at_least, delaunay_bound(*a, *b, *c, *d));
-    }
+    for (std::size_t i = 0; i < 3 && delaunay(); ++i) at_least = std::min(at_least, ball_of_edge(f, i));
     left.push_back(at_least);
   }
   return left;

@@ -102,6 +102,7 @@ class Walk {
   void queue(std::uint32_t f);
   // The Delaunay condition of edge i of triangle f is slot 3 f + i of edges_; one of its two triangles keeps it.
   std::array<const Row*, 4> rows_of_edge(std::uint32_t f, std::size_t i) const;
+  double ball_of_edge(std::uint32_t f, std::size_t i) const;
   static std::uint32_t slot_of(std::uint32_t f, std::size_t i) {
     return static_cast<std::uint32_t>(3 * std::size_t{f} + i);
   }

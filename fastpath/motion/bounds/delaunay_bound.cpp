@@ -167,18 +167,14 @@ struct Remainder {
   }
 };
 
-// Where the quadratic part falls to 0 along g alone.
-double first_trial(const Remainder& f, double slope, double farthest) {
-  if (!(slope > 0)) return farthest;
-  const double along = f.a.form((1 / slope) * f.g), four = slope * slope - 4 * along * f.value;
-  return std::min(farthest, 2 * f.value / (slope + std::sqrt(std::max(0.0, four))));
-}
-
 // The largest s for which it stays positive, nearly, from below.
 double largest_ball(const Remainder& f, double farthest) {
   const double slope = norm(f.g), size = 2 * f.a.frobenius();
   const double along = slope > 0 ? f.a.form((1 / slope) * f.g) : 0;
-  double s = first_trial(f, slope, farthest);
+  // A first trial, from what happens along g alone.
+  const double four = slope * slope - 4 * along * f.value;
+  double s = farthest;
+  if (slope > 0) s = std::min(s, 2 * f.value / (slope + std::sqrt(std::max(0.0, four))));
   double t = s > 0 ? std::max(slope / s - 2 * along, 0.0) : 0, best = 0;
   double third = kInfinity, third_up_to = 0;  // N(s) <= third * s^3 for s so far
   for (int round = 0; round < 4; ++round) {

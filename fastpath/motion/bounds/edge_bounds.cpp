@@ -88,16 +88,14 @@ bool EdgeBounds::set(std::uint32_t slot, const DelaunayModel& model, const Motio
     longest = std::max(longest, steps);
   }
   const double reach = reaches.of(clocks_[best].gauge);
-  edges_[slot].reach = reach;
-  edges_[slot].from = at;
-  put(slot, best, reach);
+  begin(slot, best, reach, at);
   return reach > 0;
 }
 
-void EdgeBounds::set_ball(std::uint32_t slot, double radius, const MotionPoint& at) {
-  edges_[slot].reach = radius;
+void EdgeBounds::begin(std::uint32_t slot, std::uint32_t clock, double reach, const MotionPoint& at) {
+  edges_[slot].reach = reach;
   edges_[slot].from = at;
-  put(slot, 0, radius);
+  put(slot, clock, reach);
 }
 
 // What is left must be worth it, or the edge is due again at once; of a needle, more, as the viewpoint has turned away from it.

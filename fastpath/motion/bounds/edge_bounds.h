@@ -31,7 +31,7 @@ class EdgeBounds {
   // condition holds is for the caller to find out.
   bool set(std::uint32_t slot, const DelaunayModel& model, const MotionPoint& at);
   // An edge that holds within this radius.
-  void set_ball(std::uint32_t slot, double radius, const MotionPoint& at);
+  void set_ball(std::uint32_t slot, double radius, const MotionPoint& at) { begin(slot, 0, radius, at); }
   void drop(std::uint32_t slot);  // it is kept no more
 
  private:
@@ -55,6 +55,7 @@ class EdgeBounds {
   }
   void expect(const Vec& step);
   std::uint32_t clock_along(const Vec& direction, const Gauge& shape);
+  void begin(std::uint32_t slot, std::uint32_t clock, double reach, const MotionPoint& at);
   void put(std::uint32_t slot, std::uint32_t clock, double more);
   double steps_to(const Clock& clock, double reach) const;
 
