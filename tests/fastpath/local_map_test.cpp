@@ -324,6 +324,28 @@ TEST(LocalMap, AGrooveThatStandsOnACornerOfTheCellNeedsNoFallback) {
   EXPECT_EQ(map.counts().conservative_fallbacks + map.conservative_labels(), 0U);
 }
 
+// A step in oa_shine, four units above a wide cell: the planes from its edge to the two ends of the cell are 1 degree apart, and the place beside the edge was looked for above both.
+TEST(LocalMap, AnEdgeThatIsNearlyLevelWithTheCellIsAskedBetweenItsTwoPlanes) {
+  const auto cell = exact::ConvexCell::from_doubles({{0, 0, -1024},
+                                                     {0, 0, -4},
+                                                     {0, 1024, -1024},
+                                                     {0, 1024, -4},
+                                                     {216, 0, -1024},
+                                                     {216, 0, -4},
+                                                     {216, 1024, -1024},
+                                                     {216, 1024, -4}});
+  for (const double height : {0.0, -3.0, -3.9999, -3.9999999999}) {
+    SCOPED_TRACE(height);
+    scene::TriangleMesh mesh;
+    mesh.points = {{0, 280, height}, {-136, 208, height}, {-64, 280, height}, {-64, 280, height - 4}};
+    mesh.triangles = {{0, 1, 2}, {2, 3, 0}};
+    mesh.face_of = {0, 1};
+    const LocalMap map = fast_map(mesh, cell, false);
+    EXPECT_EQ(map.visible(), (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(map.counts().conservative_fallbacks + map.conservative_labels(), 0U);
+  }
+}
+
 // Only the tip of the cell is in front of these surfaces, and it was looked for down to 2^-992 of the cell: walks ended undecided, all was called visible, and
 // wedges of that made wedges without end (EngineFile.HoldsTheListsOfTinyAndHugeCells).
 TEST(LocalMap, FindsTheTipOfAHugeCellThatIsInFrontOfASurface) {

@@ -14,17 +14,27 @@ namespace {
 
 double length(const Point& v) { return length_estimate(v); }
 
-// How far off the plane, as a part of the step across the edge: so little that sight lines come through the plane by a quarter of the step beside
-// the place, most of them, if V is thin above it.
-double lift_for(const LocalScene& scene, const ContourEdge& c, const Point& y, const Point& up) {
+Point normal_estimate(const Plane& h) {
+  const Vec3<Interval>& n = h.normal_approximate();
+  return {n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
+}
+
+// How far off the plane, as a part of the step `to` across the edge: so little that sight lines come through the plane by a quarter of the step beside
+// the place, most of them, if V is thin above it, and that the place is no more than half of the way to the other supporting plane.
+double lift_for(const LocalScene& scene, const ContourEdge& c, const Point& y, const Point& to, const Point& up) {
   constexpr double kMost = 0x1p-5, kLeast = 0x1p-300;
   double height = 0, away = 0;
   for (const ExactPoint& x : scene.cell.vertices) {
-    const Point to = minus(x.estimate(), y);
-    away = std::max(away, length(to));
-    height = std::max(height, -dot_of(to, up) / length(up));
+    const Point way = minus(x.estimate(), y);
+    away = std::max(away, length(way));
+    height = std::max(height, -dot_of(way, up) / length(up));
   }
-  const double lift = 4 * kMost * (height / away);
+  double lift = 4 * kMost * (height / away);
+  if (c.other) {
+    const Point normal = normal_estimate(*c.other);
+    const double up_to_other = -(dot_of(normal, to) / length(to)) / (dot_of(normal, up) / length(up));
+    if (up_to_other > 0) lift = std::min(lift, up_to_other / 2);
+  }
   return c.holds_cell || !(lift < kMost) ? kMost : std::max(lift, kLeast);
 }
 
@@ -39,10 +49,9 @@ std::optional<ExactPoint> beside_edge(const LocalScene& scene, const PieceSet& s
   Point to = minus(touching.estimate(), y);  // across the edge
   const double shift = -dot_of(to, along) / dot_of(along, along);
   for (std::size_t k = 0; k < 3; ++k) to[k] += shift * along[k];
-  const Vec3<Interval>& n = c.plane->normal_approximate();
-  const Point up{n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
+  const Point up = normal_estimate(*c.plane);
   const double size = std::min(length(to), length(minus(part.hi->estimate(), part.lo->estimate())));
-  const double lift = lift_for(scene, c, y, up);
+  const double lift = lift_for(scene, c, y, to, up);
   constexpr int kDoubles = 4;
   if (!(length(to) > 0 && length(up) > 0)) level = std::max(level, kDoubles);
   const auto place = [&](int at) {
