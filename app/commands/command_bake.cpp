@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
 
-constexpr std::uint64_t kEffort = 1000;
+constexpr std::uint64_t kEffort = 400;
 
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;
@@ -276,10 +276,10 @@ void add_bake_command(CLI::App& program, int& status) {
           "  In glTF files and levels some triangles do not block (docs/real-levels.md). The fast kernel lists "
           "those of them that it\n"
           "  cannot prove to be hidden.\n"
-          "  Most maps take an effort of 50 to 500, and some had no end in minutes. Such a map is given up. Then a "
-          "level's\n"
-          "  cell is mapped with fewer hulls of brushes; where that takes too much, too, what the map before does not "
-          "prove\n"
+          "  Most maps take an effort of 5 to 100, and some had no end in minutes. Such a map is given up. Then the "
+          "cell is mapped\n"
+          "  in all that counts, or with fewer hulls of brushes; where that takes too much, too, what the map before "
+          "does not prove\n"
           "  to be hidden is listed. That is sound, and lists are longer; what is listed without a proof counts as a "
           "fallback.\n\n") +
       bake_cells_help +

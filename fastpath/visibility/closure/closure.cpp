@@ -49,8 +49,9 @@ class Closer {
   scene::TriangleMesh part_mesh();
   // Tries to prove every triangle outside the part dark; adds what is in the way of that, and drops what light does not touch. False: it stays as it is, and all that count are dark.
   bool add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible);
-  // After a map is given up: back to the part of the map before, or, if there is none, to what counts of this one; and from now on nothing comes in that does not count. False: it has done so before, or
-  // all count.
+  // After a map is given up, the first time: the part of the map before, or, if there is none, of this one, and all that counts. False: it has done so before, or that is too much, or it is this part.
+  bool take_all_that_counts(const Closure& closure);
+  // Back to the part of the map before, or, if there is none, to what counts of the first one; and from now on nothing comes in that does not count. False: it has done so before, or that is no other part.
   bool go_on_with_what_counts(const Closure& closure);
   // All triangles outside the part of this closure for which its map gives no proof, ascending; all, if it has none.
   std::vector<std::uint32_t> unproved_by(const Closure& closure);
@@ -59,6 +60,7 @@ class Closer {
 
  private:
   bool counts_in_list(std::uint32_t triangle) const { return counting_.empty() || counting_[triangle] != 0; }
+  void set_part(std::vector<std::uint32_t> part);
   bool add_seen(std::uint32_t triangle);  // which a ray has met; as add()
   void add_seen_beside(std::vector<std::uint32_t> triangles);
   // Adds what sight lines to the triangles meet first; else the triangles themselves.
@@ -72,8 +74,8 @@ class Closer {
   SightRays rays_;
   ProvedDark proved_;
   std::vector<std::uint8_t> in_part_, seen_, looked_into_;  // seen by a ray; as a listed triangle that none has seen
-  std::vector<std::uint32_t> part_;
-  bool all_may_come_ = true;
+  std::vector<std::uint32_t> part_, first_;
+  bool all_may_come_ = true, took_all_ = false;
 };
 
 void Closer::add_all() {
@@ -192,15 +194,33 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   return true;
 }
 
-bool Closer::go_on_with_what_counts(const Closure& closure) {
-  if (!all_may_come_ || counting_.empty()) return false;
-  if (closure.map) {
-    part_ = closure.part;
-  } else {
-    std::erase_if(part_, [this](std::uint32_t t) { return !counts_in_list(t); });
-  }
+void Closer::set_part(std::vector<std::uint32_t> part) {
+  part_ = std::move(part);
   std::fill(in_part_.begin(), in_part_.end(), std::uint8_t{0});
   for (const std::uint32_t t : part_) in_part_[t] = 1;
+}
+
+bool Closer::take_all_that_counts(const Closure& closure) {
+  if (took_all_) return false;
+  took_all_ = true;
+  first_ = part_;  // if there is no map yet
+  std::vector<std::uint32_t> missing;
+  for (std::uint32_t t = 0; t < in_part_.size(); ++t) {
+    if (counts_in_list(t) && is_new(t)) missing.push_back(t);
+  }
+  if (missing.empty() || missing.size() > kAllForPart * std::max(part_.size(), kLeastAll)) return false;
+  if (closure.map) set_part(closure.part);
+  for (std::uint32_t t = 0; t < in_part_.size(); ++t) {
+    if (counts_in_list(t)) add(t);
+  }
+  return true;
+}
+
+bool Closer::go_on_with_what_counts(const Closure& closure) {
+  if (!all_may_come_ || (closure.map && counting_.empty())) return false;
+  std::vector<std::uint32_t> part = closure.map ? closure.part : first_;
+  if (!closure.map) std::erase_if(part, [this](std::uint32_t t) { return !counts_in_list(t); });
+  set_part(std::move(part));
   all_may_come_ = false;
   return true;
 }
@@ -262,6 +282,8 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
       result.part = closer.part();
       result.visible.clear();
       for (const std::uint32_t i : result.map->visible()) result.visible.push_back(result.part[i]);
+    } else if (closer.take_all_that_counts(result)) {
+      continue;
     } else if (!closer.go_on_with_what_counts(result)) {
       result.unproved = closer.unproved_by(result);
       break;

@@ -13,8 +13,10 @@
 // label, so one point proves a whole subtree of the BVH dark. Where a proof fails K grows by what is in front. What light does not touch in K is dark and leaves it: no wedge ends there, so
 // the map is the same without it. Then the loop runs again with what is left. When nothing is, K is as the theorem wants it, as only what is dark is not in it; K may hold too much.
 //
-// Where a map is given up the one before stands, whatever K became since: what is not proved to lie outside Omega of its part is listed, whether light meets it or not (`unproved`). If there is
-// none, all is. But where some triangles do not count K first goes back to what it was, and grows again without any more of those: cracks between hulls are what makes most maps long.
+// Where a map is given up, light came past what K lacks, which is what makes maps long: so K becomes all that counts, with what else it had in the map before, or has in this one if there was none.
+// If that is too much, too, or far more than K, K goes back to what it was, or, if there was no map, to what counts of the first one; and if some triangles do not count it grows again without any more of
+// those: through cracks between hulls light leaks as well. And where such a map is given up the one before stands, whatever K became since: what is not proved to lie outside Omega of its part is listed, whether light meets it or not (`unproved`). If there is
+// none, all is.
 //
 // Where some triangles do not count (D22: the hulls of a level) nobody needs a proof about them: the loop ends when those that count are mapped or proved, and what light meets in
 // Omega(K) is listed, of which Omega(S) is a part. It may be more: light may come past what was left out. So that little does, K grows, too, by those without a proof that sight lines meet on
@@ -87,6 +89,8 @@ struct Closure {
 Box about_inside(const Corners& t, const std::array<double, 3>& weight);
 
 inline constexpr std::size_t kMappedWhole = 64;
+// After a map is given up K becomes all that counts, if that is no more than so many times the part of that map, or of kLeastAll triangles.
+inline constexpr std::size_t kAllForPart = 16, kLeastAll = 512;
 
 // Triangles that stop no light (D22), as a tree of their own: those that are not proved to lie outside Omega of the scene that was closed, ids of the
 // tree's mesh, ascending. All that the closure's proofs use of a triangle outside K is that it is one; whether it would stop light, were it lit, does not matter to them.

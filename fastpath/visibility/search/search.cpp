@@ -73,6 +73,8 @@ class Search::Work {
     sources.end_light();
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     std::vector<ValidPiece> merged = build(merged_jobs());
+    std::vector<ValidPiece> others = pieces_before.others(merged);
+    spend_effort_on(others);
     for (const auto& [e, p] : coplanar_cuts.of(merged)) new_cuts[e].push_back(p);
 
     bool changed = false;
@@ -81,7 +83,7 @@ class Search::Work {
       for (const ExactPoint* p : new_cuts[e]) changed |= insert_cut(e, p);
     }
     fresh.clear();
-    fresh.add(pieces_before.others(merged));
+    fresh.add(std::move(others));
     const bool all_still_there = pieces_before.replace(merged);
     set.clear();
     set.add(std::move(merged));
@@ -117,8 +119,10 @@ class Search::Work {
     for (std::vector<Job> waiting = light(set.pieces().size()); !waiting.empty();) {
       const std::size_t first = set.pieces().size();
       std::vector<ValidPiece> batch = build(next_batch(waiting));
+      std::vector<ValidPiece> others = pieces_before.others(batch);
+      spend_effort_on(others);
       first_fresh = fresh.pieces().size();
-      fresh.add(pieces_before.others(batch));
+      fresh.add(std::move(others));
       set.add(std::move(batch));
       meet_edges(first);
       const std::vector<Job> jobs = light(first);
@@ -188,7 +192,8 @@ class Search::Work {
       if (c->on_edge) csvs_met.insert(c);
     }
     const exact::Dials& dials = options.dials;
-    const bool too_many = csvs_met.size() > dials.csv_limit + dials.csv_limit_per_edge * scene.edges.size();
+    const std::size_t most = dials.csv_limit + dials.csv_limit_per_edge * scene.edges.size();
+    const bool too_many = csvs_met.size() > (options.csvs_by_effort ? LocalMapOptions::kCsvsByEffort * most : most);
     std::erase_if(lit, [&](const Contact* c) {
       const bool out = c->generation > dials.generation_limit || (too_many && c->on_edge);
       if (out && light_of != Sources::Light::known && left_out_contacts.insert(c).second)
@@ -287,13 +292,12 @@ class Search::Work {
                      [&](std::size_t i, Workers::Worker&) { made[i] = pieces_of(jobs[i], *slot(jobs[i])); });
     std::vector<ValidPiece> batch;
     for (const auto& list : made) batch.insert(batch.end(), list.begin(), list.end());
-    spend_effort_on(batch);
     return batch;
   }
 
-  void spend_effort_on(const std::vector<ValidPiece>& batch) {
+  void spend_effort_on(const std::vector<ValidPiece>& pieces) {
     if (options.effort == 0) return;
-    for (const ValidPiece& piece : batch)
+    for (const ValidPiece& piece : pieces)
       effort += static_cast<std::uint64_t>((1 + piece.generation) * (1 + piece.generation));
     if (effort / std::max(scene.triangles, LocalMapOptions::kLeastTriangles) >= options.effort) throw EffortSpent{};
   }
@@ -417,7 +421,7 @@ class Search::Work {
   std::vector<std::vector<const ExactPoint*>> cuts, new_cuts;  // per edge; cuts from a to b
   CoplanarCuts coplanar_cuts;
   std::set<const Contact*> csvs_met;  // in this round
-  std::uint64_t effort = 0;           // of all rounds (options.h)
+  std::uint64_t effort = 0;           // of all rounds, so far (options.h)
   PiecesBefore pieces_before;
   std::set<const Contact*> left_out_contacts;
   LeftOut left_out;
