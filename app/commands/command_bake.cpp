@@ -39,7 +39,7 @@ namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
 
-constexpr std::uint64_t kEffort = 400;
+constexpr std::uint64_t kEffort = 500;
 
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;

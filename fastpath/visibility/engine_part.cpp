@@ -1,6 +1,5 @@
 #include "fastpath/visibility/engine_part.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -59,25 +58,16 @@ ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, cons
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   exact::CutMemory memory;
   std::optional<std::size_t> first;
-  constexpr int kGivenUp = 2;
-  int given_up = 0;
-  bool made_one = false;
-  const std::size_t count = counting.empty()
-                                ? bvh.mesh().triangles.size()
-                                : static_cast<std::size_t>(std::count(counting.begin(), counting.end(), 1));
-  const auto make_map = [&](const scene::TriangleMesh& part,
-                            const std::vector<std::uint32_t>& ids) -> std::shared_ptr<const PartialMap> {
+  const auto make_map = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids,
+                            PartStage stage) -> std::shared_ptr<const PartialMap> {
     if (!first) first = ids.size();
     LocalMapOptions of_part = options;
-    // Where every map was given up, one that leaves out many CSVs is better than none.
-    of_part.csvs_by_effort = options.effort > 0 && (made_one || given_up < kGivenUp);
-    if (ids.size() < count) of_part.effort = effort_of_part(options.effort, ids.size(), *first);
+    if (stage == PartStage::grown) of_part.effort = effort_of_part(options.effort, ids.size(), *first);
+    // A map that leaves out many CSVs is better than none.
+    of_part.csvs_by_effort = options.effort > 0 && stage != PartStage::least;
     try {
-      auto map = std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, of_part, &outside));
-      made_one = true;
-      return map;
+      return std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, of_part, &outside));
     } catch (const EffortSpent&) {
-      ++given_up;
       return nullptr;
     }
   };

@@ -266,9 +266,8 @@ TEST(Closure, ListsWhatIsVisibleWhereAMapIsGivenUp) {
   for (std::uint64_t most = 0;; ++most) {
     SCOPED_TRACE(most);
     std::uint64_t made = 0;
-    const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids) {
-      return made++ < most ? make_map(part, ids) : nullptr;
-    };
+    const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids,
+                          fastpath::PartStage stage) { return made++ < most ? make_map(part, ids, stage) : nullptr; };
     // Without rays, which find nearly all at once, there are several maps.
     exact::Dials dials;
     dials.sight_rays = 0;
@@ -315,18 +314,21 @@ TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
   for (std::uint64_t first = 0; !ended; ++first) {
     constexpr std::uint64_t kNever = 1000;
     using Two = std::pair<std::uint64_t, std::uint64_t>;
-    for (const auto& [second, third] : {Two(kNever, kNever), Two(first + 1, kNever), Two(first + 1, first + 2),
-                                        Two(first + 1, first + 3), Two(first + 2, kNever)}) {
+    for (const auto& [second, third] :
+         {Two(kNever, kNever), Two(first + 1, kNever), Two(first + 1, first + 2), Two(first + 1, first + 3)}) {
       SCOPED_TRACE(testing::Message() << first << ' ' << second << ' ' << third);
       std::uint64_t made = 0;
       std::size_t counting_in_second = 0;
+      std::vector<fastpath::PartStage> stages;
       std::vector<std::vector<std::uint32_t>> hulls;  // of all maps asked for, what does not count
-      const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids) {
+      const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids,
+                            fastpath::PartStage stage) {
         std::copy_if(ids.begin(), ids.end(), std::back_inserter(hulls.emplace_back()),
                      [&](std::uint32_t t) { return counting[t] == 0; });
         const std::uint64_t number = made++;
         if (number == first + 1) counting_in_second = static_cast<std::size_t>(counted(ids));
-        return number == first || number == second || number == third ? nullptr : make_map(part, ids);
+        stages.push_back(stage);
+        return number == first || number == second || number == third ? nullptr : make_map(part, ids, stage);
       };
       exact::Dials dials;
       dials.sight_rays = 0;
@@ -339,11 +341,15 @@ TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
         EXPECT_TRUE(counting[t] == 0 || std::binary_search(listed.begin(), listed.end(), t)) << t;
       ended = made <= first;
       if (ended) break;
+      ASSERT_GT(hulls.size(), first + 1);
       EXPECT_EQ(counting_in_second, std::count(counting.begin(), counting.end(), 1));
       EXPECT_EQ(hulls[first + 1], hulls[first == 0 ? 0 : first - 1]);
-      for (std::size_t i = second + 1; i < hulls.size(); ++i) {
-        const std::size_t last = second == first + 1 ? first : second;  // that was made or not
-        const auto& before = last == 0 ? std::vector<std::uint32_t>{} : hulls[last - 1];
+      for (std::size_t i = 0; i < stages.size(); ++i) {
+        using enum fastpath::PartStage;
+        const bool went_on = second == first + 1 && i > second;
+        EXPECT_EQ(stages[i], i <= first || (went_on && first > 0) ? grown : went_on ? least : all) << i;
+        if (!went_on) continue;
+        const auto& before = first == 0 ? std::vector<std::uint32_t>{} : hulls[first - 1];
         EXPECT_TRUE(std::includes(before.begin(), before.end(), hulls[i].begin(), hulls[i].end())) << i;
       }
       if (made > third) continue;

@@ -74,6 +74,19 @@ TEST(Limits, ManyCsvsAreLeftOutAndCountAsVisible) {
   EXPECT_TRUE(contains(exact, all));
 }
 
+TEST(Limits, EffortAllowsMoreCsvsAndEndsAMapThatTakesTooMuch) {
+  const Scene s = scene_of_many_csvs();
+  fastpath::LocalMapOptions low, by_effort;
+  low.dials.csv_limit = by_effort.dials.csv_limit = 0;
+  by_effort.csvs_by_effort = true;
+  by_effort.effort = 1U << 30U;
+  const Answer few = fast_answer(s, low), more = fast_answer(s, by_effort);
+  EXPECT_GT(more.csvs, few.csvs);
+  EXPECT_TRUE(contains(few, more));
+  by_effort.effort = 10;
+  EXPECT_THROW(fast_answer(s, by_effort), fastpath::EffortSpent);
+}
+
 TEST(Limits, WithoutWedgesOfCsvsNothingGetsLost) {
   std::uint64_t limited[2] = {0, 0};
   for (const fuzz::Kind kind : fuzz::all_kinds) {

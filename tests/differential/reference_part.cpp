@@ -118,7 +118,7 @@ class ReferencePart : public fastpath::PartialMap {
 }  // namespace
 
 fastpath::PartialMapMaker reference_parts(const exact::ConvexCell& cell, PartBug bug) {
-  return [&cell, bug](const scene::TriangleMesh& part, const std::vector<std::uint32_t>&) {
+  return [&cell, bug](const scene::TriangleMesh& part, const std::vector<std::uint32_t>&, fastpath::PartStage) {
     return std::make_shared<const ReferencePart>(part, cell, bug);
   };
 }

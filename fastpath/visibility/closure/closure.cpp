@@ -22,6 +22,7 @@ class Closer {
         cell_(cell),
         failures_(dials.batch),
         counting_(counting),
+        all_count_(std::find(counting.begin(), counting.end(), 0) == counting.end()),
         rays_(bvh, cell, dials.sight_rays),
         proved_(bvh),
         in_part_(bvh.mesh().triangles.size(), 0),
@@ -40,6 +41,7 @@ class Closer {
     return true;
   }
   const std::vector<std::uint32_t>& part() const { return part_; }
+  PartStage stage() const { return stage_; }
   std::uint64_t rays() const { return rays_.count(); }
   void add_all();
   void add_triangles_by_the_cell();
@@ -51,7 +53,8 @@ class Closer {
   bool add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible);
   // After a map is given up, the first time: the part of the map before, or, if there is none, of this one, and all that counts. False: it has done so before, or that is too much, or it is this part.
   bool take_all_that_counts(const Closure& closure);
-  // Back to the part of the map before, or, if there is none, to what counts of the first one; and from now on nothing comes in that does not count. False: it has done so before, or that is no other part.
+  // Back to the part of the map before, or, if there is none, to what counts of the first one; and from now on nothing comes in that does not count. False: it has done so before, or there is a map and all
+  // count, so that the part would grow as it did.
   bool go_on_with_what_counts(const Closure& closure);
   // All triangles outside the part of this closure for which its map gives no proof, ascending; all, if it has none.
   std::vector<std::uint32_t> unproved_by(const Closure& closure);
@@ -71,10 +74,12 @@ class Closer {
   const Cell& cell_;
   std::size_t failures_;                    // a dial; 0: our own number
   std::span<const std::uint8_t> counting_;  // none: all do
+  bool all_count_;
   SightRays rays_;
   ProvedDark proved_;
   std::vector<std::uint8_t> in_part_, seen_, looked_into_;  // seen by a ray; as a listed triangle that none has seen
   std::vector<std::uint32_t> part_, first_;
+  PartStage stage_ = PartStage::grown;
   bool all_may_come_ = true, took_all_ = false;
 };
 
@@ -213,14 +218,16 @@ bool Closer::take_all_that_counts(const Closure& closure) {
   for (std::uint32_t t = 0; t < in_part_.size(); ++t) {
     if (counts_in_list(t)) add(t);
   }
+  stage_ = PartStage::all;
   return true;
 }
 
 bool Closer::go_on_with_what_counts(const Closure& closure) {
-  if (!all_may_come_ || (closure.map && counting_.empty())) return false;
+  if (!all_may_come_ || (closure.map && all_count_)) return false;
   std::vector<std::uint32_t> part = closure.map ? closure.part : first_;
   if (!closure.map) std::erase_if(part, [this](std::uint32_t t) { return !counts_in_list(t); });
   set_part(std::move(part));
+  stage_ = closure.map ? PartStage::grown : PartStage::least;
   all_may_come_ = false;
   return true;
 }
@@ -276,7 +283,7 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
   for (bool grown = true; grown;) {
     ++closer.counts.passes;
     scene::TriangleMesh mesh = closer.part_mesh();
-    if (auto map = make_map(mesh, closer.part())) {
+    if (auto map = make_map(mesh, closer.part(), closer.stage())) {
       result.part_mesh = std::move(mesh);
       result.map = std::move(map);
       result.part = closer.part();

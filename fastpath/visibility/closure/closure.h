@@ -58,9 +58,12 @@ class PartialMap {
   virtual bool piece_may_touch(const Corners& triangle) const = 0;
 };
 
+// How a part came about: from what rays saw, and what came to that; from all that counts, after a map was given up; or from what counts of the first part, where there is no map yet and nothing else left to try.
+enum class PartStage : std::uint8_t { grown, all, least };
+
 // Makes the map of a part of the scene, for the same cell. `ids` are those of the part's triangles in the scene, ascending. None: it is given up, as it takes too much effort.
-using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(const scene::TriangleMesh& part,
-                                                                        const std::vector<std::uint32_t>& ids)>;
+using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(
+    const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids, PartStage stage)>;
 
 // Cheap figures about how the answer came about, over all passes.
 struct ClosureCounts {

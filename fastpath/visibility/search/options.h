@@ -17,17 +17,18 @@ struct LocalMapOptions {
   SideMode mode = SideMode::sheet;  // solid: only fronts count. That the mesh is closed is for the caller to know.
   exact::Dials dials;               // the limits of D17, and what else only tests turn
   // How much effort a map may take for each of its triangles, which count as kLeastTriangles if they are fewer; beyond that EffortSpent is thrown. 0: without end.
-  // A wedge piece of generation g that was not there in the round before takes (1 + g)^2, as the numbers that decide about it grow with g: most maps take 5 to 100.
+  // A wedge piece of generation g that was not there in the round before takes (1 + g)^2 when light makes it, and again when the pieces of the round are joined, as the numbers that decide about it grow with g. If
+  // it comes of what counts as visible for want of a proof, that is kInDoubt times as much, as this light seldom has an end. Most maps take 5 to 100. What is built again from round to round is free.
   // No time is taken, so it is the same in every run. Only lists honour it (visible_through): regions need a map that was made to its end.
   std::uint64_t effort = 0;
-  static constexpr std::uint64_t kLeastTriangles = 512;
+  static constexpr std::uint64_t kLeastTriangles = 512, kInDoubt = 4;
   // Effort bounds the CSVs, too, and where some are left out light may come from all around them: where this is set the limit of D17 is so many times as large.
   bool csvs_by_effort = false;
   static constexpr std::size_t kCsvsByEffort = 8;
 };
 
 // The same for a part of the scene that has grown out of a first one (closure.h). Where it has grown to much more than that, light leaks into most of the scene,
-// and hardly any such map comes to an end: a part gets effort for its triangles, but for no more than kGrowth times those of the first. (Not one of as many as count in the scene: little leaks from that.)
+// and hardly any such map comes to an end: a part gets effort for its triangles, but for no more than kGrowth times those of the first. (Not one that began with all that counts: little leaks from that.)
 inline constexpr std::uint64_t kGrowth = 3;
 inline std::uint64_t effort_of_part(std::uint64_t effort, std::uint64_t triangles, std::uint64_t first) {
   const std::uint64_t most = kGrowth * std::max(first, LocalMapOptions::kLeastTriangles);

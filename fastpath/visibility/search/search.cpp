@@ -74,7 +74,7 @@ class Search::Work {
     // From here on the visible parts of an edge that touch are one: the seams between them are no event surfaces.
     std::vector<ValidPiece> merged = build(merged_jobs());
     std::vector<ValidPiece> others = pieces_before.others(merged);
-    spend_effort_on(others);
+    spend_effort_on(others, 1);
     for (const auto& [e, p] : coplanar_cuts.of(merged)) new_cuts[e].push_back(p);
 
     bool changed = false;
@@ -120,7 +120,7 @@ class Search::Work {
       const std::size_t first = set.pieces().size();
       std::vector<ValidPiece> batch = build(next_batch(waiting));
       std::vector<ValidPiece> others = pieces_before.others(batch);
-      spend_effort_on(others);
+      spend_effort_on(others, in_doubt() ? LocalMapOptions::kInDoubt : 1);
       first_fresh = fresh.pieces().size();
       fresh.add(std::move(others));
       set.add(std::move(batch));
@@ -295,10 +295,10 @@ class Search::Work {
     return batch;
   }
 
-  void spend_effort_on(const std::vector<ValidPiece>& pieces) {
+  void spend_effort_on(const std::vector<ValidPiece>& pieces, std::uint64_t each) {
     if (options.effort == 0) return;
     for (const ValidPiece& piece : pieces)
-      effort += static_cast<std::uint64_t>((1 + piece.generation) * (1 + piece.generation));
+      effort += each * static_cast<std::uint64_t>((1 + piece.generation) * (1 + piece.generation));
     if (effort / std::max(scene.triangles, LocalMapOptions::kLeastTriangles) >= options.effort) throw EffortSpent{};
   }
 
