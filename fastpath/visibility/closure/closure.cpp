@@ -22,7 +22,6 @@ class Closer {
         cell_(cell),
         failures_(dials.batch),
         counting_(counting),
-        all_count_(std::find(counting.begin(), counting.end(), 0) == counting.end()),
         rays_(bvh, cell, dials.sight_rays),
         proved_(bvh),
         in_part_(bvh.mesh().triangles.size(), 0),
@@ -74,13 +73,12 @@ class Closer {
   const Cell& cell_;
   std::size_t failures_;                    // a dial; 0: our own number
   std::span<const std::uint8_t> counting_;  // none: all do
-  bool all_count_;
   SightRays rays_;
   ProvedDark proved_;
   std::vector<std::uint8_t> in_part_, seen_, looked_into_;  // seen by a ray; as a listed triangle that none has seen
   std::vector<std::uint32_t> part_, first_;
   PartStage stage_ = PartStage::grown;
-  bool all_may_come_ = true, took_all_ = false;
+  bool all_may_come_ = true;
 };
 
 void Closer::add_all() {
@@ -206,14 +204,11 @@ void Closer::set_part(std::vector<std::uint32_t> part) {
 }
 
 bool Closer::take_all_that_counts(const Closure& closure) {
-  if (took_all_) return false;
-  took_all_ = true;
+  if (stage_ != PartStage::grown || !all_may_come_) return false;
   first_ = part_;  // if there is no map yet
-  std::vector<std::uint32_t> missing;
-  for (std::uint32_t t = 0; t < in_part_.size(); ++t) {
-    if (counts_in_list(t) && is_new(t)) missing.push_back(t);
-  }
-  if (missing.empty() || missing.size() > kAllForPart * std::max(part_.size(), kLeastAll)) return false;
+  std::size_t missing = 0;
+  for (std::uint32_t t = 0; t < in_part_.size(); ++t) missing += counts_in_list(t) && is_new(t) ? 1 : 0;
+  if (missing == 0 || missing > kAllForPart * std::max(part_.size(), kLeastAll)) return false;
   if (closure.map) set_part(closure.part);
   for (std::uint32_t t = 0; t < in_part_.size(); ++t) {
     if (counts_in_list(t)) add(t);
@@ -223,7 +218,8 @@ bool Closer::take_all_that_counts(const Closure& closure) {
 }
 
 bool Closer::go_on_with_what_counts(const Closure& closure) {
-  if (!all_may_come_ || (closure.map && all_count_)) return false;
+  const bool all_count = std::find(counting_.begin(), counting_.end(), 0) == counting_.end();
+  if (!all_may_come_ || (closure.map && all_count)) return false;
   std::vector<std::uint32_t> part = closure.map ? closure.part : first_;
   if (!closure.map) std::erase_if(part, [this](std::uint32_t t) { return !counts_in_list(t); });
   set_part(std::move(part));
