@@ -99,8 +99,8 @@ class LocalMap::Parts {
     WedgePiece out;
     out.kind = p.kind;
     out.generation = p.generation;
-    const IntervalBox& n = p.on->plane->normal_approximate();
-    out.normal_estimate = {(n.x.inf() + n.x.sup()) / 2, (n.y.inf() + n.y.sup()) / 2, (n.z.inf() + n.z.sup()) / 2};
+    out.normal_estimate = p.on->plane->normal_estimate();
+    for (double& x : out.normal_estimate) x /= 2;
     out.center_estimate = p.on->center->estimate();
     out.unbounded = p.blocker < 0;
     outline(p, out);

@@ -33,8 +33,7 @@ class PlacesBeside {
   static constexpr int kDoubles = 3, kLevels = 2 * kDoubles;
 
   PlacesBeside(const LocalScene& scene, std::uint32_t t) : plane_(scene.planes[t]), corners_(corners_of(scene, t)) {
-    const Vec3<Interval>& n = plane_.normal_approximate();
-    up_ = {n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
+    up_ = plane_.normal_estimate();
     up_size_ = length_estimate(up_);
     for (std::size_t i = 0; i < 3; ++i) at_[i] = corners_[i]->estimate();
     for (std::size_t k = 0; k < 3; ++k) {

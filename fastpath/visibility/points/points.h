@@ -86,6 +86,9 @@ class Plane {
   }
 
   const Vec3<Interval>& normal_approximate() const { return normal_; }
+  Point normal_estimate() const {  // twice the middle of it: for directions
+    return {normal_.x.inf() + normal_.x.sup(), normal_.y.inf() + normal_.y.sup(), normal_.z.inf() + normal_.z.sup()};
+  }
   const Exact3& normal_exact() const;
   const Integer3& normal_direction() const;  // a positive multiple of it, in whole numbers (integers.cpp)
   const ExactPoint& base() const { return *a_; }

@@ -14,11 +14,6 @@ namespace {
 
 double length(const Point& v) { return length_estimate(v); }
 
-Point normal_estimate(const Plane& h) {
-  const Vec3<Interval>& n = h.normal_approximate();
-  return {n.x.inf() + n.x.sup(), n.y.inf() + n.y.sup(), n.z.inf() + n.z.sup()};
-}
-
 // How far off the plane, as a part of the step `to` across the edge: so little that sight lines come through the plane by a quarter of the step beside
 // the place, most of them, if V is thin above it, and that the place is no more than half of the way to the other supporting plane.
 double lift_for(const LocalScene& scene, const ContourEdge& c, const Point& y, const Point& to, const Point& up) {
@@ -31,7 +26,7 @@ double lift_for(const LocalScene& scene, const ContourEdge& c, const Point& y, c
   }
   double lift = 4 * kMost * (height / away);
   if (c.other) {
-    const Point normal = normal_estimate(*c.other);
+    const Point normal = c.other->normal_estimate();
     const double up_to_other = -(dot_of(normal, to) / length(to)) / (dot_of(normal, up) / length(up));
     if (up_to_other > 0) lift = std::min(lift, up_to_other / 2);
   }
@@ -49,7 +44,7 @@ std::optional<ExactPoint> beside_edge(const LocalScene& scene, const PieceSet& s
   Point to = minus(touching.estimate(), y);  // across the edge
   const double shift = -dot_of(to, along) / dot_of(along, along);
   for (std::size_t k = 0; k < 3; ++k) to[k] += shift * along[k];
-  const Point up = normal_estimate(*c.plane);
+  const Point up = c.plane->normal_estimate();
   const double size = std::min(length(to), length(minus(part.hi->estimate(), part.lo->estimate())));
   const double lift = lift_for(scene, c, y, to, up);
   constexpr int kDoubles = 4;
