@@ -41,6 +41,8 @@ Point area_vector(const Polygon& polygon) {
   return sum;
 }
 
+double area_of(const Polygon& polygon) { return length(area_vector(polygon)); }
+
 // The plane through the point, with `inside` below it.
 Plane plane_at(const Point& direction, const Point& through, const Point& inside) {
   const double scale = length(direction);
@@ -92,7 +94,7 @@ Polygon part_of(const Polygon& polygon, const Plane& plane, bool below) {
 
 // A square of the side covered_gap.
 bool is_worth_keeping(const Polygon& polygon) {
-  return polygon.size() >= 3 && length(area_vector(polygon)) > covered_gap * covered_gap;
+  return polygon.size() >= 3 && area_of(polygon) > covered_gap * covered_gap;
 }
 
 // Takes the convex region out of the pieces.
@@ -138,6 +140,7 @@ class Covers {
   }
 
   bool cover(std::size_t hull, const Polygon& face) const {
+    const double all = area_of(face);
     const Plane plane = plane_at(area_vector(face), face[0], middles_[hull]);
     // Where somebody would stand who looks at the side.
     std::vector<Polygon> pieces{face};
@@ -154,7 +157,9 @@ class Covers {
     each_in(hull_tree_, box, pieces, [&](std::size_t i) {
       if (i != hull) cut_away(pieces, solids_[i]);
     });
-    return pieces.empty();
+    double open = 0;
+    for (const auto& piece : pieces) open += area_of(piece);
+    return open <= std::min(open_area, open_share * all);
   }
 
  private:

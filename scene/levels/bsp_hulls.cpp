@@ -13,6 +13,10 @@
 namespace clues::scene {
 namespace {
 
+// Corners that are no doubles are multiples of this power of 1/2. That is far below what compilers move drawn vertices by, and
+// far above what planes in floats are off: a corner an ulp behind a drawing makes every sign between the two a hard one.
+constexpr int corner_grid = 6;
+
 // Rounded, with a wide margin and one for the rounding (below 2^-51 of the terms): who is within comes to the exact test.
 bool may_be_near(const BspFile::Plane& plane, const Point& p) {
   double height = -plane.distance, terms = std::abs(plane.distance);
@@ -126,7 +130,7 @@ Hull hull_of_brush(const BspFile& level, const BspFile::Brush& brush, const Poly
     solid = solid_of(sides, bounds);
   }
   if (!solid) return {};
-  const auto corners = inner_vertices(*solid);
+  const auto corners = inner_vertices(*solid, corner_grid);
   if (!corners) return {};
   Hull hull;
   for (const auto& face : solid->faces) {

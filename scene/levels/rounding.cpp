@@ -42,11 +42,10 @@ Bounds box_around(const RationalPoint& p, int units = 1) {
   return box;
 }
 
-// Which points are in none of the half spaces of the faces at a vertex but on their planes.
-using IsBeyond = std::function<bool(const Point&)>;
+using IsWanted = std::function<bool(const Point&)>;
 
-// The nearest point to p on the grid of multiples of 2^-exponent, a few steps around it, that is beyond. Coordinates that are doubles stay.
-std::optional<Point> on_grid_beyond(const RationalPoint& p, int exponent, const IsBeyond& is_beyond) {
+// The nearest point to p on the grid of multiples of 2^-exponent, a few steps around it, that is wanted. Coordinates that are doubles stay.
+std::optional<Point> on_grid(const RationalPoint& p, int exponent, const IsWanted& is_wanted) {
   constexpr int around = 3;
   struct Place {
     double at, off_squared;
@@ -75,16 +74,16 @@ std::optional<Point> on_grid_beyond(const RationalPoint& p, int exponent, const 
   }
   std::sort(candidates.begin(), candidates.end());
   const auto found = std::find_if(candidates.begin(), candidates.end(),
-                                  [&](const auto& candidate) { return is_beyond(candidate.second); });
+                                  [&](const auto& candidate) { return is_wanted(candidate.second); });
   return found == candidates.end() ? std::nullopt : std::optional(found->second);
 }
 
 // The same by units in the last place, away from p in all coordinates that are no doubles.
-std::optional<Point> next_to_it_beyond(const RationalPoint& p, const IsBeyond& is_beyond) {
+std::optional<Point> next_to_it(const RationalPoint& p, const IsWanted& is_wanted) {
   constexpr int most_units = 64;
   for (int units = 1; units <= most_units; units *= 2) {
     for (const Point& corner : corners_of(box_around(p, units))) {
-      if (is_beyond(corner)) return corner;
+      if (is_wanted(corner)) return corner;
     }
   }
   return std::nullopt;
@@ -100,14 +99,15 @@ std::vector<Point> points_beyond(const Polytope& polytope, std::optional<int> ex
   }
   std::set<Point> points;
   for (std::size_t v = 0; v < polytope.vertices.size(); ++v) {
+    // In none of the half spaces of the faces at it, but on their planes.
     const auto is_beyond = [&](const Point& p) {
       const auto exact = to_rational(p);
       return std::all_of(faces_at[v].begin(), faces_at[v].end(),
                          [&](const HalfSpace* face) { return sgn(face->height(exact)) >= 0; });
     };
     std::optional<Point> found;
-    if (exponent) found = on_grid_beyond(polytope.vertices[v], *exponent, is_beyond);
-    if (!found) found = next_to_it_beyond(polytope.vertices[v], is_beyond);
+    if (exponent) found = on_grid(polytope.vertices[v], *exponent, is_beyond);
+    if (!found) found = next_to_it(polytope.vertices[v], is_beyond);
     if (found) {
       points.insert(*found);
     } else {
@@ -202,13 +202,17 @@ bool are_coplanar(const std::vector<Point>& points) {
   return true;
 }
 
-std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope) {
+std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope, std::optional<int> grid) {
   constexpr unsigned finest = 60;  // of the way to the middle, as a power of 1/2
   const RationalPoint center = center_of(polytope);
   std::vector<Point> points;
   for (const auto& v : polytope.vertices) {
     std::optional<Point> found;
-    if (is_double(v)) found = nearest_corner(v);
+    if (is_double(v)) {
+      found = nearest_corner(v);
+    } else if (grid) {
+      found = on_grid(v, *grid, [&](const Point& p) { return polytope.holds(to_rational(p)); });
+    }
     for (const auto& corner : found ? std::vector<Point>{} : corners_of(box_around(v))) {
       if (!found && polytope.holds(to_rational(corner))) found = corner;
     }

@@ -12,8 +12,9 @@
 namespace clues::scene {
 
 // For every vertex of the polytope a double point near it and in the polytope, the vertex itself where it is one. None
-// where no such point is found: a sliver thinner than doubles are dense there. O(vertices * faces).
-std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope);
+// where no such point is found: a sliver thinner than doubles are dense there. `grid`: where such a point is near, one whose
+// coordinates are multiples of 2^-grid, but for those that are doubles in the vertex. O(vertices * faces).
+std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope, std::optional<int> grid = {});
 
 // Distinct points with the polytope in their hull: its vertices where they are doubles, else points with those coordinates of
 // the vertex that are. So a side across an axis, whose offset is a double, bounds them too. O(vertices^4) for up to 24 of them.

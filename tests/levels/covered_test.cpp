@@ -41,9 +41,18 @@ TEST(CoveredSides, OnesThatAreDrawnAllOver) {
   EXPECT_EQ(scene::covered_faces(hulls, drawn_on_top(0, 64, 0, 64, 16))[0], Covered({0, 0, 0, 0, 0, 1}));
   EXPECT_EQ(scene::covered_faces(hulls, drawn_on_top(-8, 99, -8, 99, 16.25))[0], Covered({0, 0, 0, 0, 0, 1}))
       << "near enough";
-  EXPECT_EQ(scene::covered_faces(hulls, drawn_on_top(0, 63, 0, 64, 16))[0], Covered(6)) << "a strip is open";
+  EXPECT_EQ(scene::covered_faces(hulls, drawn_on_top(0, 62, 0, 64, 16))[0], Covered(6)) << "a strip is open";
   EXPECT_EQ(scene::covered_faces(hulls, drawn_on_top(0, 64, 0, 64, 17))[0], Covered(6)) << "one can look in between";
   EXPECT_EQ(scene::covered_faces(hulls, {})[0], Covered(6));
+}
+
+// A slit beside a drawing, or a hole in it.
+TEST(CoveredSides, OnesOfWhichLittleIsOpen) {
+  const std::vector<Hull> large{box({0, 0, 0}, {64, 64, 16})}, small{box({0, 0, 0}, {16, 16, 16})};
+  EXPECT_EQ(scene::covered_faces(large, drawn_on_top(0, 63.5, 0, 64, 16))[0], Covered({0, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(scene::covered_faces(large, drawn_on_top(0, 62.5, 0, 64, 16))[0], Covered(6)) << "96 square units";
+  EXPECT_EQ(scene::covered_faces(small, drawn_on_top(0, 15, 0, 16, 16))[0], Covered({0, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(scene::covered_faces(small, drawn_on_top(0, 14, 0, 16, 16))[0], Covered(6)) << "an eighth of it";
 }
 
 TEST(CoveredSides, OnesThatOtherHullsStandOn) {

@@ -125,7 +125,7 @@ bool hull_reaches(const std::vector<scene::Point>& points, const RationalPoint& 
 }
 
 TEST(RoundedCells, LieWithinAndAround) {
-  int rounded = 0, moved = 0;
+  int rounded = 0, moved = 0, on_grid = 0;
   for (std::uint64_t seed = 0; seed < 120; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 random(seed);
@@ -136,6 +136,23 @@ TEST(RoundedCells, LieWithinAndAround) {
     ASSERT_EQ(inner->size(), made.polytope->vertices.size());
     for (const auto& p : *inner) {
       for (const auto& h : made.half_spaces) ASSERT_TRUE(h.holds(scene::to_rational(p)));
+    }
+    // On a grid, where such a point is near; what is a double stays.
+    const auto coarse = scene::inner_vertices(*made.polytope, 10);
+    ASSERT_TRUE(coarse.has_value());
+    ASSERT_EQ(coarse->size(), inner->size());
+    for (std::size_t i = 0; i < coarse->size(); ++i) {
+      const auto& v = made.polytope->vertices[i];
+      for (const auto& h : made.half_spaces) ASSERT_TRUE(h.holds(scene::to_rational((*coarse)[i])));
+      if (scene::to_rational((*inner)[i]) == v) {
+        EXPECT_EQ((*coarse)[i], (*inner)[i]);
+      }
+      bool short_ones = true;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double x = (*coarse)[i][axis];
+        short_ones = short_ones && (x == v[axis] || std::ldexp(x, 10) == std::floor(std::ldexp(x, 10)));
+      }
+      on_grid += short_ones ? 1 : 0;
     }
     const auto outer = scene::outer_points(*made.polytope);
     rounded += outer.size() == made.polytope->vertices.size() ? 1 : 0;
@@ -160,6 +177,7 @@ TEST(RoundedCells, LieWithinAndAround) {
   }
   EXPECT_GT(rounded, 20);
   EXPECT_GT(moved, 100) << "thirds are no doubles";
+  EXPECT_GT(on_grid, 300);
 }
 
 // Walls lie in the sides of a leaf. An outer cell that reaches through one by a rounding sees what is in the wall: a leaf of a level
