@@ -347,7 +347,7 @@ TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
       for (std::size_t i = 0; i < stages.size(); ++i) {
         using enum fastpath::PartStage;
         const bool went_on = second == first + 1 && i > second;
-        EXPECT_EQ(stages[i], i <= first || (went_on && first > 0) ? grown : went_on ? least : all) << i;
+        EXPECT_EQ(stages[i], i <= first ? grown : !went_on ? all : first > 0 ? rest : least) << i;
         if (!went_on) continue;
         const auto& before = first == 0 ? std::vector<std::uint32_t>{} : hulls[first - 1];
         EXPECT_TRUE(std::includes(before.begin(), before.end(), hulls[i].begin(), hulls[i].end())) << i;
@@ -361,6 +361,41 @@ TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
   EXPECT_GT(came_to_an_end, 2U);
 }
 
+// Where all count there is nothing to leave out: after a map is given up, and then that of all, the first part that was is mapped again, as the last stage gets the most effort (engine_part.cpp).
+TEST(Closure, MapsThePartAgainWhereAllCount) {
+  const auto mesh = fuzz::make_city(100, 1);
+  const auto cell = fuzz::street_cell(100, 1);
+  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
+  const auto whole = reference::first_order_visibility(mesh, exact_cell, {}).visible;
+  const auto make_map = reference_parts(exact_cell, PartBug::none);
+  const fastpath::Bvh bvh(mesh);
+  for (std::size_t first = 0; first < 3; ++first) {
+    SCOPED_TRACE(first);
+    std::vector<fastpath::PartStage> stages;
+    std::vector<std::vector<std::uint32_t>> parts;
+    const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids,
+                          fastpath::PartStage stage) {
+      const std::size_t number = parts.size();
+      parts.push_back(ids);
+      stages.push_back(stage);
+      return number == first || number == first + 1 ? nullptr : make_map(part, ids, stage);
+    };
+    exact::Dials dials;
+    dials.sight_rays = 0;
+    dials.batch = 10;
+    const auto closure = fastpath::close_over_visible(bvh, fastpath::Cell(cell), some, 0, dials);
+    ASSERT_GT(parts.size(), first + 2);
+    EXPECT_GT(parts[first + 1].size(), parts[first].size());
+    EXPECT_EQ(parts[first + 2], parts[first]);
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+      using enum fastpath::PartStage;
+      EXPECT_EQ(stages[i], i <= first ? grown : i == first + 1 ? all : first > 0 ? rest : least) << i;
+    }
+    EXPECT_TRUE(closure.unproved.empty());
+    EXPECT_EQ(closure.visible, whole);
+  }
+}
+
 // A part that has grown to much more than the first one gets no more effort for it.
 TEST(Closure, APartThatHasGrownGetsNoMoreEffort) {
   using fastpath::effort_of_part;
@@ -370,6 +405,12 @@ TEST(Closure, APartThatHasGrownGetsNoMoreEffort) {
   EXPECT_EQ(effort_of_part(1000, 1536, 3), 1000U) << "as if the first had 512";
   EXPECT_EQ(effort_of_part(1000, 1U << 30U, 3), 1U) << "not 0, which is without end";
   EXPECT_EQ(effort_of_part(0, 1U << 30U, 3), 0U);
+}
+
+TEST(Closure, TheFirstTryGetsLittleEffort) {
+  EXPECT_EQ(fastpath::effort_of_first_try(500), 31U);
+  EXPECT_EQ(fastpath::effort_of_first_try(15), 1U) << "not 0, which is without end";
+  EXPECT_EQ(fastpath::effort_of_first_try(0), 0U);
 }
 
 // By the engine itself, which gives up when its effort is spent.

@@ -30,7 +30,7 @@ class Closer {
 
   // Whether the part may grow by it. What has left it is dark and never comes back, though a ray that begins beside the cell by a rounding meets it: so each pass has what none had before.
   bool is_new(std::uint32_t triangle) const {
-    return in_part_[triangle] == 0 && proved_.triangles[triangle] == 0 && (all_may_come_ || counts_in_list(triangle));
+    return in_part_[triangle] == 0 && proved_.triangles[triangle] == 0 && (all_may_come() || counts_in_list(triangle));
   }
   // False if it is not.
   bool add(std::uint32_t triangle) {
@@ -50,19 +50,18 @@ class Closer {
   scene::TriangleMesh part_mesh();
   // Tries to prove every triangle outside the part dark; adds what is in the way of that, and drops what light does not touch. False: it stays as it is, and all that count are dark.
   bool add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible);
-  // After a map is given up, the first time: the part of the map before, or, if there is none, of this one, and all that counts. False: it has done so before, or that is too much, or it is this part.
-  bool take_all_that_counts(const Closure& closure);
-  // Back to the part of the map before, or, if there is none, to what counts of the first one; and from now on nothing comes in that does not count. False: it has done so before, or there is a map and all
-  // count, so that the part would grow as it did.
-  bool go_on_with_what_counts(const Closure& closure);
+  // After a map is given up: on to the next stage (closure.h). False: there is none.
+  bool begin_again(const Closure& closure);
   // All triangles outside the part of this closure for which its map gives no proof, ascending; all, if it has none.
   std::vector<std::uint32_t> unproved_by(const Closure& closure);
 
   ClosureCounts counts;
 
  private:
+  bool all_may_come() const { return stage_ == PartStage::grown || stage_ == PartStage::all; }
   bool counts_in_list(std::uint32_t triangle) const { return counting_.empty() || counting_[triangle] != 0; }
   void set_part(std::vector<std::uint32_t> part);
+  bool take_all_that_counts(const Closure& closure);
   bool add_seen(std::uint32_t triangle);  // which a ray has met; as add()
   void add_seen_beside(std::vector<std::uint32_t> triangles);
   // Adds what sight lines to the triangles meet first; else the triangles themselves.
@@ -76,9 +75,8 @@ class Closer {
   SightRays rays_;
   ProvedDark proved_;
   std::vector<std::uint8_t> in_part_, seen_, looked_into_;  // seen by a ray; as a listed triangle that none has seen
-  std::vector<std::uint32_t> part_, first_;
+  std::vector<std::uint32_t> part_, given_up_;              // the latter: the first whose map was
   PartStage stage_ = PartStage::grown;
-  bool all_may_come_ = true;
 };
 
 void Closer::add_all() {
@@ -203,9 +201,22 @@ void Closer::set_part(std::vector<std::uint32_t> part) {
   for (const std::uint32_t t : part_) in_part_[t] = 1;
 }
 
+bool Closer::begin_again(const Closure& closure) {
+  if (stage_ == PartStage::grown) {
+    given_up_ = part_;
+    if (take_all_that_counts(closure)) return true;
+  }
+  if (!all_may_come()) return false;
+  const bool all_count = std::find(counting_.begin(), counting_.end(), 0) == counting_.end();
+  std::vector<std::uint32_t> part = closure.map && !all_count ? closure.part : given_up_;
+  if (!closure.map) std::erase_if(part, [this](std::uint32_t t) { return !counts_in_list(t); });
+  set_part(std::move(part));
+  stage_ = closure.map ? PartStage::rest : PartStage::least;
+  return true;
+}
+
+// The part of the map before, or, if there is none, this one, and all that counts. False: that is too much, or it is this part.
 bool Closer::take_all_that_counts(const Closure& closure) {
-  if (stage_ != PartStage::grown || !all_may_come_) return false;
-  first_ = part_;  // if there is no map yet
   std::size_t missing = 0;
   for (std::uint32_t t = 0; t < in_part_.size(); ++t) missing += counts_in_list(t) && is_new(t) ? 1 : 0;
   if (missing == 0 || missing > kAllForPart * std::max(part_.size(), kLeastAll)) return false;
@@ -214,17 +225,6 @@ bool Closer::take_all_that_counts(const Closure& closure) {
     if (counts_in_list(t)) add(t);
   }
   stage_ = PartStage::all;
-  return true;
-}
-
-bool Closer::go_on_with_what_counts(const Closure& closure) {
-  const bool all_count = std::find(counting_.begin(), counting_.end(), 0) == counting_.end();
-  if (!all_may_come_ || (closure.map && all_count)) return false;
-  std::vector<std::uint32_t> part = closure.map ? closure.part : first_;
-  if (!closure.map) std::erase_if(part, [this](std::uint32_t t) { return !counts_in_list(t); });
-  set_part(std::move(part));
-  stage_ = closure.map ? PartStage::grown : PartStage::least;
-  all_may_come_ = false;
   return true;
 }
 
@@ -285,12 +285,10 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
       result.part = closer.part();
       result.visible.clear();
       for (const std::uint32_t i : result.map->visible()) result.visible.push_back(result.part[i]);
-    } else if (closer.take_all_that_counts(result)) {
-      continue;
-    } else if (!closer.go_on_with_what_counts(result)) {
+    } else if (!closer.begin_again(result)) {
       result.unproved = closer.unproved_by(result);
       break;
-    } else if (!result.map) {
+    } else if (!result.map || closer.part() != result.part) {
       continue;
     }
     grown = result.part.size() < bvh.mesh().triangles.size() && !bvh.nodes().empty() &&

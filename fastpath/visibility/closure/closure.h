@@ -58,8 +58,13 @@ class PartialMap {
   virtual bool piece_may_touch(const Corners& triangle) const = 0;
 };
 
-// How a part came about: from what rays saw, and what came to that; from all that counts, after a map was given up; or from what counts of the first part, where there is no map yet and nothing else left to try.
-enum class PartStage : std::uint8_t { grown, all, least };
+// How a part came about. A map that is given up is made again, of another part, as long as there is a stage left:
+enum class PartStage : std::uint8_t {
+  grown,  // from what rays saw, and what came to that
+  all,    // from all that counts
+  rest,  // from the part of the map before; nothing comes in any more that does not count. Or, where all count, from the part of the map that was given up first
+  least,  // the same where there is no map yet: from what counts of that part
+};
 
 // Makes the map of a part of the scene, for the same cell. `ids` are those of the part's triangles in the scene, ascending. None: it is given up, as it takes too much effort.
 using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(

@@ -27,7 +27,13 @@ struct LocalMapOptions {
   static constexpr std::size_t kCsvsByEffort = 8;
 };
 
-// The same for a part of the scene that has grown out of a first one (closure.h). Where it has grown to much more than that, light leaks into most of the scene,
+// What is given up is made again, of another part (closure.h). In most levels that succeeds, with lists a few hundredths longer; so little is spent before.
+inline constexpr std::uint64_t kFirstTry = 16;
+inline std::uint64_t effort_of_first_try(std::uint64_t effort) {
+  return effort == 0 ? 0 : std::max<std::uint64_t>(1, effort / kFirstTry);
+}
+
+// The same for a part of the scene that has grown out of a first one. Where it has grown to much more than that, light leaks into most of the scene,
 // and hardly any such map comes to an end: a part gets effort for its triangles, but for no more than kGrowth times those of the first. (Not one that began with all that counts: little leaks from that.)
 inline constexpr std::uint64_t kGrowth = 3;
 inline std::uint64_t effort_of_part(std::uint64_t effort, std::uint64_t triangles, std::uint64_t first) {
