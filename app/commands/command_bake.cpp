@@ -40,6 +40,7 @@ using scene::Error;
 using scene::ErrorCode;
 
 constexpr std::uint64_t kEffort = 500;
+constexpr int kTries = 2;  // what effort is: raised when that changes, so that no store has lists of two kinds
 
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;
@@ -64,7 +65,10 @@ std::string question_of(const BakeRequest& request, const BakeCells& cells) {
                           {"kernel", request.kernel},
                           {"group", request.group},
                           {"up", std::string(1, up_of(request))}};
-  if (request.kernel == "fast") question["effort"] = request.effort.value_or(kEffort);
+  if (request.kernel == "fast") {
+    question["effort"] = request.effort.value_or(kEffort);
+    question["tries"] = kTries;
+  }
   return question.dump();
 }
 
@@ -276,11 +280,12 @@ void add_bake_command(CLI::App& program, int& status) {
           "  In glTF files and levels some triangles do not block (docs/real-levels.md). The fast kernel lists "
           "those of them that it\n"
           "  cannot prove to be hidden.\n"
-          "  Most maps take an effort of 5 to 100, and some had no end in minutes. Such a map is given up. Then the "
-          "cell is mapped\n"
-          "  in all that counts, or with fewer hulls of brushes; where that takes too much, too, what the map before "
-          "does not prove\n"
-          "  to be hidden is listed. That is sound, and lists are longer; what is listed without a proof counts as a "
+          "  Most maps take an effort of 5 to 100, and some had no end in minutes. A map is given up at a sixteenth of "
+          "--effort. Then\n"
+          "  the cell is mapped in all that counts, with all of the effort, or with fewer hulls of brushes; where that "
+          "takes too much,\n"
+          "  too, what the map before does not prove to be hidden is listed. That is sound, and lists are longer; what "
+          "is listed without a proof counts as a "
           "fallback.\n\n") +
       bake_cells_help +
       "\n\nEXAMPLES\n"

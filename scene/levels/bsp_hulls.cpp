@@ -13,8 +13,8 @@
 namespace clues::scene {
 namespace {
 
-// Corners that are no doubles are multiples of this power of 1/2. That is far below what compilers move drawn vertices by, and
-// far above what planes in floats are off: a corner an ulp behind a drawing makes every sign between the two a hard one.
+// Coordinates of corners that are no doubles are multiples of this power of 1/2, where such a corner lies in the brush within
+// three steps. That is below what compilers move drawn vertices by, and far above what planes in floats are off: a corner an ulp behind a drawing makes every sign between the two a hard one.
 constexpr int corner_grid = 6;
 
 // Rounded, with a wide margin and one for the rounding (below 2^-51 of the terms): who is within comes to the exact test.

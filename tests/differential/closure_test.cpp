@@ -361,7 +361,7 @@ TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
   EXPECT_GT(came_to_an_end, 2U);
 }
 
-// Where all count there is nothing to leave out: after a map is given up, and then that of all, the first part that was is mapped again, as the last stage gets the most effort (engine_part.cpp).
+// Where all count there is nothing to leave out: after a map is given up, and then that of all, the first part that was is mapped again, as first tries get little effort (engine_part.cpp).
 TEST(Closure, MapsThePartAgainWhereAllCount) {
   const auto mesh = fuzz::make_city(100, 1);
   const auto cell = fuzz::street_cell(100, 1);
@@ -405,6 +405,34 @@ TEST(Closure, APartThatHasGrownGetsNoMoreEffort) {
   EXPECT_EQ(effort_of_part(1000, 1536, 3), 1000U) << "as if the first had 512";
   EXPECT_EQ(effort_of_part(1000, 1U << 30U, 3), 1U) << "not 0, which is without end";
   EXPECT_EQ(effort_of_part(0, 1U << 30U, 3), 0U);
+}
+
+// Nothing is missing: the same part is mapped again, with what that stage is allowed; and after that, where there is no map, with D17's limit.
+TEST(Closure, MapsTheSamePartAgainWhereNothingIsMissing) {
+  const auto mesh = fuzz::make_city(100, 1);
+  const auto cell = fuzz::street_cell(100, 1);
+  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
+  const auto make_map = reference_parts(exact_cell, PartBug::none);
+  const fastpath::Bvh bvh(mesh);
+  using enum fastpath::PartStage;
+  for (std::size_t given_up = 0; given_up < 4; ++given_up) {
+    SCOPED_TRACE(given_up);
+    std::vector<fastpath::PartStage> stages;
+    const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids,
+                          fastpath::PartStage stage) {
+      EXPECT_EQ(ids.size(), mesh.triangles.size());
+      stages.push_back(stage);
+      return stages.size() <= given_up ? nullptr : make_map(part, ids, stage);
+    };
+    exact::Dials dials;
+    dials.first_guess = exact::Dials::FirstGuess::everything;
+    const auto closure = fastpath::close_over_visible(bvh, fastpath::Cell(cell), some, 0, dials);
+    const std::vector<fastpath::PartStage> all{grown, again, least};
+    EXPECT_EQ(stages,
+              std::vector<fastpath::PartStage>(
+                  all.begin(), all.begin() + std::min<std::ptrdiff_t>(3, static_cast<std::ptrdiff_t>(given_up) + 1)));
+    EXPECT_EQ(closure.unproved.size(), given_up < 3 ? 0 : mesh.triangles.size());
+  }
 }
 
 TEST(Closure, TheFirstTryGetsLittleEffort) {

@@ -1,4 +1,4 @@
-// Which sides of hulls are left out. Every one may be; what is tested is that the lists do not grow: what is open stays.
+// Which sides of hulls are left out. Every one may be; what is tested is that lists hardly grow: what is open, but for a little, stays.
 #include "scene/levels/bsp_covered.h"
 
 #include <gtest/gtest.h>

@@ -28,7 +28,7 @@ class Closer {
         seen_(in_part_.size(), 0),
         looked_into_(in_part_.size(), 0) {}
 
-  // Whether the part may grow by it. What has left it is dark and never comes back, though a ray that begins beside the cell by a rounding meets it: so each pass has what none had before.
+  // Whether the part may grow by it. What has left it is dark and never comes back, though a ray that begins beside the cell by a rounding meets it: so each pass has what none had before, but for the first one of a stage.
   bool is_new(std::uint32_t triangle) const {
     return in_part_[triangle] == 0 && proved_.triangles[triangle] == 0 && (all_may_come() || counts_in_list(triangle));
   }
@@ -58,7 +58,7 @@ class Closer {
   ClosureCounts counts;
 
  private:
-  bool all_may_come() const { return stage_ == PartStage::grown || stage_ == PartStage::all; }
+  bool all_may_come() const { return stage_ != PartStage::rest && stage_ != PartStage::least; }
   bool counts_in_list(std::uint32_t triangle) const { return counting_.empty() || counting_[triangle] != 0; }
   void set_part(std::vector<std::uint32_t> part);
   bool take_all_that_counts(const Closure& closure);
@@ -204,10 +204,11 @@ void Closer::set_part(std::vector<std::uint32_t> part) {
 bool Closer::begin_again(const Closure& closure) {
   if (stage_ == PartStage::grown) {
     given_up_ = part_;
-    if (take_all_that_counts(closure)) return true;
+    if (!take_all_that_counts(closure)) stage_ = PartStage::again;
+    return true;
   }
-  if (!all_may_come()) return false;
   const bool all_count = std::find(counting_.begin(), counting_.end(), 0) == counting_.end();
+  if (!all_may_come() || (stage_ == PartStage::again && closure.map && all_count)) return false;
   std::vector<std::uint32_t> part = closure.map && !all_count ? closure.part : given_up_;
   if (!closure.map) std::erase_if(part, [this](std::uint32_t t) { return !counts_in_list(t); });
   set_part(std::move(part));

@@ -62,6 +62,7 @@ class PartialMap {
 enum class PartStage : std::uint8_t {
   grown,  // from what rays saw, and what came to that
   all,    // from all that counts
+  again,  // in place of that, the same part as before, where that is much more or nothing more
   rest,  // from the part of the map before; nothing comes in any more that does not count. Or, where all count, from the part of the map that was given up first
   least,  // the same where there is no map yet: from what counts of that part
 };

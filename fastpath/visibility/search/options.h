@@ -27,7 +27,7 @@ struct LocalMapOptions {
   static constexpr std::size_t kCsvsByEffort = 8;
 };
 
-// What is given up is made again, of another part (closure.h). In most levels that succeeds, with lists a few hundredths longer; so little is spent before.
+// What is given up is made again, most often of another part (closure.h, engine_part.cpp). In most levels that succeeds, with lists a few hundredths longer; so little is spent before.
 inline constexpr std::uint64_t kFirstTry = 16;
 inline std::uint64_t effort_of_first_try(std::uint64_t effort) {
   return effort == 0 ? 0 : std::max<std::uint64_t>(1, effort / kFirstTry);
