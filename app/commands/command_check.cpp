@@ -60,8 +60,8 @@ struct SceneAndList {
 };
 
 // A level is judged with all sides of its hulls, since to leave out what blocks would accuse lists of what only cracks
-// and small holes show. The lists of `clues map` are of the scene without the covered sides; drawn triangles have the same ids in both,
-// and no others count.
+// and small holes show. The lists of `clues map` are of the scene without the covered sides; drawn triangles have the
+// same ids in both, and no others count.
 SceneAndList read_what_is_judged(const CheckRequest& request, const std::vector<scene::Point>& cell) {
   const auto list_for = [&](const scene::FlaggedMesh& scene) {
     return scene::read_pvs(

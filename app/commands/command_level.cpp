@@ -42,29 +42,28 @@ std::vector<Row> rows_of(const scene::BspFile& level, const scene::LevelScene& s
     no_outer += cell.outer.empty() ? 1 : 0;
     points = std::max<std::uint64_t>(points, cell.outer.size());
   }
-  return {
-      {"planar_faces", "planar faces drawn", scene.planar},
-      {"opaque_faces", "  of these opaque, so that they block", scene.opaque},
-      {"patches", "Bezier patches drawn", scene.patches},
-      {"meshes", "meshes drawn", scene.meshes},
-      {"billboards", "billboards, left out", scene.billboards},
-      {"undrawn_faces", "faces that are not drawn, left out", scene.undrawn},
-      {"moving_faces", "faces of what moves, left out", scene.moving},
-      {"brushes", "brushes", level.brushes.size()},
-      {"hulls", "  structural ones with a hull that blocks", scene.hulls},
-      {"hull_sides", "    sides of these", scene.hull_sides},
-      {"covered_sides", "    covered by drawings and by other hulls, but for a little, left out", scene.covered_sides},
-      {"thin_brushes", "  structural ones of which nothing is left", scene.thin_brushes},
-      {"triangles", "triangles", total},
-      {"counting_triangles", "  that count", counting},
-      {"blocking_triangles", "  that block", blocking},
-      {"leaves", "leaves of the tree", level.leaves_of_tree.size()},
-      {"clusters", "clusters", level.visibility.clusters},
-      {"visibility_bytes", "bytes of visibility (0: all is visible)", level.visibility.bits.size()},
-      {"cells", "cells: leaves with a cluster", cells.size()},
-      {"cells_without_inner", "  without an inner cell: slivers", no_inner},
-      {"cells_without_outer", "  without interior", no_outer},
-      {"most_points_of_cell", "  points of an outer cell, at most", points}};
+  return {{"planar_faces", "planar faces drawn", scene.planar},
+          {"opaque_faces", "  of these opaque, so that they block", scene.opaque},
+          {"patches", "Bezier patches drawn", scene.patches},
+          {"meshes", "meshes drawn", scene.meshes},
+          {"billboards", "billboards, left out", scene.billboards},
+          {"undrawn_faces", "faces that are not drawn, left out", scene.undrawn},
+          {"moving_faces", "faces of what moves, left out", scene.moving},
+          {"brushes", "brushes", level.brushes.size()},
+          {"hulls", "  structural ones with a hull that blocks", scene.hulls},
+          {"hull_sides", "    sides of these", scene.hull_sides},
+          {"covered_sides", "    covered, but for a little; left out", scene.covered_sides},
+          {"thin_brushes", "  structural ones of which nothing is left", scene.thin_brushes},
+          {"triangles", "triangles", total},
+          {"counting_triangles", "  that count", counting},
+          {"blocking_triangles", "  that block", blocking},
+          {"leaves", "leaves of the tree", level.leaves_of_tree.size()},
+          {"clusters", "clusters", level.visibility.clusters},
+          {"visibility_bytes", "bytes of visibility (0: all is visible)", level.visibility.bits.size()},
+          {"cells", "cells: leaves with a cluster", cells.size()},
+          {"cells_without_inner", "  without an inner cell: slivers", no_inner},
+          {"cells_without_outer", "  without interior", no_outer},
+          {"most_points_of_cell", "  points of an outer cell, at most", points}};
 }
 
 int run_level(const LevelRequest& request) {

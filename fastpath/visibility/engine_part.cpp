@@ -62,9 +62,9 @@ ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, cons
                             PartStage stage) -> std::shared_ptr<const PartialMap> {
     if (!first) first = ids.size();
     LocalMapOptions of_part = options;
-    if (stage == PartStage::grown)
-      of_part.effort = effort_of_part(effort_of_first_try(options.effort), ids.size(), *first);
-    if (stage == PartStage::rest) of_part.effort = effort_of_part(options.effort, ids.size(), *first);
+    if (stage == PartStage::grown) of_part.effort = effort_of_first_try(of_part.effort);
+    if (stage == PartStage::grown || stage == PartStage::rest)
+      of_part.effort = effort_of_part(of_part.effort, ids.size(), *first);
     // A map that leaves out many CSVs is better than none.
     of_part.csvs_by_effort = options.effort > 0 && stage != PartStage::least;
     try {

@@ -36,6 +36,24 @@ const exact::Dials kByProofsAlone = [] {
   return dials;
 }();
 
+// Without rays, which find nearly all at once, there are several maps.
+const exact::Dials kSeveralMaps = [] {
+  exact::Dials dials;
+  dials.sight_rays = 0;
+  dials.batch = 10;
+  return dials;
+}();
+
+// A small city whose maps a test may give up.
+struct SmallCity {
+  scene::TriangleMesh mesh = fuzz::make_city(100, 1);
+  std::vector<scene::Point> cell = fuzz::street_cell(100, 1);
+  exact::ConvexCell exact_cell = exact::ConvexCell::from_doubles(cell);
+  std::vector<std::uint32_t> whole = reference::first_order_visibility(mesh, exact_cell, {}).visible;
+  fastpath::PartialMapMaker make_map = reference_parts(exact_cell, PartBug::none);
+  fastpath::Bvh bvh{mesh};
+};
+
 fastpath::Closure close(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell, PartBug bug,
                         const exact::Dials& dials = {}, const std::vector<std::uint32_t>& guess = {},
                         const std::vector<std::uint8_t>& counting = {}) {
@@ -256,56 +274,44 @@ TEST(Closure, NeedsNoProofOfWhatDoesNotCount) {
 
 // Whichever map is given up: what is visible is listed, as light meets it in the map before or as there is no proof. And what is listed without need is no more than what lacks a proof.
 TEST(Closure, ListsWhatIsVisibleWhereAMapIsGivenUp) {
-  const auto mesh = fuzz::make_city(100, 1);
-  const auto cell = fuzz::street_cell(100, 1);
-  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
-  const auto whole = reference::first_order_visibility(mesh, exact_cell, {}).visible;
-  const auto make_map = reference_parts(exact_cell, PartBug::none);
-  const fastpath::Bvh bvh(mesh);
-  std::size_t listed_before = mesh.triangles.size() + 1, given_up = 0;
+  const SmallCity city;
+  std::size_t listed_before = city.mesh.triangles.size() + 1, given_up = 0;
   for (std::uint64_t most = 0;; ++most) {
     SCOPED_TRACE(most);
     std::uint64_t made = 0;
     const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids,
-                          fastpath::PartStage stage) { return made++ < most ? make_map(part, ids, stage) : nullptr; };
-    // Without rays, which find nearly all at once, there are several maps.
-    exact::Dials dials;
-    dials.sight_rays = 0;
-    dials.batch = 10;
-    const auto closure = fastpath::close_over_visible(bvh, fastpath::Cell(cell), some, 0, dials);
+                          fastpath::PartStage stage) {
+      return made++ < most ? city.make_map(part, ids, stage) : nullptr;
+    };
+    const auto closure = fastpath::close_over_visible(city.bvh, fastpath::Cell(city.cell), some, 0, kSeveralMaps);
     std::vector<std::uint32_t> listed;
     std::set_union(closure.visible.begin(), closure.visible.end(), closure.unproved.begin(), closure.unproved.end(),
                    std::back_inserter(listed));
-    EXPECT_TRUE(std::includes(listed.begin(), listed.end(), whole.begin(), whole.end()));
+    EXPECT_TRUE(std::includes(listed.begin(), listed.end(), city.whole.begin(), city.whole.end()));
     EXPECT_EQ(closure.visible.size() + closure.unproved.size(), listed.size());
     if (most == 0) {
       EXPECT_FALSE(closure.map);
-      EXPECT_EQ(listed.size(), mesh.triangles.size());
+      EXPECT_EQ(listed.size(), city.mesh.triangles.size());
     }
     if (made <= most) {
       EXPECT_TRUE(closure.unproved.empty());
-      EXPECT_EQ(listed, whole);
+      EXPECT_EQ(listed, city.whole);
       break;
     }
     ++given_up;
     EXPECT_LE(listed.size(), listed_before);
     listed_before = listed.size();
   }
-  EXPECT_LT(listed_before, mesh.triangles.size());
+  EXPECT_LT(listed_before, city.mesh.triangles.size());
   EXPECT_GT(given_up, 2);
 }
 
 // After a map is given up the part is all that counts, with what did not count in the map before. After a second one it goes back to that of the map before, or to what counts of the first, and grows again
 // without any more of what does not count. Whichever maps are given up, one, two or three: what counts and is visible is listed, and little else.
 TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
-  const auto mesh = fuzz::make_city(100, 1);
-  const auto cell = fuzz::street_cell(100, 1);
-  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
-  std::vector<std::uint8_t> counting(mesh.triangles.size(), 0);
+  const SmallCity city;
+  std::vector<std::uint8_t> counting(city.mesh.triangles.size(), 0);
   for (std::size_t t = 0; t < counting.size(); t += 2) counting[t] = 1;
-  const auto whole = reference::first_order_visibility(mesh, exact_cell, {}).visible;
-  const auto make_map = reference_parts(exact_cell, PartBug::none);
-  const fastpath::Bvh bvh(mesh);
   const auto counted = [&](const std::vector<std::uint32_t>& ids) {
     return std::count_if(ids.begin(), ids.end(), [&](std::uint32_t t) { return counting[t] != 0; });
   };
@@ -328,16 +334,14 @@ TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
         const std::uint64_t number = made++;
         if (number == first + 1) counting_in_second = static_cast<std::size_t>(counted(ids));
         stages.push_back(stage);
-        return number == first || number == second || number == third ? nullptr : make_map(part, ids, stage);
+        return number == first || number == second || number == third ? nullptr : city.make_map(part, ids, stage);
       };
-      exact::Dials dials;
-      dials.sight_rays = 0;
-      dials.batch = 10;
-      const auto closure = fastpath::close_over_visible(bvh, fastpath::Cell(cell), some, 0, dials, {}, counting);
+      const auto closure =
+          fastpath::close_over_visible(city.bvh, fastpath::Cell(city.cell), some, 0, kSeveralMaps, {}, counting);
       std::vector<std::uint32_t> listed;
       std::set_union(closure.visible.begin(), closure.visible.end(), closure.unproved.begin(), closure.unproved.end(),
                      std::back_inserter(listed));
-      for (const std::uint32_t t : whole)
+      for (const std::uint32_t t : city.whole)
         EXPECT_TRUE(counting[t] == 0 || std::binary_search(listed.begin(), listed.end(), t)) << t;
       ended = made <= first;
       if (ended) break;
@@ -355,7 +359,7 @@ TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
       if (made > third) continue;
       ++came_to_an_end;
       EXPECT_TRUE(closure.unproved.empty());
-      EXPECT_LT(counted(listed), counted(whole) + counted(whole) / 4 + 8);
+      EXPECT_LT(counted(listed), counted(city.whole) + counted(city.whole) / 4 + 8);
     }
   }
   EXPECT_GT(came_to_an_end, 2U);
@@ -363,12 +367,7 @@ TEST(Closure, GoesOnWithWhatCountsWhereAMapIsGivenUp) {
 
 // Where all count there is nothing to leave out: after a map is given up, and then that of all, the first part that was is mapped again, as first tries get little effort (engine_part.cpp).
 TEST(Closure, MapsThePartAgainWhereAllCount) {
-  const auto mesh = fuzz::make_city(100, 1);
-  const auto cell = fuzz::street_cell(100, 1);
-  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
-  const auto whole = reference::first_order_visibility(mesh, exact_cell, {}).visible;
-  const auto make_map = reference_parts(exact_cell, PartBug::none);
-  const fastpath::Bvh bvh(mesh);
+  const SmallCity city;
   for (std::size_t first = 0; first < 3; ++first) {
     SCOPED_TRACE(first);
     std::vector<fastpath::PartStage> stages;
@@ -378,12 +377,9 @@ TEST(Closure, MapsThePartAgainWhereAllCount) {
       const std::size_t number = parts.size();
       parts.push_back(ids);
       stages.push_back(stage);
-      return number == first || number == first + 1 ? nullptr : make_map(part, ids, stage);
+      return number == first || number == first + 1 ? nullptr : city.make_map(part, ids, stage);
     };
-    exact::Dials dials;
-    dials.sight_rays = 0;
-    dials.batch = 10;
-    const auto closure = fastpath::close_over_visible(bvh, fastpath::Cell(cell), some, 0, dials);
+    const auto closure = fastpath::close_over_visible(city.bvh, fastpath::Cell(city.cell), some, 0, kSeveralMaps);
     ASSERT_GT(parts.size(), first + 2);
     EXPECT_GT(parts[first + 1].size(), parts[first].size());
     EXPECT_EQ(parts[first + 2], parts[first]);
@@ -392,7 +388,7 @@ TEST(Closure, MapsThePartAgainWhereAllCount) {
       EXPECT_EQ(stages[i], i <= first ? grown : i == first + 1 ? all : first > 0 ? rest : least) << i;
     }
     EXPECT_TRUE(closure.unproved.empty());
-    EXPECT_EQ(closure.visible, whole);
+    EXPECT_EQ(closure.visible, city.whole);
   }
 }
 
@@ -409,29 +405,25 @@ TEST(Closure, APartThatHasGrownGetsNoMoreEffort) {
 
 // Nothing is missing: the same part is mapped again, with what that stage is allowed; and after that, where there is no map, with D17's limit.
 TEST(Closure, MapsTheSamePartAgainWhereNothingIsMissing) {
-  const auto mesh = fuzz::make_city(100, 1);
-  const auto cell = fuzz::street_cell(100, 1);
-  const auto exact_cell = exact::ConvexCell::from_doubles(cell);
-  const auto make_map = reference_parts(exact_cell, PartBug::none);
-  const fastpath::Bvh bvh(mesh);
+  const SmallCity city;
   using enum fastpath::PartStage;
   for (std::size_t given_up = 0; given_up < 4; ++given_up) {
     SCOPED_TRACE(given_up);
     std::vector<fastpath::PartStage> stages;
     const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids,
                           fastpath::PartStage stage) {
-      EXPECT_EQ(ids.size(), mesh.triangles.size());
+      EXPECT_EQ(ids.size(), city.mesh.triangles.size());
       stages.push_back(stage);
-      return stages.size() <= given_up ? nullptr : make_map(part, ids, stage);
+      return stages.size() <= given_up ? nullptr : city.make_map(part, ids, stage);
     };
     exact::Dials dials;
     dials.first_guess = exact::Dials::FirstGuess::everything;
-    const auto closure = fastpath::close_over_visible(bvh, fastpath::Cell(cell), some, 0, dials);
+    const auto closure = fastpath::close_over_visible(city.bvh, fastpath::Cell(city.cell), some, 0, dials);
     const std::vector<fastpath::PartStage> all{grown, again, least};
     EXPECT_EQ(stages,
               std::vector<fastpath::PartStage>(
                   all.begin(), all.begin() + std::min<std::ptrdiff_t>(3, static_cast<std::ptrdiff_t>(given_up) + 1)));
-    EXPECT_EQ(closure.unproved.size(), given_up < 3 ? 0 : mesh.triangles.size());
+    EXPECT_EQ(closure.unproved.size(), given_up < 3 ? 0 : city.mesh.triangles.size());
   }
 }
 

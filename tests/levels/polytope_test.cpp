@@ -146,13 +146,13 @@ TEST(RoundedCells, LieWithinAndAround) {
       for (const auto& h : made.half_spaces) ASSERT_TRUE(h.holds(scene::to_rational((*coarse)[i])));
       if (scene::to_rational((*inner)[i]) == v) {
         EXPECT_EQ((*coarse)[i], (*inner)[i]);
+        continue;
       }
       bool short_ones = true;
       for (std::size_t axis = 0; axis < 3; ++axis) {
         const double x = (*coarse)[i][axis];
         short_ones = short_ones && (x == v[axis] || std::ldexp(x, 10) == std::floor(std::ldexp(x, 10)));
       }
-      if (scene::to_rational((*inner)[i]) == v) continue;
       (short_ones ? on_grid : off_grid) += 1;
     }
     const auto outer = scene::outer_points(*made.polytope);

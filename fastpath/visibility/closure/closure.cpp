@@ -204,7 +204,7 @@ void Closer::set_part(std::vector<std::uint32_t> part) {
 bool Closer::begin_again(const Closure& closure) {
   if (stage_ == PartStage::grown) {
     given_up_ = part_;
-    if (!take_all_that_counts(closure)) stage_ = PartStage::again;
+    stage_ = take_all_that_counts(closure) ? PartStage::all : PartStage::again;
     return true;
   }
   const bool all_count = std::find(counting_.begin(), counting_.end(), 0) == counting_.end();
@@ -225,7 +225,6 @@ bool Closer::take_all_that_counts(const Closure& closure) {
   for (std::uint32_t t = 0; t < in_part_.size(); ++t) {
     if (counts_in_list(t)) add(t);
   }
-  stage_ = PartStage::all;
   return true;
 }
 
