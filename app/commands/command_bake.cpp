@@ -40,7 +40,7 @@ using scene::Error;
 using scene::ErrorCode;
 
 constexpr std::uint64_t kEffort = 500;
-constexpr int kTries = 2;  // what effort is: raised when that changes, so that no store has lists of two kinds
+constexpr int kTries = 3;  // what effort is: raised when that changes, so that no store has lists of two kinds
 
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;
@@ -282,7 +282,8 @@ void add_bake_command(CLI::App& program, int& status) {
           "  cannot prove to be hidden.\n"
           "  Most maps take an effort of 5 to 100, and some had no end in minutes. A map is given up at a sixteenth of "
           "--effort. Then\n"
-          "  the cell is mapped in all that counts, with all of the effort, or with fewer hulls of brushes; where that "
+          "  the cell is mapped in all that counts, with two fifths of the effort, or with fewer hulls of brushes; "
+          "where that "
           "takes too much,\n"
           "  too, what the map before does not prove to be hidden is listed. That is sound, and lists are longer; what "
           "is listed\n"

@@ -52,7 +52,7 @@ struct Complex {
 Complex build_complex(const scene::TriangleMesh& mesh, const ConvexCell* cell = nullptr);
 
 // The same of a part of a scene, with what `memory` knows from other parts of it (cut_memory.h), and adds to that. `names` are the
-// ids, ascending and below 2^31, of the part's triangles in the whole scene; the cell is the same each time.
+// ids, ascending and below 2^31, of the part's triangles in the whole scene. Where the cell is another, it has to forget the one before.
 Complex build_complex(const scene::TriangleMesh& part, const ConvexCell* cell, std::span<const std::uint32_t> names,
                       CutMemory& memory);
 

@@ -1,9 +1,13 @@
-// What was found out about contacts and cuts (D16) of a scene, kept for the next part of it: complexes of growing parts of one
-// scene repeat most of each other's work. A complex is the same with and without it.
+// What was found out about contacts and cuts (D16) of a scene, kept for the next part of it, for the same cell or another: complexes of
+// parts of one scene repeat most of each other's work. A complex is the same with and without it.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -11,6 +15,7 @@
 
 namespace clues::exact {
 
+// For one thread at a time, and tasks that only ask. Grows with the pairs of triangles whose boxes meet.
 class CutMemory {
  public:
   // Of a sheet: its first triangle's name in the whole scene, or one of these for a part of the cell's border.
@@ -19,22 +24,79 @@ class CutMemory {
 
   // The contact of two sheets that need a cut, without points where they need none; nullptr: not known.
   const Contact* contact(Name a, Name b) const {
-    const auto it = contacts_.find({a, b});
-    return it == contacts_.end() ? nullptr : &it->second;
+    const Known& known = of({a, b});
+    const auto it = known.contacts.find(both(a, b));
+    return it == known.contacts.end() ? nullptr : &it->second;
   }
-  void keep(Name a, Name b, const Contact& contact) { contacts_.try_emplace(std::pair{a, b}, contact); }
+  void keep(Name a, Name b, const Contact& contact) { of({a, b}).contacts.try_emplace(both(a, b), contact); }
 
   // Everything that a cut depends on: the sheets of the plane, and for each the sheets that it meets.
   using Situation = std::vector<std::vector<Name>>;
   const std::vector<CutFace>* cut(const Situation& situation) const {
-    const auto it = cuts_.find(situation);
-    return it == cuts_.end() ? nullptr : &it->second;
+    const Known& known = of_situation(situation);
+    const auto it = known.cuts.find(situation);
+    return it == known.cuts.end() ? nullptr : &it->second;
   }
-  void keep(const Situation& situation, const std::vector<CutFace>& faces) { cuts_.try_emplace(situation, faces); }
+  void keep(const Situation& situation, const std::vector<CutFace>& faces) {
+    of_situation(situation).cuts.try_emplace(situation, faces);
+  }
+
+  // Before the first part that is cut for another cell.
+  void forget_cell() { of_cell_ = {}; }
 
  private:
-  std::map<std::pair<Name, Name>, Contact> contacts_;
-  std::map<Situation, std::vector<CutFace>> cuts_;
+  struct Known {
+    std::unordered_map<std::uint64_t, Contact> contacts;
+    std::map<Situation, std::vector<CutFace>> cuts;
+  };
+
+  static std::uint64_t both(Name a, Name b) { return std::uint64_t{a} << 32U | b; }
+  static bool has_border(const std::vector<Name>& names) {
+    return std::any_of(names.begin(), names.end(), [](Name n) { return n >= kBorder; });
+  }
+  const Known& of(std::initializer_list<Name> names) const { return std::max(names) >= kBorder ? of_cell_ : of_scene_; }
+  Known& of(std::initializer_list<Name> names) { return std::max(names) >= kBorder ? of_cell_ : of_scene_; }
+  const Known& of_situation(const Situation& s) const {
+    return std::any_of(s.begin(), s.end(), has_border) ? of_cell_ : of_scene_;
+  }
+  Known& of_situation(const Situation& s) { return std::any_of(s.begin(), s.end(), has_border) ? of_cell_ : of_scene_; }
+
+  Known of_scene_, of_cell_;
+};
+
+// The memories of a scene whose cells are asked about one after the other, and by several threads at once: each is lent to one.
+class CutMemories {
+ public:
+  // A memory without a cell, until the end of this.
+  class Loan {
+   public:
+    explicit Loan(CutMemories& from) : from_(from), memory_(from.take()) {}
+    ~Loan() { from_.give_back(std::move(memory_)); }
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+    CutMemory& memory() { return *memory_; }
+
+   private:
+    CutMemories& from_;
+    std::unique_ptr<CutMemory> memory_;
+  };
+
+ private:
+  std::unique_ptr<CutMemory> take() {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) return std::make_unique<CutMemory>();
+    auto memory = std::move(idle_.back());
+    idle_.pop_back();
+    return memory;
+  }
+  void give_back(std::unique_ptr<CutMemory> memory) {
+    memory->forget_cell();
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(memory));
+  }
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<CutMemory>> idle_;
 };
 
 }  // namespace clues::exact

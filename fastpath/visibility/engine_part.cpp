@@ -4,8 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "exact/complex/cut_memory.h"
-
 namespace clues::fastpath {
 namespace {
 
@@ -53,16 +51,19 @@ Box outside_of(const Bvh& bvh) {
 }
 
 ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
-                            const Box& outside, std::span<const std::uint32_t> guess,
+                            const Box& outside, exact::CutMemory& memory, std::span<const std::uint32_t> guess,
                             std::span<const std::uint8_t> counting) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
-  exact::CutMemory memory;
   std::optional<std::size_t> first;
   const auto make_map = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids,
                             PartStage stage) -> std::shared_ptr<const PartialMap> {
     if (!first) first = ids.size();
     LocalMapOptions of_part = options;
-    if (stage == PartStage::grown) of_part.effort = effort_of_first_try(of_part.effort);
+    if (stage == PartStage::grown) {
+      of_part.effort = effort_of_first_try(of_part.effort);
+    } else if (stage != PartStage::least) {
+      of_part.effort = effort_of_next_try(of_part.effort);
+    }
     if (stage == PartStage::grown || stage == PartStage::rest)
       of_part.effort = effort_of_part(of_part.effort, ids.size(), *first);
     // A map that leaves out many CSVs is better than none.

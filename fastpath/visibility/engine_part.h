@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "exact/complex/cut_memory.h"
 #include "fastpath/queries/bvh.h"
 #include "fastpath/visibility/closure/closure.h"
 #include "fastpath/visibility/map/local_map.h"
@@ -20,9 +21,9 @@ struct ClosedScene {
 // The box of the scene, widened by far more than what boxes and points of the closure may be off.
 Box outside_of(const Bvh& bvh);
 
-// `outside`: all places that the map will be asked about.
+// `outside`: all places that the map will be asked about. `memory`: of the tree's scene, without a cell.
 ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
-                            const Box& outside, std::span<const std::uint32_t> guess = {},
+                            const Box& outside, exact::CutMemory& memory, std::span<const std::uint32_t> guess = {},
                             std::span<const std::uint8_t> counting = {});
 
 }  // namespace clues::fastpath

@@ -16,7 +16,8 @@ FirstOrder by_closure(const Bvh& bvh, const std::vector<Point>& cell, const Loca
                       const FirstOrderAsked& asked) {
   LocalMapOptions without_end = options;
   without_end.effort = 0;  // there are regions of a map that is made to its end only
-  ClosedScene closed = close_by_engine(bvh, cell, without_end, outside_of(bvh));
+  exact::CutMemory memory;
+  ClosedScene closed = close_by_engine(bvh, cell, without_end, outside_of(bvh), memory);
   LocalMap map = *closed.map();
   FirstOrder result;
   for (const std::uint32_t t : map.visible()) result.visible.push_back(closed.closure.part[t]);

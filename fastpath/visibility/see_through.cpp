@@ -42,9 +42,10 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
   for (const auto t : guess) {
     if (const auto at = scene.find_blocking(t)) guessed.push_back(*at);
   }
+  exact::CutMemories::Loan cuts(scene.cuts_of_blocking());
   const ClosedScene closed = close_by_engine(scene.blocking(), cell, options,
                                              scene::hull_of(outside_of(scene.blocking()), outside_of(scene.passing())),
-                                             guessed, scene.blocking_that_count());
+                                             cuts.memory(), guessed, scene.blocking_that_count());
   SeeThroughList list;
   const LocalMap* map = closed.map();
   std::vector<std::uint32_t> listed = closed.closure.unproved;

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "exact/complex/cut_memory.h"
 #include "fastpath/queries/bvh.h"
 #include "fastpath/visibility/search/options.h"
 #include "scene/mesh/flagged_mesh.h"
@@ -35,6 +36,8 @@ class SeeThroughScene {
   std::optional<std::uint32_t> find_blocking(std::uint32_t id) const;  // and back
   // For each triangle of the blocking tree whether it counts.
   std::span<const std::uint8_t> blocking_that_count() const { return counting_; }
+  // What is known of how the triangles of that tree cut each other.
+  exact::CutMemories& cuts_of_blocking() const { return cuts_; }
 
  private:
   scene::FlaggedMesh scene_;
@@ -42,6 +45,7 @@ class SeeThroughScene {
   std::vector<std::uint8_t> counting_;
   scene::TriangleMesh blocking_, passing_;
   Bvh blocking_tree_, passing_tree_;
+  mutable exact::CutMemories cuts_;
 };
 
 struct SeeThroughList {

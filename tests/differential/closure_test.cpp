@@ -427,10 +427,30 @@ TEST(Closure, MapsTheSamePartAgainWhereNothingIsMissing) {
   }
 }
 
-TEST(Closure, TheFirstTryGetsLittleEffort) {
+TEST(Closure, TheFirstTriesGetLittleEffort) {
   EXPECT_EQ(fastpath::effort_of_first_try(500), 31U);
   EXPECT_EQ(fastpath::effort_of_first_try(15), 1U) << "not 0, which is without end";
   EXPECT_EQ(fastpath::effort_of_first_try(0), 0U);
+  EXPECT_EQ(fastpath::effort_of_next_try(500), 200U);
+  EXPECT_EQ(fastpath::effort_of_next_try(2), 1U) << "not 0, which is without end";
+  EXPECT_EQ(fastpath::effort_of_next_try(0), 0U);
+}
+
+// What a scene remembers from cell to cell changes nothing.
+TEST(Closure, ASceneThatServesManyCellsAnswersAsAFreshOneDoes) {
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    SCOPED_TRACE(i);
+    scene::FlaggedMesh scene;
+    scene.mesh = fuzz::generate(fuzz::Kind::interpenetrating, 20261128, i).mesh;
+    const fastpath::SeeThroughScene served(scene);
+    for (std::uint64_t k = 0; k < 6; ++k) {
+      const auto cell = fuzz::generate(fuzz::Kind::interpenetrating, 20261128, i + k % 3).cell;
+      const auto list = fastpath::visible_through(served, cell, {});
+      const auto fresh = fastpath::visible_through(fastpath::SeeThroughScene(scene), cell, {});
+      EXPECT_EQ(list.all(), fresh.all()) << k;
+      EXPECT_EQ(list.walks, fresh.walks) << k;
+    }
+  }
 }
 
 // By the engine itself, which gives up when its effort is spent.

@@ -118,9 +118,7 @@ class Search::Work {
     first_fresh = fresh.pieces().size();
     for (std::vector<Job> waiting = light(set.pieces().size()); !waiting.empty();) {
       const std::size_t first = set.pieces().size();
-      std::vector<ValidPiece> batch = build(next_batch(waiting));
-      std::vector<ValidPiece> others = pieces_before.others(batch);
-      spend_effort_on(others, in_doubt() ? LocalMapOptions::kInDoubt : 1);
+      auto [batch, others] = build_within_effort(next_batch(waiting));
       first_fresh = fresh.pieces().size();
       fresh.add(std::move(others));
       set.add(std::move(batch));
@@ -293,6 +291,24 @@ class Search::Work {
     std::vector<ValidPiece> batch;
     for (const auto& list : made) batch.insert(batch.end(), list.begin(), list.end());
     return batch;
+  }
+
+  // The pieces of the jobs, and those of them that were not there in the round before. Effort is spent on these by and by: where light leaks the last batch is far too large.
+  std::pair<std::vector<ValidPiece>, std::vector<ValidPiece>> build_within_effort(const std::vector<Job>& jobs) {
+    constexpr std::size_t kAtOnce = 1024;
+    std::vector<ValidPiece> all, others;
+    for (std::size_t first = 0; first < jobs.size(); first += kAtOnce) {
+      const auto begin = jobs.begin() + static_cast<std::ptrdiff_t>(first);
+      const std::vector<ValidPiece> some =
+          build({begin, begin + static_cast<std::ptrdiff_t>(std::min(kAtOnce, jobs.size() - first))});
+      const std::vector<ValidPiece> others_of_these = pieces_before.others(some);
+      spend_effort_on(others_of_these, !in_doubt()              ? 1
+                                       : options.csvs_by_effort ? LocalMapOptions::kInMuchDoubt
+                                                                : LocalMapOptions::kInDoubt);
+      all.insert(all.end(), some.begin(), some.end());
+      others.insert(others.end(), others_of_these.begin(), others_of_these.end());
+    }
+    return {std::move(all), std::move(others)};
   }
 
   void spend_effort_on(const std::vector<ValidPiece>& pieces, std::uint64_t each) {
