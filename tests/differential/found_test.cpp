@@ -313,7 +313,8 @@ TEST(Found, AProofBesideATriangleAcrossTheWedgesOfACsvThatIsLeftOut) {
   options.dials.batch = 1;
   const fastpath::Bvh bvh(scene.mesh);
   const std::vector<std::uint32_t> guess{0, 1, 2};
-  const auto closed = fastpath::close_by_engine(bvh, scene.cell, options, fastpath::outside_of(bvh), guess);
+  exact::CutMemory memory;
+  const auto closed = fastpath::close_by_engine(bvh, scene.cell, options, fastpath::outside_of(bvh), memory, guess);
   EXPECT_EQ(closed.closure.visible, (std::vector<std::uint32_t>{0, 1, 2, 3}));
 }
 
