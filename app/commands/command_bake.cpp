@@ -280,7 +280,7 @@ void add_bake_command(CLI::App& program, int& status) {
           "  In glTF files and levels some triangles do not block (docs/real-levels.md). The fast kernel lists "
           "those of them that it\n"
           "  cannot prove to be hidden.\n"
-          "  Most maps take an effort of 5 to 100, and some had no end in minutes. A map is given up at a sixteenth of "
+          "  Most maps take an effort of 5 to 50, and some had no end in minutes. A map is given up at a sixteenth of "
           "--effort. Then\n"
           "  the cell is mapped in all that counts, with two fifths of the effort, or with fewer hulls of brushes; "
           "where that "

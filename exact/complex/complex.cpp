@@ -263,7 +263,7 @@ class Builder {
     if (const Contact* known = memory_ ? memory_->contact(a.name, b.name) : nullptr) return *known;
     if (strictly_beside(pool_, a.corners, b.corners) || strictly_beside(pool_, b.corners, a.corners)) return {};
     Contact contact = meet(triangle(a), triangle(b));
-    if (contact.overlap) return contact;
+    if (contact.overlap) return {{}, true};  // where does not matter: the plane is cut along all edges
     // One common corner, or one whole common edge, needs no cut.
     if (static_cast<int>(contact.points.size()) <= common_corners(a.corners, b.corners)) return {};
     for (Point3& p : contact.points) p = collapsed(p);

@@ -15,7 +15,7 @@
 
 namespace clues::exact {
 
-// For one thread at a time, and tasks that only ask. Grows with the pairs of triangles whose boxes meet.
+// For one thread at a time, and tasks that only ask. Grows with the pairs of triangles whose boxes meet, and with what different parts have of the triangles that meet one.
 class CutMemory {
  public:
   // Of a sheet: its first triangle's name in the whole scene, or one of these for a part of the cell's border.
@@ -42,7 +42,11 @@ class CutMemory {
   }
 
   // Before the first part that is cut for another cell.
-  void forget_cell() { of_cell_ = {}; }
+  void forget_cell() {
+    of_cell_ = {};
+    if (of_scene_.cuts.size() > kMostCuts) of_scene_.cuts.clear();
+  }
+  static constexpr std::size_t kMostCuts = 1U << 17U;  // some hundred megabytes
 
  private:
   struct Known {
@@ -84,19 +88,23 @@ class CutMemories {
  private:
   std::unique_ptr<CutMemory> take() {
     const std::lock_guard lock(mutex_);
-    if (idle_.empty()) return std::make_unique<CutMemory>();
+    if (idle_.empty()) {
+      idle_.reserve(++made_);
+      return std::make_unique<CutMemory>();
+    }
     auto memory = std::move(idle_.back());
     idle_.pop_back();
     return memory;
   }
-  void give_back(std::unique_ptr<CutMemory> memory) {
+  void give_back(std::unique_ptr<CutMemory> memory) noexcept {
     memory->forget_cell();
     const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(memory));
+    idle_.push_back(std::move(memory));  // there is room
   }
 
   std::mutex mutex_;
   std::vector<std::unique_ptr<CutMemory>> idle_;
+  std::size_t made_ = 0;
 };
 
 }  // namespace clues::exact

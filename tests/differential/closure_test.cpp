@@ -436,21 +436,45 @@ TEST(Closure, TheFirstTriesGetLittleEffort) {
   EXPECT_EQ(fastpath::effort_of_next_try(0), 0U);
 }
 
-// What a scene remembers from cell to cell changes nothing.
+// What a scene remembers from cell to cell changes nothing: triangles that pierce each other, and cells whose borders cut some.
 TEST(Closure, ASceneThatServesManyCellsAnswersAsAFreshOneDoes) {
-  for (std::uint64_t i = 0; i < 4; ++i) {
-    SCOPED_TRACE(i);
-    scene::FlaggedMesh scene;
-    scene.mesh = fuzz::generate(fuzz::Kind::interpenetrating, 20261128, i).mesh;
-    const fastpath::SeeThroughScene served(scene);
-    for (std::uint64_t k = 0; k < 6; ++k) {
-      const auto cell = fuzz::generate(fuzz::Kind::interpenetrating, 20261128, i + k % 3).cell;
-      const auto list = fastpath::visible_through(served, cell, {});
-      const auto fresh = fastpath::visible_through(fastpath::SeeThroughScene(scene), cell, {});
-      EXPECT_EQ(list.all(), fresh.all()) << k;
-      EXPECT_EQ(list.walks, fresh.walks) << k;
+  scene::FlaggedMesh scene;
+  for (std::uint64_t i = 0; i < 8; ++i) {
+    const scene::TriangleMesh part = fuzz::generate(fuzz::Kind::interpenetrating, 20261128, i).mesh;
+    const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
+    for (scene::Point p : part.points) {
+      p[0] += 40.0 * static_cast<double>(i);
+      scene.mesh.points.push_back(p);
+    }
+    for (const scene::Triangle& t : part.triangles) {
+      scene.mesh.face_of.push_back(static_cast<std::uint32_t>(scene.mesh.triangles.size()));
+      scene.mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     }
   }
+  ASSERT_GT(scene.mesh.triangles.size(), fastpath::kMappedWhole);
+  const fastpath::SeeThroughScene served(scene);
+  fastpath::LocalMapOptions options;
+  options.dials.sight_rays = 0;  // so that there are several maps
+  options.dials.batch = 10;
+  options.effort = 20;
+  std::uint64_t most_passes = 0, least_mapped = scene.mesh.triangles.size();
+  for (int k = 0; k < 3; ++k) {
+    SCOPED_TRACE(k);
+    const double x = 3.0 * k - 5;
+    std::vector<scene::Point> cell;
+    for (int c = 0; c < 8; ++c) cell.push_back({x + 9 * (c & 1), (c & 2) != 0 ? 5.0 : -4.0, (c & 4) != 0 ? 5.0 : -4.0});
+    const auto list = fastpath::visible_through(served, cell, options);
+    const auto fresh = fastpath::visible_through(fastpath::SeeThroughScene(scene), cell, options);
+    EXPECT_EQ(list.all(), fresh.all());
+    EXPECT_EQ(list.walks, fresh.walks);
+    EXPECT_EQ(list.mapped, fresh.mapped);
+    EXPECT_EQ(list.passes, fresh.passes);
+    EXPECT_EQ(list.conservative_fallbacks, fresh.conservative_fallbacks);
+    most_passes = std::max(most_passes, list.passes);
+    least_mapped = std::min(least_mapped, list.mapped);
+  }
+  EXPECT_GT(most_passes, 1U);
+  EXPECT_LT(least_mapped, scene.mesh.triangles.size());
 }
 
 // By the engine itself, which gives up when its effort is spent.

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <string>
 #include <thread>
 
 #include "exact/complex/complex.h"
@@ -46,6 +48,20 @@ Scene scene_of(fuzz::Kind kind, std::uint64_t index) {
     for (scene::Point& p : corners) {
       for (double& x : p) x = random.between(-20, 20);
     }
+    s.cells.push_back(ConvexCell::from_doubles(corners));
+  }
+  // With triangles of the scene as facets, alone and with more in their plane.
+  for (int i = 0; i < 2; ++i) {
+    const auto last = static_cast<int>(s.mesh.triangles.size()) - 1;
+    std::vector<scene::Point> corners;
+    for (const std::uint32_t p : s.mesh.triangles[static_cast<std::size_t>(random.between(0, last))])
+      corners.push_back(s.mesh.points[p]);
+    if (i > 0) {
+      scene::Point beyond{};
+      for (std::size_t k = 0; k < 3; ++k) beyond[k] = corners[0][k] + 2 * (corners[1][k] - corners[0][k]);
+      corners.push_back(beyond);
+    }
+    corners.push_back({random.between(-20, 20) + 0.5, random.between(-20, 20) + 0.5, random.between(-20, 20) + 0.5});
     s.cells.push_back(ConvexCell::from_doubles(corners));
   }
   return s;

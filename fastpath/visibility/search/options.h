@@ -18,18 +18,18 @@ struct LocalMapOptions {
   exact::Dials dials;               // the limits of D17, and what else only tests turn
   // How much effort a map may take for each of its triangles, which count as kLeastTriangles if they are fewer; beyond that EffortSpent is thrown. 0: without end.
   // A wedge piece of generation g that was not there in the round before takes (1 + g)^2 when light makes it, and again when the pieces of the round are joined, as the numbers that decide about it grow with g. If
-  // it comes of what counts as visible for want of a proof, that is kInDoubt times as much, as this light seldom has an end. Most maps take 5 to 50, and 0 to 3 of that in doubt. What is built again from round to round is free.
+  // it comes of what counts as visible for want of a proof, that is kInDoubt or kInMuchDoubt times as much, as this light seldom has an end. Most maps take 5 to 50. What is built again from round to round is free.
   // No time is taken, so it is the same in every run. Only lists honour it (visible_through): regions need a map that was made to its end.
   std::uint64_t effort = 0;
   static constexpr std::uint64_t kLeastTriangles = 512, kInDoubt = 4, kInMuchDoubt = 32;
   // Effort bounds the CSVs, too, and where some are left out light may come from all around them: where this is set the limit of D17 is so many times as large. What is in doubt then costs
-  // kInMuchDoubt, as no CSV that was left out makes it so.
+  // kInMuchDoubt, as hardly any CSV that was left out makes it so.
   bool csvs_by_effort = false;
   static constexpr std::size_t kCsvsByEffort = 8;
 };
 
 // What is given up is made again, most often of another part (closure.h, engine_part.cpp). In most levels that succeeds, with lists a few hundredths longer; so little is spent before. The next
-// try succeeds with a third of the effort, or, with few exceptions, not at all. The last has all of it.
+// try succeeds with a third of the effort, or, with few exceptions, not at all. PartStage::least has all of it.
 inline constexpr double kFirstTry = 1.0 / 16, kNextTry = 2.0 / 5;
 inline std::uint64_t part_of_effort(std::uint64_t effort, double part) {
   return effort == 0 ? 0 : std::max<std::uint64_t>(1, static_cast<std::uint64_t>(static_cast<double>(effort) * part));
