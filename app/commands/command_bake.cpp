@@ -283,11 +283,10 @@ void add_bake_command(CLI::App& program, int& status) {
           "  Most maps take an effort of 5 to 50, and some had no end in minutes. A map is given up at a sixteenth of "
           "--effort. Then\n"
           "  the cell is mapped in all that counts, with two fifths of the effort, or with fewer hulls of brushes; "
-          "where that "
-          "takes too much,\n"
-          "  too, what the map before does not prove to be hidden is listed. That is sound, and lists are longer; what "
-          "is listed\n"
-          "  without a proof counts as a fallback.\n\n") +
+          "where that takes\n"
+          "  too much, too, what the map before does not prove to be hidden is listed. That is sound, and lists are "
+          "longer; what is\n"
+          "  listed without a proof counts as a fallback.\n\n") +
       bake_cells_help +
       "\n\nEXAMPLES\n"
       "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 -o town.bake\n"

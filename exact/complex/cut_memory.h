@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -24,27 +25,29 @@ class CutMemory {
 
   // The contact of two sheets that need a cut, without points where they need none; nullptr: not known.
   const Contact* contact(Name a, Name b) const {
-    const Known& known = of({a, b});
-    const auto it = known.contacts.find(both(a, b));
-    return it == known.contacts.end() ? nullptr : &it->second;
+    const auto& contacts = known_[is_border(a) || is_border(b)].contacts;
+    const auto it = contacts.find(both(a, b));
+    return it == contacts.end() ? nullptr : &it->second;
   }
-  void keep(Name a, Name b, const Contact& contact) { of({a, b}).contacts.try_emplace(both(a, b), contact); }
+  void keep(Name a, Name b, const Contact& contact) {
+    known_[is_border(a) || is_border(b)].contacts.try_emplace(both(a, b), contact);
+  }
 
   // Everything that a cut depends on: the sheets of the plane, and for each the sheets that it meets.
   using Situation = std::vector<std::vector<Name>>;
   const std::vector<CutFace>* cut(const Situation& situation) const {
-    const Known& known = of_situation(situation);
-    const auto it = known.cuts.find(situation);
-    return it == known.cuts.end() ? nullptr : &it->second;
+    const auto& cuts = known_[has_border(situation)].cuts;
+    const auto it = cuts.find(situation);
+    return it == cuts.end() ? nullptr : &it->second;
   }
   void keep(const Situation& situation, const std::vector<CutFace>& faces) {
-    of_situation(situation).cuts.try_emplace(situation, faces);
+    known_[has_border(situation)].cuts.try_emplace(situation, faces);
   }
 
   // Before the first part that is cut for another cell.
   void forget_cell() {
-    of_cell_ = {};
-    if (of_scene_.cuts.size() > kMostCuts) of_scene_.cuts.clear();
+    known_[true] = {};
+    if (known_[false].cuts.size() > kMostCuts) known_[false].cuts.clear();
   }
   static constexpr std::size_t kMostCuts = 1U << 17U;  // some hundred megabytes
 
@@ -55,17 +58,14 @@ class CutMemory {
   };
 
   static std::uint64_t both(Name a, Name b) { return std::uint64_t{a} << 32U | b; }
-  static bool has_border(const std::vector<Name>& names) {
-    return std::any_of(names.begin(), names.end(), [](Name n) { return n >= kBorder; });
+  static bool is_border(Name name) { return name >= kBorder; }
+  static bool has_border(const Situation& s) {
+    return std::any_of(s.begin(), s.end(), [](const std::vector<Name>& names) {
+      return std::any_of(names.begin(), names.end(), is_border);
+    });
   }
-  const Known& of(std::initializer_list<Name> names) const { return std::max(names) >= kBorder ? of_cell_ : of_scene_; }
-  Known& of(std::initializer_list<Name> names) { return std::max(names) >= kBorder ? of_cell_ : of_scene_; }
-  const Known& of_situation(const Situation& s) const {
-    return std::any_of(s.begin(), s.end(), has_border) ? of_cell_ : of_scene_;
-  }
-  Known& of_situation(const Situation& s) { return std::any_of(s.begin(), s.end(), has_border) ? of_cell_ : of_scene_; }
 
-  Known of_scene_, of_cell_;
+  std::array<Known, 2> known_;  // of the scene alone, and with the cell's border
 };
 
 // The memories of a scene whose cells are asked about one after the other, and by several threads at once: each is lent to one.

@@ -302,13 +302,15 @@ class Search::Work {
       const std::vector<ValidPiece> some =
           build({begin, begin + static_cast<std::ptrdiff_t>(std::min(kAtOnce, jobs.size() - first))});
       const std::vector<ValidPiece> others_of_these = pieces_before.others(some);
-      spend_effort_on(others_of_these, !in_doubt()              ? 1
-                                       : options.csvs_by_effort ? LocalMapOptions::kInMuchDoubt
-                                                                : LocalMapOptions::kInDoubt);
+      spend_effort_on(others_of_these, in_doubt() ? cost_in_doubt() : 1);
       all.insert(all.end(), some.begin(), some.end());
       others.insert(others.end(), others_of_these.begin(), others_of_these.end());
     }
     return {std::move(all), std::move(others)};
+  }
+
+  std::uint64_t cost_in_doubt() const {
+    return options.csvs_by_effort ? LocalMapOptions::kInMuchDoubt : LocalMapOptions::kInDoubt;
   }
 
   void spend_effort_on(const std::vector<ValidPiece>& pieces, std::uint64_t each) {
