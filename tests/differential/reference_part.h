@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "exact/cell/convex_cell.h"
+#include "exact/dials.h"
 #include "fastpath/visibility/closure/closure.h"
 
 namespace clues::tests {
@@ -14,5 +15,13 @@ namespace clues::tests {
 enum class PartBug { none, dark_everywhere, wedges_touch_nothing, dark_below, unlit };
 
 fastpath::PartialMapMaker reference_parts(const exact::ConvexCell& cell, PartBug bug = PartBug::none);
+
+// Without rays, which find nearly all at once, there are several maps.
+inline const exact::Dials kSeveralMaps = [] {
+  exact::Dials dials;
+  dials.sight_rays = 0;
+  dials.batch = 10;
+  return dials;
+}();
 
 }  // namespace clues::tests

@@ -11,6 +11,7 @@
 #include "exact/complex/complex.h"
 #include "fuzz/generators/random.h"
 #include "fuzz/generators/random_scenes.h"
+#include "scene/mesh/flagged_mesh.h"
 
 namespace clues::exact {
 namespace {
@@ -42,6 +43,7 @@ Scene scene_of(fuzz::Kind kind, std::uint64_t index) {
     scene::Triangle again = s.mesh.triangles[t];
     if (t % 2 == 0) std::swap(again[1], again[2]);
     s.mesh.triangles.push_back(again);
+    s.mesh.face_of.push_back(static_cast<std::uint32_t>(s.mesh.face_of.size()));
   }
   for (int i = 0; i < 3; ++i) {
     std::vector<scene::Point> corners(5);
@@ -73,14 +75,11 @@ struct Part {
 };
 
 Part random_part(const scene::TriangleMesh& mesh, fuzz::Random& random) {
-  Part part;
-  part.mesh.points = mesh.points;
+  std::vector<std::uint32_t> names;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (random.one_in(3)) continue;
-    part.mesh.triangles.push_back(mesh.triangles[t]);
-    part.names.push_back(t);
+    if (!random.one_in(3)) names.push_back(t);
   }
-  return part;
+  return {scene::part_of(mesh, names), names};
 }
 
 Complex complex_of(const Part& part, const ConvexCell& cell, CutMemory& memory) {
