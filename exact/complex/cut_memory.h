@@ -49,7 +49,7 @@ class CutMemory {
     known_[true] = {};
     if (known_[false].cuts.size() > kMostCuts) known_[false].cuts.clear();
   }
-  static constexpr std::size_t kMostCuts = 1U << 17U;  // some hundred megabytes
+  static constexpr std::size_t kMostCuts = 1U << 17U;  // after a cell, however many there were
 
  private:
   struct Known {
