@@ -24,6 +24,7 @@
 #include "exact/threads.h"
 #include "fastpath/bakes/baker.h"
 #include "fastpath/bakes/cell_groups.h"
+#include "fastpath/solids/find_solids.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/levels/bsp_scene.h"
 #include "scene/mesh_io.h"
@@ -149,7 +150,7 @@ void report(const BakeRequest& request, const Summary& s, const std::string& not
 void require_unspoilt(const BakeRequest& request) {
   if (request.effort && request.kernel != "fast")
     throw Error(ErrorCode::bad_argument,
-                "--effort: the exact kernel gives nothing up; leave it out, or --kernel exact");
+                fmt::format("--effort: only the fast kernel gives maps up; leave it out, or --kernel {}", request.kernel));
   std::vector<const std::string*> inputs{&request.scene, &request.cells};
   for (const auto& file : request.merged) inputs.push_back(&file);
   require_apart({&request.out, &request.json.file(), &request.exported}, inputs);
@@ -159,6 +160,18 @@ void require_unspoilt(const BakeRequest& request) {
   if (fs::equivalent(fs::absolute(request.out).parent_path(), request.exported, ignored))
     throw Error(ErrorCode::bad_argument,
                 request.exported + ": must be empty when " + request.out + " is exported; name another folder");
+}
+
+fastpath::bakes::ListerMaker lister_for(const BakeRequest& request, const scene::FlaggedMesh& scene,
+                                        const std::vector<scene::Hull>& hulls, const scene::BakePlan& plan) {
+  namespace solids = fastpath::solids;
+  if (request.kernel == "exact") return validate::exact_lister();
+  if (request.kernel == "fast") return fastpath::bakes::fast_lister(request.effort.value_or(kEffort));
+  std::vector<std::vector<scene::Point>> cells;
+  for (const auto& cell : plan.cells) cells.push_back(cell.points);
+  auto found = hulls.empty() ? solids::find_solids(scene) : solids::solids_of(hulls);
+  return fastpath::bakes::solid_lister(
+      std::make_shared<const solids::Solids>(std::move(found), solids::bounds_of_questions(scene, cells)));
 }
 
 int run_bake(const BakeRequest& request) {
@@ -173,14 +186,20 @@ int run_bake(const BakeRequest& request) {
   }
   std::optional<scene::BspFile> level;
   scene::FlaggedMesh scene;
+  std::vector<scene::Hull> hulls;  // of a level
   const auto sha256 = sha256_around(request.scene, [&] {
     level = scene::read_level(request.scene);
-    scene = level ? scene::scene_of_level(*level).scene : scene::read_scene(request.scene);
+    if (!level) {
+      scene = scene::read_scene(request.scene);
+      return;
+    }
+    auto of_level = scene::scene_of_level(*level);
+    scene = std::move(of_level.scene);
+    hulls = std::move(of_level.solids);
   });
   const auto plan =
       plan_of(request, sha256, scene, parse_bake_cells(request.cells, request.scene, scene, level, up_of(request)));
-  const auto make_lister = request.kernel == "fast" ? fastpath::bakes::fast_lister(request.effort.value_or(kEffort))
-                                                    : validate::exact_lister();
+  const auto make_lister = lister_for(request, scene, hulls, plan);
   const int threads = cluster.threads(request.threads);
   if (!cluster.leads()) {
     serve_bake(cluster, threads, scene, plan, make_lister, *question);
@@ -238,8 +257,8 @@ void add_bake_command(CLI::App& program, int& status) {
   command->add_option("-o,--out", request->out, "The store, one file; where it is there already, the bake goes on")
       ->type_name("FILE.bake")
       ->required();
-  command->add_option("--kernel", request->kernel, "fast, or exact for small scenes")
-      ->check(CLI::IsMember({"fast", "exact"}))
+  command->add_option("--kernel", request->kernel, "fast; solids, which is rough and quick; or exact for small scenes")
+      ->check(CLI::IsMember({"fast", "solids", "exact"}))
       ->capture_default_str();
   command
       ->add_option("--group", request->group,

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "exact/threads.h"
+#include "fastpath/solids/shafts.h"
 #include "fastpath/visibility/see_through.h"
 
 namespace clues::fastpath::bakes {
@@ -35,6 +36,22 @@ class FastLister : public CellLister {
  private:
   fastpath::SeeThroughScene scene_;
   LocalMapOptions options_;
+};
+
+class SolidLister : public CellLister {
+ public:
+  SolidLister(std::shared_ptr<const solids::Solids> solids, scene::FlaggedMesh scene)
+      : solids_(std::move(solids)), targets_(std::move(scene)) {}
+  CellList list(const std::vector<scene::Point>& cell, std::span<const std::uint32_t> /*guess*/) const override {
+    CellList out;
+    out.visible = solids::not_hidden(*solids_, targets_, cell);
+    out.fallbacks = static_cast<std::int64_t>(out.visible.size());
+    return out;
+  }
+
+ private:
+  std::shared_ptr<const solids::Solids> solids_;
+  solids::Targets targets_;
 };
 
 // A scene to map in, with the ids that its triangles have in the whole.
@@ -245,6 +262,12 @@ std::vector<BakePiece> pieces_of(const scene::BakePlan& plan) {
   }
   for (const auto cell : below[0].cells) pieces.push_back({PlaceKind::cell, cell, {}, {cell}});
   return pieces;
+}
+
+ListerMaker solid_lister(std::shared_ptr<const solids::Solids> solids) {
+  return [solids = std::move(solids)](scene::FlaggedMesh scene) {
+    return std::make_unique<SolidLister>(solids, std::move(scene));
+  };
 }
 
 ListerMaker fast_lister(std::uint64_t effort) {

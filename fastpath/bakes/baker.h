@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "fastpath/solids/solids.h"
 #include "scene/bakes/bake_store.h"
 #include "scene/mesh/flagged_mesh.h"
 
@@ -33,6 +34,9 @@ using ListerMaker = std::function<std::unique_ptr<CellLister>(scene::FlaggedMesh
 
 // `effort`: LocalMapOptions.
 ListerMaker fast_lister(std::uint64_t effort);
+
+// What these do not hide (T15); only triangles that count are listed, and each as a fallback.
+ListerMaker solid_lister(std::shared_ptr<const solids::Solids> solids);
 
 // Called after each commit with how many cells are done.
 using BakeProgress = std::function<void(std::uint64_t cells)>;

@@ -50,6 +50,7 @@ class SceneBuilder {
     const Polytope bounds = bounds_of_brushes(level_);
     for (std::uint32_t i = 0; i < world.brushes.count; ++i) find_hull(world.brushes.first + i, bounds);
     add_hulls();
+    out_.solids = std::move(hulls_);
     out_.scene = builder_.take();
     return std::move(out_);
   }

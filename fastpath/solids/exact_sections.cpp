@@ -1,0 +1,256 @@
+#include "fastpath/solids/exact_sections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace clues::fastpath::solids {
+namespace {
+
+constexpr double kBriefUnit = 0x1p6, kBriefMost = 0x1p17;
+
+bool is_brief(double x) { return std::fabs(x) < kBriefMost && x * kBriefUnit == std::nearbyint(x * kBriefUnit); }
+
+ExactSpot spot(double x, double y) {
+  ExactSpot s{x, y, is_brief(x) && is_brief(y), {}, {}};
+  if (!s.brief) {
+    s.exact_x = x;
+    s.exact_y = y;
+  }
+  return s;
+}
+
+ExactSpot spot(mpq_class x, mpq_class y) {
+  const double near_x = x.get_d(), near_y = y.get_d();
+  if (is_brief(near_x) && is_brief(near_y) && x == near_x && y == near_y) return spot(near_x, near_y);
+  return {near_x, near_y, false, std::move(x), std::move(y)};
+}
+
+mpq_class exact(double near, const mpq_class& value, bool brief) { return brief ? mpq_class(near) : value; }
+mpq_class x_of(const ExactSpot& s) { return exact(s.x, s.exact_x, s.brief); }
+mpq_class y_of(const ExactSpot& s) { return exact(s.y, s.exact_y, s.brief); }
+
+mpq_class exact_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
+  const mpq_class ax = x_of(a), ay = y_of(a);
+  return (x_of(b) - ax) * (y_of(c) - ay) - (y_of(b) - ay) * (x_of(c) - ax);
+}
+
+// Twice the area of abc, and how wrong that may be.
+struct Turn {
+  double value = 0, error = 0;
+};
+
+Turn turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
+  const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
+  Turn t{bx * cy - by * cx, 0};
+  if (a.brief && b.brief && c.brief) return t;
+  // Each coordinate is off by less than 2^-51 of the largest, a difference by less than 2^-49 of it; products and their difference add 2^-50 of the products.
+  const double largest =
+      std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y), std::fabs(c.x), std::fabs(c.y)});
+  const double lengths = std::fabs(bx) + std::fabs(by) + std::fabs(cx) + std::fabs(cy);
+  t.error = 0x1p-47 * largest * (lengths + 0x1p-47 * largest);
+  return t;
+}
+
+int sign_of_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
+  const Turn t = turn(a, b, c);
+  if (t.value > t.error) return 1;
+  if (t.value < -t.error) return -1;
+  return t.error == 0 ? 0 : sgn(exact_turn(a, b, c));
+}
+
+int compare(double a, const mpq_class& exact_a, bool brief_a, double b, const mpq_class& exact_b, bool brief_b) {
+  if (brief_a && brief_b) return a < b ? -1 : a > b ? 1 : 0;
+  const double error = 0x1p-50 * (std::fabs(a) + std::fabs(b));
+  if (std::fabs(a - b) > error) return a < b ? -1 : 1;
+  return cmp(exact(a, exact_a, brief_a), exact(b, exact_b, brief_b));
+}
+
+bool before(const ExactSpot& a, const ExactSpot& b) {
+  const int by_x = compare(a.x, a.exact_x, a.brief, b.x, b.exact_x, b.brief);
+  return by_x != 0 ? by_x < 0 : compare(a.y, a.exact_y, a.brief, b.y, b.exact_y, b.brief) < 0;
+}
+
+// The corners of the hull, counter-clockwise, none on an edge; fewer than three if it is flat.
+std::vector<ExactSpot> convex_hull(std::vector<ExactSpot> points) {
+  std::sort(points.begin(), points.end(), before);
+  std::vector<ExactSpot> hull;
+  const auto go_on = [&](const ExactSpot& p, std::size_t least) {
+    while (hull.size() >= least + 2 && sign_of_turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const auto& p : points) go_on(p, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (std::size_t i = points.size() - 1; i-- > 0;) go_on(points[i], lower);
+  hull.pop_back();
+  return hull;
+}
+
+mpq_class value_at(const SectionPlane& plane, const Point& p) {
+  mpq_class value = -mpq_class(plane.distance);
+  for (std::size_t i = 0; i < 3; ++i) value += mpq_class(plane.normal[i]) * mpq_class(p[i]);
+  return value;
+}
+
+int side_of(const SectionPlane& plane, const Point& p) {
+  double value = -plane.distance, size = std::fabs(plane.distance);
+  for (std::size_t i = 0; i < 3; ++i) {
+    value += plane.normal[i] * p[i];
+    size += std::fabs(plane.normal[i] * p[i]);
+  }
+  const double error = 0x1p-50 * size;  // of seven roundings
+  if (std::fabs(value) > error) return value > 0 ? 1 : -1;
+  return sgn(value_at(plane, p));
+}
+
+// Where the segment from p to q crosses the plane, on different sides of which they are.
+ExactSpot crossing(const SectionPlane& plane, const Point& p, const Point& q, std::size_t u, std::size_t v) {
+  if (p[u] == q[u] && p[v] == q[v]) return spot(p[u], p[v]);
+  const mpq_class at_p = value_at(plane, p), at_q = value_at(plane, q), share = at_p / (at_p - at_q);
+  const auto along = [&](std::size_t axis) -> mpq_class {
+    const mpq_class from(p[axis]);
+    return from + share * (mpq_class(q[axis]) - from);
+  };
+  return spot(along(u), along(v));
+}
+
+constexpr double kSureShare = 0x1p-40;  // a share that is off by no more is good enough to be rounded to
+
+// A point of an edge, by its share of the way along it: an end, or where the line cd crosses.
+struct Cut {
+  double share = 0, error = 0;
+  const ExactSpot *c = nullptr, *d = nullptr;  // none: an end
+};
+
+class EdgeOfUnion {
+ public:
+  EdgeOfUnion(const ExactSpot& a, const ExactSpot& b) : a_(a), b_(b) {}
+
+  // The part of the edge whose outer side is in the polygon.
+  void cover_by(const std::vector<ExactSpot>& polygon) {
+    Cut from{0, 0, nullptr, nullptr}, to{1, 0, nullptr, nullptr};
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const ExactSpot &c = polygon[i], &d = polygon[(i + 1) % polygon.size()];
+      const int at_a = sign_of_turn(c, d, a_), at_b = sign_of_turn(c, d, b_);
+      if (at_a == 0 && at_b == 0) {
+        if (same_way(c, d)) return;
+      } else if (at_a <= 0 && at_b <= 0) {
+        return;
+      } else if (at_a < 0) {
+        const Cut cut = cut_by(c, d);
+        if (is_less(from, cut)) from = cut;
+      } else if (at_b < 0) {
+        const Cut cut = cut_by(c, d);
+        if (is_less(cut, to)) to = cut;
+      }
+    }
+    if (is_less(from, to)) covered_.emplace_back(from, to);
+  }
+
+  void add_rim(std::vector<std::array<Section::Spot, 2>>& rim) {
+    std::sort(covered_.begin(), covered_.end(),
+              [this](const auto& x, const auto& y) { return is_less(x.first, y.first); });
+    Cut at{0, 0, nullptr, nullptr};
+    for (const auto& [from, to] : covered_) {
+      if (is_less(at, from)) rim.push_back({spot_at(at), spot_at(from)});
+      if (is_less(at, to)) at = to;
+    }
+    const Cut end{1, 0, nullptr, nullptr};
+    if (is_less(at, end)) rim.push_back({spot_at(at), spot_at(end)});
+  }
+
+ private:
+  // Of lines that are the same.
+  bool same_way(const ExactSpot& c, const ExactSpot& d) const { return before(a_, b_) == before(c, d); }
+
+  Cut cut_by(const ExactSpot& c, const ExactSpot& d) const {
+    const Turn at_a = turn(c, d, a_), at_b = turn(c, d, b_);
+    const double across = at_a.value - at_b.value, error = at_a.error + at_b.error;
+    if (std::fabs(across) <= 2 * error || across == 0) return {0.5, 1, &c, &d};
+    const double share = std::clamp(at_a.value / across, 0.0, 1.0);
+    return {share, 2 * error / std::fabs(across) + 0x1p-50, &c, &d};
+  }
+
+  mpq_class exact_share(const Cut& cut) const {
+    if (cut.c == nullptr) return cut.share;
+    const mpq_class at_a = exact_turn(*cut.c, *cut.d, a_);
+    return at_a / (at_a - exact_turn(*cut.c, *cut.d, b_));
+  }
+
+  bool is_less(const Cut& x, const Cut& y) const {
+    if (std::fabs(x.share - y.share) > x.error + y.error) return x.share < y.share;
+    if (x.c == nullptr && y.c == nullptr) return false;
+    return exact_share(x) < exact_share(y);
+  }
+
+  Section::Spot spot_at(const Cut& cut) const {
+    const double share = cut.error <= kSureShare ? cut.share : exact_share(cut).get_d();
+    return {a_.x + share * (b_.x - a_.x), a_.y + share * (b_.y - a_.y)};
+  }
+
+  const ExactSpot &a_, &b_;
+  std::vector<std::pair<Cut, Cut>> covered_;
+};
+
+struct Extent {
+  double low_x, low_y, high_x, high_y;
+};
+
+Extent extent_of(const std::vector<ExactSpot>& polygon) {
+  Extent e{polygon[0].x, polygon[0].y, polygon[0].x, polygon[0].y};
+  for (const auto& p : polygon) {
+    e = {std::min(e.low_x, p.x), std::min(e.low_y, p.y), std::max(e.high_x, p.x), std::max(e.high_y, p.y)};
+  }
+  return e;
+}
+
+}  // namespace
+
+std::optional<std::vector<ExactSpot>> section_of(const Solid& solid, const SectionPlane& plane, std::size_t dropped) {
+  const std::size_t u = (dropped + 1) % 3, v = (dropped + 2) % 3;
+  std::vector<int> sides;
+  bool below = false, above = false;
+  for (const Point& p : solid.corners) {
+    sides.push_back(side_of(plane, p));
+    below = below || sides.back() < 0;
+    above = above || sides.back() > 0;
+  }
+  if (!below || !above) return std::nullopt;
+  std::vector<ExactSpot> spots;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i] == 0) spots.push_back(spot(solid.corners[i][u], solid.corners[i][v]));
+  }
+  for (const auto& [i, j] : solid.edges) {
+    if (sides[i] * sides[j] < 0) spots.push_back(crossing(plane, solid.corners[i], solid.corners[j], u, v));
+  }
+  return convex_hull(std::move(spots));
+}
+
+std::vector<std::array<Section::Spot, 2>> rim_of_union(const std::vector<std::vector<ExactSpot>>& polygons) {
+  std::vector<Extent> extents;
+  for (const auto& polygon : polygons) extents.push_back(extent_of(polygon));
+  std::vector<std::array<Section::Spot, 2>> rim;
+  std::vector<const std::vector<ExactSpot>*> beside;
+  for (std::size_t i = 0; i < polygons.size(); ++i) {
+    // Coordinates are rounded, so boxes may seem to miss each other by two roundings where they touch.
+    const Extent& mine = extents[i];
+    const double slack =
+        0x1p-50 * std::max({std::fabs(mine.low_x), std::fabs(mine.low_y), std::fabs(mine.high_x), std::fabs(mine.high_y)});
+    beside.clear();
+    for (std::size_t j = 0; j < polygons.size(); ++j) {
+      const Extent& other = extents[j];
+      if (j != i && other.low_x <= mine.high_x + slack && mine.low_x <= other.high_x + slack &&
+          other.low_y <= mine.high_y + slack && mine.low_y <= other.high_y + slack)
+        beside.push_back(&polygons[j]);
+    }
+    for (std::size_t k = 0; k < polygons[i].size(); ++k) {
+      EdgeOfUnion edge(polygons[i][k], polygons[i][(k + 1) % polygons[i].size()]);
+      for (const auto* other : beside) edge.cover_by(*other);
+      edge.add_rim(rim);
+    }
+  }
+  return rim;
+}
+
+}  // namespace clues::fastpath::solids

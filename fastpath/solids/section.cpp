@@ -1,0 +1,236 @@
+#include "fastpath/solids/section.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "fastpath/solids/exact_sections.h"
+
+namespace clues::fastpath::solids {
+namespace {
+
+using Spot = Section::Spot;
+
+constexpr std::size_t kMostSquares = 64;  // along each axis
+constexpr double kSquaresPerThing = 0.5;
+
+double turn_of(const Spot& a, const Spot& b, const Spot& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+std::size_t longest(const std::array<double, 3>& normal) {
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (std::fabs(normal[i]) > std::fabs(normal[axis])) axis = i;
+  }
+  return axis;
+}
+
+// Corners of the hull, counter-clockwise; the points are sorted. What lies on an edge but for a rounding may be missing.
+void hull_into(std::vector<Spot>& points, std::vector<Spot>& hull) {
+  std::sort(points.begin(), points.end());
+  hull.clear();
+  const auto go_on = [&](const Spot& p, std::size_t least) {
+    while (hull.size() >= least + 2 && turn_of(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+    hull.push_back(p);
+  };
+  for (const Spot& p : points) go_on(p, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (std::size_t i = points.size() - 1; i-- > 0;) go_on(points[i], lower);
+  if (hull.size() > 1) hull.pop_back();
+}
+
+// Distances from the plane, and their range.
+struct Distances {
+  std::vector<double> all;
+  double least = 0, most = 0;
+};
+
+void find_distances(const SectionPlane& plane, std::span<const Point> points, Distances& out) {
+  out.all.clear();
+  for (const Point& p : points) {
+    const auto& n = plane.normal;
+    out.all.push_back(n[0] * p[0] + n[1] * p[1] + n[2] * p[2] - plane.distance);
+  }
+  const auto [least, most] = std::minmax_element(out.all.begin(), out.all.end());
+  out.least = *least;
+  out.most = *most;
+}
+
+// Half of the plane: spots with x * spot[0] + y * spot[1] <= most.
+struct HalfPlane {
+  double x, y, most;
+  double above(const Spot& s) const { return x * s[0] + y * s[1] - most; }
+};
+
+}  // namespace
+
+Scale Scale::of(const Bounds& bounds) {
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    largest = std::max({largest, std::fabs(bounds.low[i]), std::fabs(bounds.high[i])});
+  return {std::exp2(std::ceil(std::log2(std::max(largest, std::numeric_limits<double>::min()))))};
+}
+
+Section::Section(const SectionPlane& plane, std::span<const Solid> solids, const Scale& scale)
+    : plane_(plane), scale_(scale), dropped_(longest(plane.normal)), u_((dropped_ + 1) % 3), v_((dropped_ + 2) % 3) {
+  std::vector<std::vector<ExactSpot>> exact;
+  for (const Solid& solid : solids) {
+    if (auto polygon = section_of(solid, plane_, dropped_)) exact.push_back(std::move(*polygon));
+  }
+  rim_ = rim_of_union(exact);
+  std::vector<Range> of_polygons, of_rim;
+  const auto widen = [](Range& range, const Spot& s) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      range.low[i] = std::min(range.low[i], s[i]);
+      range.high[i] = std::max(range.high[i], s[i]);
+    }
+  };
+  for (const auto& polygon : exact) {
+    auto& rounded = polygons_.emplace_back();
+    for (const auto& spot : polygon) rounded.push_back({spot.x, spot.y});
+    of_polygons.push_back({rounded[0], rounded[0]});
+    for (const Spot& s : rounded) widen(of_polygons.back(), s);
+  }
+  for (const auto& [a, b] : rim_) {
+    of_rim.push_back({a, a});
+    widen(of_rim.back(), b);
+  }
+  if (polygons_.empty()) return;
+  all_ = of_polygons[0];
+  for (const Range& range : of_polygons) {
+    widen(all_, range.low);
+    widen(all_, range.high);
+  }
+  const double things = static_cast<double>(polygons_.size() + rim_.size());
+  squares_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(kSquaresPerThing * things)), 1, kMostSquares);
+  polygons_at_ = grid_of(of_polygons);
+  rim_at_ = grid_of(of_rim);
+}
+
+// Rises with x, so that what two ranges share is in a square of both.
+std::size_t Section::square(double x, std::size_t axis) const {
+  const double width = (all_.high[axis] - all_.low[axis]) / static_cast<double>(squares_);
+  const double at = (x - all_.low[axis]) / width;
+  return at <= 0 ? 0 : std::min(static_cast<std::size_t>(at), squares_ - 1);
+}
+
+Section::Grid Section::grid_of(const std::vector<Range>& ranges) const {
+  Grid grid;
+  grid.first.assign(squares_ * squares_ + 1, 0);
+  const auto for_each_square = [&](const Range& range, const auto& f) {
+    const std::size_t last_x = square(range.high[0], 0), last_y = square(range.high[1], 1);
+    for (std::size_t x = square(range.low[0], 0); x <= last_x; ++x) {
+      for (std::size_t y = square(range.low[1], 1); y <= last_y; ++y) f(x * squares_ + y);
+    }
+  };
+  for (const Range& range : ranges) for_each_square(range, [&](std::size_t at) { ++grid.first[at + 1]; });
+  std::partial_sum(grid.first.begin(), grid.first.end(), grid.first.begin());
+  grid.ids.resize(grid.first.back());
+  std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
+  for (std::uint32_t i = 0; i < ranges.size(); ++i)
+    for_each_square(ranges[i], [&](std::size_t at) { grid.ids[next[at]++] = i; });
+  return grid;
+}
+
+bool Section::holds(const Spot& spot) const {
+  if (polygons_.empty()) return false;
+  const std::size_t at = square(spot[0], 0) * squares_ + square(spot[1], 1);
+  const double clear = scale_.margin() * 0x1p-10;
+  for (std::uint32_t i = polygons_at_.first[at]; i < polygons_at_.first[at + 1]; ++i) {
+    const auto& polygon = polygons_[polygons_at_.ids[i]];
+    bool inside = true;
+    for (std::size_t k = 0; inside && k < polygon.size(); ++k) {
+      const Spot &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+      inside = turn_of(a, b, spot) > clear * (std::fabs(b[0] - a[0]) + std::fabs(b[1] - a[1]));
+    }
+    if (inside) return true;
+  }
+  return false;
+}
+
+// Whether some of the rim is within the margin of the window, a convex polygon.
+bool Section::rim_meets(const std::vector<Spot>& window) const {
+  const double margin = scale_.margin();
+  Range range{window[0], window[0]};
+  static thread_local std::vector<HalfPlane> halves;
+  halves.clear();
+  for (std::size_t i = 0; i < window.size(); ++i) {
+    const Spot &a = window[i], &b = window[(i + 1) % window.size()];
+    for (std::size_t k = 0; k < 2; ++k) {
+      range.low[k] = std::min(range.low[k], a[k]);
+      range.high[k] = std::max(range.high[k], a[k]);
+    }
+    const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+    if (length < margin) continue;  // the half planes of its neighbours, and the range, have what it would cut off
+    const double x = (b[1] - a[1]) / length, y = (a[0] - b[0]) / length;
+    halves.push_back({x, y, x * a[0] + y * a[1] + margin});
+  }
+  for (std::size_t k = 0; k < 2; ++k) {
+    range.low[k] -= margin;
+    range.high[k] += margin;
+  }
+  const std::size_t last_x = square(range.high[0], 0), last_y = square(range.high[1], 1);
+  for (std::size_t x = square(range.low[0], 0); x <= last_x; ++x) {
+    for (std::size_t y = square(range.low[1], 1); y <= last_y; ++y) {
+      const std::size_t at = x * squares_ + y;
+      for (std::uint32_t i = rim_at_.first[at]; i < rim_at_.first[at + 1]; ++i) {
+        const auto& [a, b] = rim_[rim_at_.ids[i]];
+        bool apart = false;
+        for (std::size_t k = 0; k < 2; ++k)
+          apart = apart || (a[k] < range.low[k] && b[k] < range.low[k]) || (a[k] > range.high[k] && b[k] > range.high[k]);
+        double from = 0, to = 1;
+        for (std::size_t h = 0; !apart && h < halves.size(); ++h) {
+          const double at_a = halves[h].above(a), at_b = halves[h].above(b);
+          if (at_a > 0 && at_b > 0) {
+            apart = true;
+          } else if (at_a > 0) {
+            from = std::max(from, at_a / (at_a - at_b));
+          } else if (at_b > 0) {
+            to = std::min(to, at_a / (at_a - at_b));
+          }
+          apart = apart || from > to;
+        }
+        if (!apart) return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool Section::covers(std::span<const Point> from, std::span<const Point> to) const {
+  if (polygons_.empty()) return false;
+  static thread_local Distances of_from, of_to;
+  static thread_local std::vector<Spot> crossings, window;
+  const double clearance = scale_.clearance();
+  find_distances(plane_, from, of_from);
+  find_distances(plane_, to, of_to);
+  const bool up = of_from.most <= -clearance && of_to.least >= clearance;
+  const bool down = of_from.least >= clearance && of_to.most <= -clearance;
+  if (!up && !down) return false;
+  crossings.clear();
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    for (std::size_t k = 0; k < to.size(); ++k) {
+      const double share = of_from.all[i] / (of_from.all[i] - of_to.all[k]);
+      const Point &a = from[i], &b = to[k];
+      crossings.push_back({a[u_] + share * (b[u_] - a[u_]), a[v_] + share * (b[v_] - a[v_])});
+    }
+  }
+  for (const Spot& s : crossings) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (s[k] <= all_.low[k] || s[k] >= all_.high[k]) return false;
+    }
+  }
+  hull_into(crossings, window);
+  Spot middle{};
+  for (const Spot& s : window) {
+    for (std::size_t k = 0; k < 2; ++k) middle[k] += s[k] / static_cast<double>(window.size());
+  }
+  bool held = holds(middle);
+  for (std::size_t i = 0; !held && i < window.size(); ++i)
+    held = holds({(middle[0] + window[i][0]) / 2, (middle[1] + window[i][1]) / 2});
+  return held && !rim_meets(window);
+}
+
+}  // namespace clues::fastpath::solids

@@ -1,0 +1,72 @@
+// T15: what solids cut out of a plane, fused. Where walls abut their sections do, too, and what crosses the plane between them is stopped as if they were one.
+//
+// The union of the sections of all solids in a plane is found exactly; what is kept of it is its rim, rounded. A set of crossing points that is connected, keeps clear of the rim and has one point in
+// the union lies in the union.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fastpath/solids/solid.h"
+
+namespace clues::fastpath::solids {
+
+// How large lengths are, for the solids of a scene and whoever asks about it: a power of two that no coordinate of what is asked about exceeds. Errors of rounding are far below `margin`
+// where planes are crossed between points that are `clearance` from them or more (docs/solids.md has the sum).
+struct Scale {
+  double largest = 1;
+  double margin() const { return largest * 0x1p-22; }
+  double clearance() const { return largest * 0x1p-17; }
+  double depth() const { return largest * 0x1p-15; }  // how far behind a side of a solid its section is taken
+  static Scale of(const Bounds& bounds);
+};
+
+// All x with normal * x = distance, exactly as these doubles are.
+struct SectionPlane {
+  std::array<double, 3> normal{};
+  double distance = 0;
+};
+
+class Section {
+ public:
+  using Spot = std::array<double, 2>;  // in the plane, the axis left out along which its normal is longest
+
+  // Of solids with corners on both sides of the plane. With n of them O(n^2) for boxes, and as many exact steps as their sections have neighbours.
+  Section(const SectionPlane& plane, std::span<const Solid> solids, const Scale& scale);
+
+  // Whether every segment from the hull of some points to the hull of others crosses the plane in the union, but for a set of measure 0. False if the points are not on different sides of it, and whenever that
+  // is in doubt.
+  bool covers(std::span<const Point> from, std::span<const Point> to) const;
+
+  std::size_t polygons() const { return polygons_.size(); }
+  const std::vector<std::array<Spot, 2>>& rim() const { return rim_; }
+  // Whether the point is in one of the sections, and not within a rounding of its border.
+  bool holds(const Spot& spot) const;
+  Spot spot_of(const Point& point) const { return {point[u_], point[v_]}; }
+
+ private:
+  struct Range {
+    Spot low{}, high{};
+  };
+  // Numbers of what may be in a part of the plane, by squares of a grid.
+  struct Grid {
+    std::vector<std::uint32_t> first, ids;
+  };
+  std::size_t square(double x, std::size_t axis) const;
+  Grid grid_of(const std::vector<Range>& ranges) const;
+  bool rim_meets(const std::vector<Spot>& window) const;
+
+  SectionPlane plane_;
+  Scale scale_;
+  std::size_t dropped_ = 0, u_ = 1, v_ = 2;
+  std::vector<std::vector<Spot>> polygons_;  // counter-clockwise
+  std::vector<std::array<Spot, 2>> rim_;
+  Range all_;
+  std::size_t squares_ = 1;  // along each axis
+  Grid polygons_at_, rim_at_;
+};
+
+}  // namespace clues::fastpath::solids

@@ -1,0 +1,251 @@
+#include "fastpath/solids/shafts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "exact/cell/convex_cell.h"
+
+namespace clues::fastpath::solids {
+namespace {
+
+using Polygon = std::vector<Point>;
+
+constexpr int kDeepest = 14;               // cuts of a shaft within one another
+constexpr std::size_t kMostPlanes = 24;    // that are tried for one shaft
+constexpr std::size_t kProbes = 6;         // segments that look for a way that is free, before a proof is tried
+constexpr double kProbesWithin = 0.9;      // of the way from the middle to the corners
+constexpr double kSmallest = 0x1p-14;      // of the scale: what is no longer cut
+
+Point middle_of(std::span<const Point> points) {
+  Point middle{};
+  for (const Point& p : points) {
+    for (std::size_t i = 0; i < 3; ++i) middle[i] += p[i] / static_cast<double>(points.size());
+  }
+  return middle;
+}
+
+struct Length {
+  std::size_t axis = 0;
+  double length = 0, middle = 0;
+};
+
+Length longest_extent(std::span<const Point> points) {
+  const Bounds box = scene::bounds_of(points);
+  Length extent;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (box.high[i] - box.low[i] > extent.length)
+      extent = {i, box.high[i] - box.low[i], (box.low[i] + box.high[i]) / 2};
+  }
+  return extent;
+}
+
+// Both have all of the polygon in their union, but for roundings.
+std::array<Polygon, 2> cut(const Polygon& polygon, const Length& extent) {
+  std::array<Polygon, 2> parts;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const double at_a = a[extent.axis] - extent.middle, at_b = b[extent.axis] - extent.middle;
+    if (at_a <= 0) parts[0].push_back(a);
+    if (at_a >= 0) parts[1].push_back(a);
+    if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) {
+      const double share = at_a / (at_a - at_b);
+      Point between{};
+      for (std::size_t k = 0; k < 3; ++k) between[k] = a[k] + share * (b[k] - a[k]);
+      between[extent.axis] = extent.middle;
+      parts[0].push_back(between);
+      parts[1].push_back(between);
+    }
+  }
+  return parts;
+}
+
+// Where sight lines leave the cell.
+struct Window {
+  Polygon polygon;
+  Side side;
+};
+
+// The cell as the proofs need it.
+class ViewCell {
+ public:
+  ViewCell(const std::vector<Point>& points, const Solids& solids) {
+    const auto cell = exact::ConvexCell::from_doubles(points);
+    for (const auto& p : cell.vertices()) corners_.push_back(exact::to_double_estimate(p));  // they are doubles
+    bounds_ = scene::bounds_of(corners_);
+    solid_ = cell.dimension() == 3;
+    if (solid_) {
+      for (const auto& facet : cell.facets()) {
+        Window window;
+        for (const int i : facet.corners) window.polygon.push_back(corners_[static_cast<std::size_t>(i)]);
+        window.side = side_through(window.polygon[0], window.polygon[1], window.polygon[2]);
+        windows_.push_back(std::move(window));
+      }
+    } else {
+      Polygon all = corners_;
+      if (cell.dimension() == 2) {
+        all.clear();
+        for (const int i : cell.facets()[0].corners) all.push_back(corners_[static_cast<std::size_t>(i)]);
+      }
+      windows_.push_back({std::move(all), {}});
+    }
+    for (const auto i : solids.touching(bounds_)) {
+      if (!is_outside(solids.all()[i])) around_.push_back(&solids.all()[i]);
+    }
+  }
+
+  const std::vector<Window>& windows() const { return windows_; }
+
+  // Whether it has no point in common with the target, with certainty.
+  bool is_apart_from(const std::vector<Point>& target) const {
+    if (!scene::touch(bounds_, scene::bounds_of(target))) return true;
+    return solid_ && std::any_of(windows_.begin(), windows_.end(),
+                                 [&](const Window& w) { return w.side.has_all_outside(target); });
+  }
+
+  // Whether lines to the target may go through the window, if they are apart.
+  bool may_be_left_through(const Window& window, const std::vector<Point>& target) const {
+    return !solid_ || !window.side.has_none_outside(target);
+  }
+
+  // Of solids that the viewer may be in: whether the target is out of all of them.
+  bool is_out_of_solids_around(const std::vector<Point>& target) const {
+    return std::all_of(around_.begin(), around_.end(), [&](const Solid* solid) {
+      return std::any_of(solid->sides.begin(), solid->sides.end(),
+                         [&](const Side& side) { return side.has_all_outside(target); });
+    });
+  }
+
+ private:
+  // Whether no inner point of the cell is in the solid's interior; a flat cell must not touch it.
+  bool is_outside(const Solid& solid) const {
+    if (!solid_) {
+      return std::any_of(solid.sides.begin(), solid.sides.end(),
+                         [&](const Side& side) { return side.has_all_outside(corners_); });
+    }
+    return std::any_of(solid.sides.begin(), solid.sides.end(),
+                       [&](const Side& side) { return side.has_none_inside(corners_); }) ||
+           std::any_of(windows_.begin(), windows_.end(),
+                       [&](const Window& w) { return w.side.has_none_inside(solid.corners); });
+  }
+
+  std::vector<Point> corners_;
+  Bounds bounds_;
+  bool solid_ = false;
+  std::vector<Window> windows_;
+  std::vector<const Solid*> around_;
+};
+
+class Prover {
+ public:
+  Prover(const Solids& solids, const ShaftOptions& options, ShaftCounts& counts)
+      : solids_(solids), options_(options), counts_(counts) {}
+
+  // Whether no line from the window to the target is free.
+  bool prove(const Polygon& window, const Polygon& target, bool is_triangle) {
+    if (finds_a_way(window, target)) return false;
+    left_ = is_triangle ? options_.of_a_triangle : options_.of_a_box;
+    cuts_targets_ = is_triangle;
+    return prove_shaft(window, target, 0);
+  }
+
+ private:
+  bool finds_a_way(const Polygon& window, const Polygon& target) const {
+    const Point of_window = middle_of(window), of_target = middle_of(target);
+    for (std::size_t i = 0; i < kProbes; ++i) {
+      const Point &a = window[i % window.size()], &b = target[(7 * i + 3) % target.size()];
+      Point from{}, to{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        from[k] = of_window[k] + kProbesWithin * (a[k] - of_window[k]);
+        to[k] = of_target[k] + kProbesWithin * (b[k] - of_target[k]);
+      }
+      if (!solids_.pierces_any(from, to)) return true;
+    }
+    return false;
+  }
+
+  bool prove_shaft(const Polygon& window, const Polygon& target, int depth) {
+    if (left_ == 0) return false;
+    --left_;
+    ++counts_.shafts;
+    solids_.find_pierced(middle_of(window), middle_of(target), pierced_);
+    if (pierced_.empty()) {
+      left_ = 0;
+      return false;
+    }
+    planes_.clear();
+    for (const Pierced& hit : pierced_) {
+      for (const auto side : {hit.side_in, hit.side_out}) {
+        if (side < 0) continue;
+        const auto plane = solids_.plane_behind(hit.solid, static_cast<std::uint32_t>(side));
+        if (std::find(planes_.begin(), planes_.end(), plane) != planes_.end()) continue;
+        if (planes_.size() == kMostPlanes) break;
+        planes_.push_back(plane);
+        ++counts_.planes;
+        if (solids_.section(plane).covers(window, target)) return true;
+      }
+    }
+    if (depth == kDeepest) return false;
+    const Length of_window = longest_extent(window), of_target = longest_extent(target);
+    const bool cuts_window = !cuts_targets_ || of_window.length >= of_target.length;
+    const Length& longer = cuts_window ? of_window : of_target;
+    if (longer.length < kSmallest * solids_.scale().largest) return false;
+    for (const Polygon& part : cut(cuts_window ? window : target, longer)) {
+      if (!(cuts_window ? prove_shaft(part, target, depth + 1) : prove_shaft(window, part, depth + 1))) return false;
+    }
+    return true;
+  }
+
+  const Solids& solids_;
+  const ShaftOptions options_;
+  ShaftCounts& counts_;
+  std::uint32_t left_ = 0;  // shafts that may still be looked at
+  bool cuts_targets_ = false;
+  std::vector<Pierced> pierced_;
+  std::vector<std::uint32_t> planes_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> not_hidden(const Solids& solids, const Targets& targets, const std::vector<Point>& cell,
+                                      const ShaftOptions& options, ShaftCounts* counts) {
+  std::vector<std::uint32_t> found;
+  if (targets.nodes().empty()) return found;
+  ShaftCounts uncounted;
+  const ViewCell view(cell, solids);
+  Prover prover(solids, options, counts != nullptr ? *counts : uncounted);
+  // A node, and the windows of which it is not proved that no line through them gets there.
+  std::vector<std::pair<std::uint32_t, std::vector<std::uint32_t>>> open(1);
+  for (std::uint32_t i = 0; i < view.windows().size(); ++i) open[0].second.push_back(i);
+  while (!open.empty()) {
+    const auto [at, windows] = std::move(open.back());
+    open.pop_back();
+    const Targets::Node& node = targets.nodes()[at];
+    const Polygon target = targets.corners_of(node);
+    std::vector<std::uint32_t> left;
+    if (!view.is_apart_from(target) || !view.is_out_of_solids_around(target)) {
+      left = windows;
+    } else {
+      for (const auto w : windows) {
+        const Window& window = view.windows()[w];
+        if (!view.may_be_left_through(window, target)) continue;
+        if (node.is_triangle() && !left.empty()) break;
+        if (!prover.prove(window.polygon, target, node.is_triangle())) left.push_back(w);
+      }
+    }
+    if (left.empty()) continue;
+    if (node.is_triangle()) {
+      found.push_back(node.triangle);
+      continue;
+    }
+    open.emplace_back(node.left, left);
+    open.emplace_back(node.right, std::move(left));
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace clues::fastpath::solids

@@ -1,0 +1,131 @@
+// Why the surface is covered: every triangle of positive area lies in a plane that has all corners on one side, so in the surface of their hull, a sphere. All are oriented
+// outwards, and where their borders cancel they are a cycle of that sphere, so they cover each of its points equally often; not 0 times, as there is one.
+#include "fastpath/solids/solid.h"
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
+
+#include "fastpath/predicates/filter.h"
+
+namespace clues::fastpath::solids {
+namespace {
+
+int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  std::array<std::array<mpq_class, 3>, 3> m;
+  const std::array<const Point*, 3> rows{&b, &c, &d};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) m[i][k] = mpq_class((*rows[i])[k]) - mpq_class(a[k]);
+  }
+  const mpq_class determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                                m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+                                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+  return sgn(determinant);
+}
+
+// On which sides of the plane of the three the corners are: -1 or 1, if all that are not on it are on that side; 0, if all are on it; none, if there are some on both.
+std::optional<int> side_of_all(const std::array<Point, 3>& plane, const std::vector<Point>& corners) {
+  int side = 0;
+  for (const Point& p : corners) {
+    const int of_p = orientation(plane[0], plane[1], plane[2], p);
+    if (of_p == 0) continue;
+    if (side != 0 && side != of_p) return std::nullopt;
+    side = of_p;
+  }
+  return side;
+}
+
+// Without corners that repeat the one before; none where fewer than three are left: then the face is a segment there and back, and has no border.
+std::vector<std::vector<Point>> without_repetitions(const std::vector<std::vector<Point>>& faces) {
+  std::vector<std::vector<Point>> out;
+  for (auto face : faces) {
+    face.erase(std::unique(face.begin(), face.end()), face.end());
+    while (face.size() > 1 && face.back() == face.front()) face.pop_back();
+    if (face.size() >= 3) out.push_back(std::move(face));
+  }
+  return out;
+}
+
+}  // namespace
+
+int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
+  const FilteredSign sign = orient3d_filtered(a, b, c, d, kOrient3dError);
+  return sign.certain ? static_cast<int>(sign.sign) : exact_orientation(a, b, c, d);
+}
+
+Side side_through(const Point& a, const Point& b, const Point& c) {
+  Point u{}, v{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = b[i] - a[i];
+    v[i] = c[i] - a[i];
+  }
+  Side side{{a, b, c}, {}};
+  Point& n = side.estimate.normal;
+  for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  const double length = std::hypot(n[0], n[1], n[2]);
+  for (double& x : n) x /= length;
+  side.estimate.distance = n[0] * a[0] + n[1] * a[1] + n[2] * a[2];
+  return side;
+}
+
+// A point is outside of a side where its corners turn left seen from there.
+bool Side::has_none_inside(const std::vector<Point>& points) const {
+  return std::all_of(points.begin(), points.end(), [this](const Point& p) {
+    return orientation(corners[0], corners[1], corners[2], p) >= 0;
+  });
+}
+
+bool Side::has_all_outside(const std::vector<Point>& points) const {
+  return std::all_of(points.begin(), points.end(), [this](const Point& p) {
+    return orientation(corners[0], corners[1], corners[2], p) > 0;
+  });
+}
+
+bool Side::has_none_outside(const std::vector<Point>& points) const {
+  return std::all_of(points.begin(), points.end(), [this](const Point& p) {
+    return orientation(corners[0], corners[1], corners[2], p) <= 0;
+  });
+}
+
+std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {
+  const auto faces = without_repetitions(given);
+  Solid solid;
+  std::map<Point, std::uint32_t> ids;
+  for (const auto& face : faces) {
+    for (const Point& p : face) {
+      if (ids.try_emplace(p, static_cast<std::uint32_t>(solid.corners.size())).second) solid.corners.push_back(p);
+    }
+  }
+  std::map<std::array<std::uint32_t, 2>, int> borders;  // from the lower corner to the higher one: how often this way, less how often the other
+  for (const auto& face : faces) {
+    int outside = 0;  // seen from where the fan turns left
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+      const std::array<Point, 3> fan{face[0], face[i], face[i + 1]};
+      const auto side = side_of_all(fan, solid.corners);
+      if (!side || (*side != 0 && outside != 0 && outside != -*side)) return std::nullopt;
+      if (*side == 0) continue;
+      if (outside == 0) {
+        solid.sides.push_back(*side < 0 ? side_through(fan[0], fan[1], fan[2]) : side_through(fan[0], fan[2], fan[1]));
+      }
+      outside = -*side;
+    }
+    if (outside == 0) return std::nullopt;
+    for (std::size_t i = 0; i < face.size(); ++i) {
+      const std::uint32_t a = ids.at(face[i]), b = ids.at(face[(i + 1) % face.size()]);
+      borders[{std::min(a, b), std::max(a, b)}] += a < b ? outside : -outside;
+    }
+  }
+  for (const auto& [edge, count] : borders) {
+    if (count != 0) return std::nullopt;
+    solid.edges.push_back(edge);
+  }
+  if (solid.sides.empty()) return std::nullopt;
+  solid.bounds = scene::bounds_of(solid.corners);
+  return solid;
+}
+
+}  // namespace clues::fastpath::solids

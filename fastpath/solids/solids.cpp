@@ -1,0 +1,188 @@
+#include "fastpath/solids/solids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace clues::fastpath::solids {
+namespace {
+
+constexpr double kFarthest = 0x1p10;  // how far a solid may reach, in units of the scale
+constexpr std::uint32_t kLeaf = 2;    // solids in a leaf of the tree
+constexpr double kNormalUnit = 0x1p20, kDistanceUnit = 0x1p20;  // to which planes are rounded: of a unit normal, of the scale
+
+// Determinants of three of its lengths are neither too large nor too small for doubles.
+bool is_in_range(const Scale& scale) { return scale.largest <= 0x1p200 && scale.largest >= 0x1p-200; }
+
+bool reaches_too_far(const Solid& solid, const Scale& scale) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::max(std::fabs(solid.bounds.low[i]), std::fabs(solid.bounds.high[i])) > kFarthest * scale.largest)
+      return true;
+  }
+  return false;
+}
+
+// Whether the segment is in the box somewhere, but for roundings.
+bool passes(const Bounds& box, const Point& from, const Point& to) {
+  double in = 0, out = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double way = to[i] - from[i];
+    if (way == 0) {
+      if (from[i] < box.low[i] || from[i] > box.high[i]) return false;
+      continue;
+    }
+    const double a = (box.low[i] - from[i]) / way, b = (box.high[i] - from[i]) / way;
+    in = std::max(in, std::min(a, b));
+    out = std::min(out, std::max(a, b));
+    if (in > out) return false;
+  }
+  return true;
+}
+
+bool pierce(const Solid& solid, const Point& from, const Point& to, Pierced& hit) {
+  hit.in = 0;
+  hit.out = 1;
+  hit.side_in = hit.side_out = -1;
+  for (std::size_t i = 0; i < solid.sides.size(); ++i) {
+    const double at_from = solid.sides[i].estimate.above(from), at_to = solid.sides[i].estimate.above(to);
+    if (at_from >= 0 && at_to >= 0) return false;
+    if (at_from <= 0 && at_to <= 0) continue;
+    const double share = at_from / (at_from - at_to);
+    if (at_from > 0 && share > hit.in) {
+      hit.in = share;
+      hit.side_in = static_cast<std::int32_t>(i);
+    } else if (at_to > 0 && share < hit.out) {
+      hit.out = share;
+      hit.side_out = static_cast<std::int32_t>(i);
+    }
+    if (hit.in >= hit.out) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Solids::Solids(std::vector<Solid> solids, const Bounds& about) : solids_(std::move(solids)), scale_(Scale::of(about)) {
+  std::erase_if(solids_,
+                [this](const Solid& solid) { return !is_in_range(scale_) || reaches_too_far(solid, scale_); });
+  build();
+  find_planes();
+}
+
+void Solids::build() {
+  order_.resize(solids_.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  if (!solids_.empty()) build(0, static_cast<std::uint32_t>(solids_.size()));
+}
+
+std::uint32_t Solids::build(std::uint32_t first, std::uint32_t count) {
+  const auto at = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({solids_[order_[first]].bounds, first, count, 0, 0});
+  for (std::uint32_t i = 1; i < count; ++i)
+    nodes_[at].bounds = scene::hull_of(nodes_[at].bounds, solids_[order_[first + i]].bounds);
+  if (count <= kLeaf) return at;
+  const Bounds box = nodes_[at].bounds;
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
+  }
+  const auto begin = order_.begin() + first;
+  std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t a, std::uint32_t b) {
+    const double at_a = solids_[a].bounds.low[axis] + solids_[a].bounds.high[axis];
+    const double at_b = solids_[b].bounds.low[axis] + solids_[b].bounds.high[axis];
+    return at_a < at_b || (at_a == at_b && a < b);
+  });
+  const std::uint32_t left = build(first, count / 2), right = build(first + count / 2, count - count / 2);
+  nodes_[at].left = left;
+  nodes_[at].right = right;
+  return at;
+}
+
+void Solids::find_planes() {
+  std::map<std::array<double, 4>, std::uint32_t> numbers;
+  const double unit = scale_.largest / kDistanceUnit;
+  for (const Solid& solid : solids_) {
+    auto& planes = planes_of_.emplace_back();
+    for (const Side& side : solid.sides) {
+      double lowest = 0;
+      for (const Point& p : solid.corners) lowest = std::min(lowest, side.estimate.above(p));
+      SectionPlane plane;
+      for (std::size_t i = 0; i < 3; ++i)
+        plane.normal[i] = std::round(side.estimate.normal[i] * kNormalUnit) / kNormalUnit;
+      plane.distance =
+          std::round((side.estimate.distance - std::min(scale_.depth(), -lowest / 2)) / unit) * unit;
+      const auto first = std::find_if(plane.normal.begin(), plane.normal.end(), [](double x) { return x != 0; });
+      if (first != plane.normal.end() && *first < 0) {  // the same plane from its other side
+        for (double& x : plane.normal) x = 0 - x;
+        plane.distance = 0 - plane.distance;
+      }
+      const auto number = static_cast<std::uint32_t>(planes_.size());
+      const auto [at, is_new] =
+          numbers.try_emplace({plane.normal[0], plane.normal[1], plane.normal[2], plane.distance}, number);
+      if (is_new) planes_.push_back(plane);
+      planes.push_back(at->second);
+    }
+  }
+  sections_ = std::make_unique<LazySection[]>(planes_.size());
+}
+
+const Section& Solids::section(std::uint32_t plane) const {
+  LazySection& lazy = sections_[plane];
+  std::call_once(lazy.made, [&] { lazy.section = std::make_unique<const Section>(planes_[plane], solids_, scale_); });
+  return *lazy.section;
+}
+
+// Calls visit(solid) for those whose boxes the segment passes, until it says that this is enough.
+template <typename Visit>
+void Solids::walk(const Point& from, const Point& to, const Visit& visit) const {
+  if (nodes_.empty()) return;
+  static thread_local std::vector<std::uint32_t> open;
+  open.assign(1, 0);
+  while (!open.empty()) {
+    const Node& node = nodes_[open.back()];
+    open.pop_back();
+    if (!passes(node.bounds, from, to)) continue;
+    if (node.left != 0) {
+      open.push_back(node.left);
+      open.push_back(node.right);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (visit(order_[i])) return;
+    }
+  }
+}
+
+void Solids::find_pierced(const Point& from, const Point& to, std::vector<Pierced>& out) const {
+  out.clear();
+  walk(from, to, [&](std::uint32_t solid) {
+    Pierced hit;
+    hit.solid = solid;
+    if (pierce(solids_[solid], from, to, hit)) out.push_back(hit);
+    return false;
+  });
+  std::sort(out.begin(), out.end(), [](const Pierced& a, const Pierced& b) {
+    return a.in < b.in || (a.in == b.in && a.solid < b.solid);
+  });
+}
+
+bool Solids::pierces_any(const Point& from, const Point& to) const {
+  bool any = false;
+  walk(from, to, [&](std::uint32_t solid) {
+    Pierced hit;
+    return any = pierce(solids_[solid], from, to, hit);
+  });
+  return any;
+}
+
+std::vector<std::uint32_t> Solids::touching(const Bounds& box) const {
+  std::vector<std::uint32_t> found;
+  for (std::uint32_t i = 0; i < solids_.size(); ++i) {
+    if (scene::touch(solids_[i].bounds, box)) found.push_back(i);
+  }
+  return found;
+}
+
+}  // namespace clues::fastpath::solids

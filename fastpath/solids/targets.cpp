@@ -1,0 +1,52 @@
+#include "fastpath/solids/targets.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace clues::fastpath::solids {
+
+Targets::Targets(scene::FlaggedMesh scene) : scene_(std::move(scene)) {
+  for (std::uint32_t t = 0; t < scene_.mesh.triangles.size(); ++t) {
+    if (scene_.counting(t)) order_.push_back(t);
+  }
+  if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
+}
+
+scene::Bounds Targets::bounds_of(std::uint32_t triangle) const {
+  std::array<scene::Point, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) corners[i] = scene_.mesh.points[scene_.mesh.triangles[triangle][i]];
+  return scene::bounds_of(corners);
+}
+
+std::uint32_t Targets::build(std::uint32_t first, std::uint32_t count) {
+  const auto at = static_cast<std::uint32_t>(nodes_.size());
+  scene::Bounds box = bounds_of(order_[first]);
+  for (std::uint32_t i = 1; i < count; ++i) box = scene::hull_of(box, bounds_of(order_[first + i]));
+  nodes_.push_back({box, 0, 0, order_[first]});
+  if (count == 1) return at;
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
+  }
+  const auto begin = order_.begin() + first;
+  std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t a, std::uint32_t b) {
+    const scene::Bounds of_a = bounds_of(a), of_b = bounds_of(b);
+    const double at_a = of_a.low[axis] + of_a.high[axis], at_b = of_b.low[axis] + of_b.high[axis];
+    return at_a < at_b || (at_a == at_b && a < b);
+  });
+  const std::uint32_t left = build(first, count / 2), right = build(first + count / 2, count - count / 2);
+  nodes_[at].left = left;
+  nodes_[at].right = right;
+  return at;
+}
+
+std::vector<scene::Point> Targets::corners_of(const Node& node) const {
+  if (!node.is_triangle()) return scene::corners_of(node.bounds);
+  std::vector<scene::Point> corners;
+  for (const auto i : scene_.mesh.triangles[node.triangle]) corners.push_back(scene_.mesh.points[i]);
+  return corners;
+}
+
+}  // namespace clues::fastpath::solids
