@@ -12,18 +12,9 @@ constexpr double kBriefUnit = 0x1p6, kBriefMost = 0x1p17;
 
 bool is_brief(double x) { return std::fabs(x) < kBriefMost && x * kBriefUnit == std::nearbyint(x * kBriefUnit); }
 
-ExactSpot spot(double x, double y) {
-  ExactSpot s{x, y, is_brief(x) && is_brief(y), {}, {}};
-  if (!s.brief) {
-    s.exact_x = x;
-    s.exact_y = y;
-  }
-  return s;
-}
-
 ExactSpot spot(mpq_class x, mpq_class y) {
   const double near_x = x.get_d(), near_y = y.get_d();
-  if (is_brief(near_x) && is_brief(near_y) && x == near_x && y == near_y) return spot(near_x, near_y);
+  if (is_brief(near_x) && is_brief(near_y) && x == near_x && y == near_y) return exact_spot(near_x, near_y);
   return {near_x, near_y, false, std::move(x), std::move(y)};
 }
 
@@ -53,12 +44,25 @@ Turn turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
   return t;
 }
 
+}  // namespace
+
+ExactSpot exact_spot(double x, double y) {
+  ExactSpot s{x, y, is_brief(x) && is_brief(y), {}, {}};
+  if (!s.brief) {
+    s.exact_x = x;
+    s.exact_y = y;
+  }
+  return s;
+}
+
 int sign_of_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
   const Turn t = turn(a, b, c);
   if (t.value > t.error) return 1;
   if (t.value < -t.error) return -1;
   return t.error == 0 ? 0 : sgn(exact_turn(a, b, c));
 }
+
+namespace {
 
 int compare(double a, const mpq_class& exact_a, bool brief_a, double b, const mpq_class& exact_b, bool brief_b) {
   if (brief_a && brief_b) return a < b ? -1 : a > b ? 1 : 0;
@@ -72,10 +76,11 @@ bool before(const ExactSpot& a, const ExactSpot& b) {
   return by_x != 0 ? by_x < 0 : compare(a.y, a.exact_y, a.brief, b.y, b.exact_y, b.brief) < 0;
 }
 
-// The corners of the hull, counter-clockwise, none on an edge; fewer than three if it is flat.
-std::vector<ExactSpot> convex_hull(std::vector<ExactSpot> points) {
+}  // namespace
+
+ExactPolygon convex_hull(std::vector<ExactSpot> points) {
   std::sort(points.begin(), points.end(), before);
-  std::vector<ExactSpot> hull;
+  ExactPolygon hull;
   const auto go_on = [&](const ExactSpot& p, std::size_t least) {
     while (hull.size() >= least + 2 && sign_of_turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
     hull.push_back(p);
@@ -86,6 +91,8 @@ std::vector<ExactSpot> convex_hull(std::vector<ExactSpot> points) {
   hull.pop_back();
   return hull;
 }
+
+namespace {
 
 mpq_class value_at(const SectionPlane& plane, const Point& p) {
   mpq_class value = -mpq_class(plane.distance);
@@ -106,7 +113,7 @@ int side_of(const SectionPlane& plane, const Point& p) {
 
 // Where the segment from p to q crosses the plane, on different sides of which they are.
 ExactSpot crossing(const SectionPlane& plane, const Point& p, const Point& q, std::size_t u, std::size_t v) {
-  if (p[u] == q[u] && p[v] == q[v]) return spot(p[u], p[v]);
+  if (p[u] == q[u] && p[v] == q[v]) return exact_spot(p[u], p[v]);
   const mpq_class at_p = value_at(plane, p), at_q = value_at(plane, q), share = at_p / (at_p - at_q);
   const auto along = [&](std::size_t axis) -> mpq_class {
     const mpq_class from(p[axis]);
@@ -114,8 +121,6 @@ ExactSpot crossing(const SectionPlane& plane, const Point& p, const Point& q, st
   };
   return spot(along(u), along(v));
 }
-
-constexpr double kSureShare = 0x1p-40;  // a share that is off by no more is good enough to be rounded to
 
 // A point of an edge, by its share of the way along it: an end, or where the line cd crosses.
 struct Cut {
@@ -128,27 +133,19 @@ class EdgeOfUnion {
   EdgeOfUnion(const ExactSpot& a, const ExactSpot& b) : a_(a), b_(b) {}
 
   // The part of the edge whose outer side is in the polygon.
-  void cover_by(const std::vector<ExactSpot>& polygon) {
+  void cover_by(const ExactPolygon& polygon) {
     Cut from{0, 0, nullptr, nullptr}, to{1, 0, nullptr, nullptr};
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const ExactSpot &c = polygon[i], &d = polygon[(i + 1) % polygon.size()];
-      const int at_a = sign_of_turn(c, d, a_), at_b = sign_of_turn(c, d, b_);
-      if (at_a == 0 && at_b == 0) {
-        if (same_way(c, d)) return;
-      } else if (at_a <= 0 && at_b <= 0) {
-        return;
-      } else if (at_a < 0) {
-        const Cut cut = cut_by(c, d);
-        if (is_less(from, cut)) from = cut;
-      } else if (at_b < 0) {
-        const Cut cut = cut_by(c, d);
-        if (is_less(cut, to)) to = cut;
-      }
-    }
-    if (is_less(from, to)) covered_.emplace_back(from, to);
+    if (clip(polygon, from, to, [this](const ExactSpot& c, const ExactSpot& d) { return !same_way(c, d); }))
+      covered_.emplace_back(from, to);
   }
 
-  void add_rim(std::vector<std::array<Section::Spot, 2>>& rim) {
+  bool enters_all(const std::vector<ExactPolygon>& polygons) const {
+    Cut from{0, 0, nullptr, nullptr}, to{1, 0, nullptr, nullptr};
+    return std::all_of(polygons.begin(), polygons.end(), [&](const ExactPolygon& polygon) {
+      return clip(polygon, from, to, [](const ExactSpot&, const ExactSpot&) { return false; });
+    });
+  }
+  void add_rim(std::vector<ExactSegment>& rim) {
     std::sort(covered_.begin(), covered_.end(),
               [this](const auto& x, const auto& y) { return is_less(x.first, y.first); });
     Cut at{0, 0, nullptr, nullptr};
@@ -161,6 +158,27 @@ class EdgeOfUnion {
   }
 
  private:
+  // Takes away what is outside of the polygon. False: no open part of the edge is left, or it lies on an edge cd and that is not allowed.
+  template <typename Allowed>
+  bool clip(const ExactPolygon& polygon, Cut& from, Cut& to, const Allowed& on_edge) const {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const ExactSpot &c = polygon[i], &d = polygon[(i + 1) % polygon.size()];
+      const int at_a = sign_of_turn(c, d, a_), at_b = sign_of_turn(c, d, b_);
+      if (at_a == 0 && at_b == 0) {
+        if (!on_edge(c, d)) return false;
+      } else if (at_a <= 0 && at_b <= 0) {
+        return false;
+      } else if (at_a < 0) {
+        const Cut cut = cut_by(c, d);
+        if (is_less(from, cut)) from = cut;
+      } else if (at_b < 0) {
+        const Cut cut = cut_by(c, d);
+        if (is_less(cut, to)) to = cut;
+      }
+    }
+    return is_less(from, to);
+  }
+
   // Of lines that are the same.
   bool same_way(const ExactSpot& c, const ExactSpot& d) const { return before(a_, b_) == before(c, d); }
 
@@ -184,9 +202,10 @@ class EdgeOfUnion {
     return exact_share(x) < exact_share(y);
   }
 
-  Section::Spot spot_at(const Cut& cut) const {
-    const double share = cut.error <= kSureShare ? cut.share : exact_share(cut).get_d();
-    return {a_.x + share * (b_.x - a_.x), a_.y + share * (b_.y - a_.y)};
+  ExactSpot spot_at(const Cut& cut) const {
+    if (cut.c == nullptr) return cut.share == 0 ? a_ : b_;
+    const mpq_class share = exact_share(cut), ax = x_of(a_), ay = y_of(a_);
+    return spot(ax + share * (x_of(b_) - ax), ay + share * (y_of(b_) - ay));
   }
 
   const ExactSpot &a_, &b_;
@@ -197,7 +216,7 @@ struct Extent {
   double low_x, low_y, high_x, high_y;
 };
 
-Extent extent_of(const std::vector<ExactSpot>& polygon) {
+Extent extent_of(const ExactPolygon& polygon) {
   Extent e{polygon[0].x, polygon[0].y, polygon[0].x, polygon[0].y};
   for (const auto& p : polygon) {
     e = {std::min(e.low_x, p.x), std::min(e.low_y, p.y), std::max(e.high_x, p.x), std::max(e.high_y, p.y)};
@@ -207,7 +226,8 @@ Extent extent_of(const std::vector<ExactSpot>& polygon) {
 
 }  // namespace
 
-std::optional<std::vector<ExactSpot>> section_of(const Solid& solid, const SectionPlane& plane, std::size_t dropped) {
+std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& plane, std::size_t dropped,
+                                       Cutting cutting) {
   const std::size_t u = (dropped + 1) % 3, v = (dropped + 2) % 3;
   std::vector<int> sides;
   bool below = false, above = false;
@@ -216,22 +236,25 @@ std::optional<std::vector<ExactSpot>> section_of(const Solid& solid, const Secti
     below = below || sides.back() < 0;
     above = above || sides.back() > 0;
   }
-  if (!below || !above) return std::nullopt;
+  if (!above || (!below && cutting == Cutting::across)) return std::nullopt;
   std::vector<ExactSpot> spots;
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (sides[i] == 0) spots.push_back(spot(solid.corners[i][u], solid.corners[i][v]));
+    if (sides[i] == 0) spots.push_back(exact_spot(solid.corners[i][u], solid.corners[i][v]));
   }
   for (const auto& [i, j] : solid.edges) {
     if (sides[i] * sides[j] < 0) spots.push_back(crossing(plane, solid.corners[i], solid.corners[j], u, v));
   }
-  return convex_hull(std::move(spots));
+  if (spots.size() < 3) return std::nullopt;
+  ExactPolygon hull = convex_hull(std::move(spots));
+  if (hull.size() < 3) return std::nullopt;
+  return hull;
 }
 
-std::vector<std::array<Section::Spot, 2>> rim_of_union(const std::vector<std::vector<ExactSpot>>& polygons) {
+std::vector<ExactSegment> rim_of_union(const std::vector<ExactPolygon>& polygons) {
   std::vector<Extent> extents;
   for (const auto& polygon : polygons) extents.push_back(extent_of(polygon));
-  std::vector<std::array<Section::Spot, 2>> rim;
-  std::vector<const std::vector<ExactSpot>*> beside;
+  std::vector<ExactSegment> rim;
+  std::vector<const ExactPolygon*> beside;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     // Coordinates are rounded, so boxes may seem to miss each other by two roundings where they touch.
     const Extent& mine = extents[i];
@@ -251,6 +274,10 @@ std::vector<std::array<Section::Spot, 2>> rim_of_union(const std::vector<std::ve
     }
   }
   return rim;
+}
+
+bool enters_interior(const ExactSegment& segment, const std::vector<ExactPolygon>& polygons) {
+  return EdgeOfUnion(segment[0], segment[1]).enters_all(polygons);
 }
 
 }  // namespace clues::fastpath::solids

@@ -20,10 +20,27 @@ struct ExactSpot {
   mpq_class exact_x, exact_y;  // unless it is brief
 };
 
-// Strictly convex, counter-clockwise; none where the plane does not cross the solid's interior. `dropped` is the axis that is left out of the coordinates.
-std::optional<std::vector<ExactSpot>> section_of(const Solid& solid, const SectionPlane& plane, std::size_t dropped);
+ExactSpot exact_spot(double x, double y);
+using ExactPolygon = std::vector<ExactSpot>;  // strictly convex, counter-clockwise
+using ExactSegment = std::array<ExactSpot, 2>;
 
-// What of the polygons' edges borders their union, as a closed set without whiskers: where the outer side of an edge is in no polygon. Rounded.
-std::vector<std::array<Section::Spot, 2>> rim_of_union(const std::vector<std::vector<ExactSpot>>& polygons);
+// 1 where a, b, c turn left.
+int sign_of_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c);
+
+// The corners of the hull, none on an edge; fewer than three if it is flat.
+ExactPolygon convex_hull(std::vector<ExactSpot> points);
+
+// Which of a solid is cut out of a plane: what is in its interior, or what has its interior just above, where the plane's normal points.
+enum class Cutting : std::uint8_t { across, just_above };
+
+// None where there is nothing with an area. `dropped` is the axis that is left out of the coordinates.
+std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& plane, std::size_t dropped,
+                                       Cutting cutting);
+
+// What of the polygons' edges borders their union, as a closed set without whiskers: where the outer side of an edge is in no polygon.
+std::vector<ExactSegment> rim_of_union(const std::vector<ExactPolygon>& polygons);
+
+// Whether the segment has a point in the interior of all of the polygons.
+bool enters_interior(const ExactSegment& segment, const std::vector<ExactPolygon>& polygons);
 
 }  // namespace clues::fastpath::solids

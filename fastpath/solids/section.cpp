@@ -75,11 +75,11 @@ Scale Scale::of(const Bounds& bounds) {
 
 Section::Section(const SectionPlane& plane, std::span<const Solid> solids, const Scale& scale)
     : plane_(plane), scale_(scale), dropped_(longest(plane.normal)), u_((dropped_ + 1) % 3), v_((dropped_ + 2) % 3) {
-  std::vector<std::vector<ExactSpot>> exact;
+  std::vector<ExactPolygon> exact;
   for (const Solid& solid : solids) {
-    if (auto polygon = section_of(solid, plane_, dropped_)) exact.push_back(std::move(*polygon));
+    if (auto polygon = section_of(solid, plane_, dropped_, Cutting::across)) exact.push_back(std::move(*polygon));
   }
-  rim_ = rim_of_union(exact);
+  for (const auto& [a, b] : rim_of_union(exact)) rim_.push_back({Spot{a.x, a.y}, Spot{b.x, b.y}});
   std::vector<Range> of_polygons, of_rim;
   const auto widen = [](Range& range, const Spot& s) {
     for (std::size_t i = 0; i < 2; ++i) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -14,10 +15,11 @@ namespace {
 
 using Polygon = std::vector<Point>;
 
-constexpr int kDeepest = 14;               // cuts of a shaft within one another
+constexpr int kDeepest = 24;               // cuts of a shaft within one another
 constexpr std::size_t kMostPlanes = 24;    // that are tried for one shaft
 constexpr std::size_t kProbes = 6;         // segments that look for a way that is free, before a proof is tried
 constexpr double kProbesWithin = 0.9;      // of the way from the middle to the corners
+constexpr double kSmallestOpening = 0x1p-9;  // of the scale
 constexpr double kSmallest = 0x1p-14;      // of the scale: what is no longer cut
 
 Point middle_of(std::span<const Point> points) {
@@ -63,10 +65,21 @@ std::array<Polygon, 2> cut(const Polygon& polygon, const Length& extent) {
   return parts;
 }
 
-// Where sight lines leave the cell.
+// A facet of the cell, and where of it sight lines may leave the cell.
 struct Window {
-  Polygon polygon;
+  Polygon facet;
   Side side;
+  std::vector<Polygon> open;
+};
+
+struct Opening {
+  std::uint32_t window = 0, part = 0;
+};
+
+// A node of the targets, and the openings of which it is not proved that no line through them gets there.
+struct OpenNode {
+  std::uint32_t node = 0;
+  std::vector<Opening> openings;
 };
 
 // The cell as the proofs need it.
@@ -80,8 +93,15 @@ class ViewCell {
     if (solid_) {
       for (const auto& facet : cell.facets()) {
         Window window;
-        for (const int i : facet.corners) window.polygon.push_back(corners_[static_cast<std::size_t>(i)]);
-        window.side = side_through(window.polygon[0], window.polygon[1], window.polygon[2]);
+        for (const int i : facet.corners) window.facet.push_back(corners_[static_cast<std::size_t>(i)]);
+        window.side = side_through(window.facet[0], window.facet[1], window.facet[2]);
+        if (const auto axis = flat_axis(window.facet)) {
+          const FilledPlane& filled =
+              solids.filled({*axis, window.facet[0][*axis], window.side.estimate.normal[*axis] > 0});
+          window.open = filled.open_parts(window.facet, kSmallestOpening * solids.scale().largest);
+        } else {
+          window.open.push_back(window.facet);
+        }
         windows_.push_back(std::move(window));
       }
     } else {
@@ -90,7 +110,7 @@ class ViewCell {
         all.clear();
         for (const int i : cell.facets()[0].corners) all.push_back(corners_[static_cast<std::size_t>(i)]);
       }
-      windows_.push_back({std::move(all), {}});
+      windows_.push_back({all, {}, {all}});
     }
     for (const auto i : solids.touching(bounds_)) {
       if (!is_outside(solids.all()[i])) around_.push_back(&solids.all()[i]);
@@ -98,6 +118,13 @@ class ViewCell {
   }
 
   const std::vector<Window>& windows() const { return windows_; }
+  std::vector<Opening> openings() const {
+    std::vector<Opening> all;
+    for (std::uint32_t w = 0; w < windows_.size(); ++w) {
+      for (std::uint32_t i = 0; i < windows_[w].open.size(); ++i) all.push_back({w, i});
+    }
+    return all;
+  }
 
   // Whether it has no point in common with the target, with certainty.
   bool is_apart_from(const std::vector<Point>& target) const {
@@ -109,6 +136,12 @@ class ViewCell {
   // Whether lines to the target may go through the window, if they are apart.
   bool may_be_left_through(const Window& window, const std::vector<Point>& target) const {
     return !solid_ || !window.side.has_none_outside(target);
+  }
+
+  // Whether it only sees the triangle from behind (targets.h).
+  bool is_behind(const std::vector<Side>& backs, const std::vector<Point>& triangle) const {
+    return std::any_of(backs.begin(), backs.end(), [this](const Side& s) { return s.has_none_outside(corners_); }) &&
+           is_out_of_solids_around(triangle);
   }
 
   // Of solids that the viewer may be in: whether the target is out of all of them.
@@ -208,6 +241,19 @@ class Prover {
   std::vector<std::uint32_t> planes_;
 };
 
+// Per node whether it has a triangle that is not only seen from behind.
+std::vector<std::uint8_t> not_from_behind(const ViewCell& view, const Targets& targets) {
+  const auto& nodes = targets.nodes();
+  std::vector<std::uint8_t> some(nodes.size());
+  for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parents
+    const auto& node = nodes[i];
+    some[i] = node.is_triangle()
+                  ? (view.is_behind(targets.backs_of(node.triangle), targets.corners_of(node)) ? 0 : 1)
+                  : some[node.left] | some[node.right];
+  }
+  return some;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> not_hidden(const Solids& solids, const Targets& targets, const std::vector<Point>& cell,
@@ -217,32 +263,33 @@ std::vector<std::uint32_t> not_hidden(const Solids& solids, const Targets& targe
   ShaftCounts uncounted;
   const ViewCell view(cell, solids);
   Prover prover(solids, options, counts != nullptr ? *counts : uncounted);
-  // A node, and the windows of which it is not proved that no line through them gets there.
-  std::vector<std::pair<std::uint32_t, std::vector<std::uint32_t>>> open(1);
-  for (std::uint32_t i = 0; i < view.windows().size(); ++i) open[0].second.push_back(i);
+  const auto in_question = not_from_behind(view, targets);
+  std::vector<OpenNode> open{{0, view.openings()}};
   while (!open.empty()) {
-    const auto [at, windows] = std::move(open.back());
+    OpenNode next = std::move(open.back());
     open.pop_back();
-    const Targets::Node& node = targets.nodes()[at];
+    if (in_question[next.node] == 0) continue;
+    const Targets::Node& node = targets.nodes()[next.node];
     const Polygon target = targets.corners_of(node);
-    std::vector<std::uint32_t> left;
-    if (!view.is_apart_from(target) || !view.is_out_of_solids_around(target)) {
-      left = windows;
-    } else {
-      for (const auto w : windows) {
-        const Window& window = view.windows()[w];
+    const bool seen_through_openings = view.is_apart_from(target) && view.is_out_of_solids_around(target);
+    if (seen_through_openings) {
+      std::size_t left = 0;
+      for (const Opening& opening : next.openings) {
+        const Window& window = view.windows()[opening.window];
         if (!view.may_be_left_through(window, target)) continue;
-        if (node.is_triangle() && !left.empty()) break;
-        if (!prover.prove(window.polygon, target, node.is_triangle())) left.push_back(w);
+        if ((node.is_triangle() && left > 0) ||  // one is enough: it is listed
+            !prover.prove(window.open[opening.part], target, node.is_triangle()))
+          next.openings[left++] = opening;
       }
+      next.openings.resize(left);
     }
-    if (left.empty()) continue;
+    if (seen_through_openings && next.openings.empty()) continue;
     if (node.is_triangle()) {
       found.push_back(node.triangle);
       continue;
     }
-    open.emplace_back(node.left, left);
-    open.emplace_back(node.right, std::move(left));
+    open.push_back({node.left, next.openings});
+    open.push_back({node.right, std::move(next.openings)});
   }
   std::sort(found.begin(), found.end());
   return found;

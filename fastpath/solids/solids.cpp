@@ -134,6 +134,16 @@ const Section& Solids::section(std::uint32_t plane) const {
   return *lazy.section;
 }
 
+const FilledPlane& Solids::filled(const FacetPlane& plane) const {
+  LazyFilled* lazy = nullptr;
+  {
+    const std::lock_guard lock(filled_mutex_);
+    lazy = &filled_[plane.key()];
+  }
+  std::call_once(lazy->made, [&] { lazy->filled = std::make_unique<const FilledPlane>(plane, solids_); });
+  return *lazy->filled;
+}
+
 // Calls visit(solid) for those whose boxes the segment passes, until it says that this is enough.
 template <typename Visit>
 void Solids::walk(const Point& from, const Point& to, const Visit& visit) const {
@@ -178,10 +188,22 @@ bool Solids::pierces_any(const Point& from, const Point& to) const {
 }
 
 std::vector<std::uint32_t> Solids::touching(const Bounds& box) const {
-  std::vector<std::uint32_t> found;
-  for (std::uint32_t i = 0; i < solids_.size(); ++i) {
-    if (scene::touch(solids_[i].bounds, box)) found.push_back(i);
+  std::vector<std::uint32_t> found, open;
+  if (!nodes_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const Node& node = nodes_[open.back()];
+    open.pop_back();
+    if (!scene::touch(node.bounds, box)) continue;
+    if (node.left != 0) {
+      open.push_back(node.left);
+      open.push_back(node.right);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (scene::touch(solids_[order_[i]].bounds, box)) found.push_back(order_[i]);
+    }
   }
+  std::sort(found.begin(), found.end());
   return found;
 }
 

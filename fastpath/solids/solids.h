@@ -1,11 +1,14 @@
 // The solids of a scene, found by segments, and the planes in which they are fused (section.h).
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
 
+#include "fastpath/solids/openings.h"
 #include "fastpath/solids/section.h"
 #include "fastpath/solids/solid.h"
 
@@ -33,13 +36,14 @@ class Solids {
   void find_pierced(const Point& from, const Point& to, std::vector<Pierced>& out) const;
   bool pierces_any(const Point& from, const Point& to) const;
 
-  // Numbers of solids whose box touches the one given.
+  // Numbers of solids whose box touches the one given, ascending.
   std::vector<std::uint32_t> touching(const Bounds& box) const;
 
   // The plane a little behind a side of a solid. Solids whose sides lie in one plane share it.
   std::uint32_t plane_behind(std::uint32_t solid, std::uint32_t side) const { return planes_of_[solid][side]; }
   // Made when it is first asked for; always the same.
   const Section& section(std::uint32_t plane) const;
+  const FilledPlane& filled(const FacetPlane& plane) const;
 
  private:
   struct Node {
@@ -50,6 +54,10 @@ class Solids {
   struct LazySection {
     std::once_flag made;
     std::unique_ptr<const Section> section;
+  };
+  struct LazyFilled {
+    std::once_flag made;
+    std::unique_ptr<const FilledPlane> filled;
   };
   void build();
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
@@ -64,6 +72,8 @@ class Solids {
   std::vector<SectionPlane> planes_;
   std::vector<std::vector<std::uint32_t>> planes_of_;
   std::unique_ptr<LazySection[]> sections_;
+  mutable std::mutex filled_mutex_;
+  mutable std::map<std::array<double, 3>, LazyFilled> filled_;
 };
 
 }  // namespace clues::fastpath::solids

@@ -5,13 +5,41 @@
 #include <cstddef>
 #include <utility>
 
+#include "fastpath/solids/openings.h"
+
 namespace clues::fastpath::solids {
 
-Targets::Targets(scene::FlaggedMesh scene) : scene_(std::move(scene)) {
+Targets::Targets(scene::FlaggedMesh scene, const Solids& solids)
+    : scene_(std::move(scene)), backs_(scene_.mesh.triangles.size()) {
   for (std::uint32_t t = 0; t < scene_.mesh.triangles.size(); ++t) {
     if (scene_.counting(t)) order_.push_back(t);
   }
+  for (const auto t : order_) find_backs(t, solids);
   if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
+}
+
+void Targets::find_backs(std::uint32_t triangle, const Solids& solids) {
+  const auto corners = corners_of({{}, 0, 0, triangle});
+  auto& backs = backs_[triangle];
+  for (const auto i : solids.touching(bounds_of(triangle))) {
+    const Solid& solid = solids.all()[i];
+    const auto side = std::find_if(solid.sides.begin(), solid.sides.end(),
+                                   [&](const Side& s) { return s.has_none_outside(corners) && s.has_none_inside(corners); });
+    if (side != solid.sides.end() && std::all_of(solid.sides.begin(), solid.sides.end(),
+                                                 [&](const Side& s) { return s.has_none_outside(corners); }))
+      backs.push_back(*side);
+  }
+  const auto axis = flat_axis(corners);
+  if (!axis) return;
+  const Side seen_left = side_through(corners[0], corners[1], corners[2]),
+             seen_right = side_through(corners[0], corners[2], corners[1]);
+  for (const Side& side : {seen_left, seen_right}) {
+    const bool solids_above = side.estimate.normal[*axis] < 0;
+    const auto is_same = [&](const Side& other) { return (other.estimate.normal[*axis] < 0) == solids_above; };
+    if (std::none_of(backs.begin(), backs.end(), is_same) &&
+        solids.filled({*axis, corners[0][*axis], solids_above}).fills(corners))
+      backs.push_back(side);
+  }
 }
 
 scene::Bounds Targets::bounds_of(std::uint32_t triangle) const {

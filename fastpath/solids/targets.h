@@ -1,9 +1,12 @@
 // The triangles that are asked about, in a tree of boxes: what is proved of a box holds of all that is in it.
+//
+// Most triangles of a level are drawn on solids, and nobody sees them from behind: whoever is behind looks through the solid.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "fastpath/solids/solids.h"
 #include "scene/mesh/bounds.h"
 #include "scene/mesh/flagged_mesh.h"
 
@@ -18,20 +21,26 @@ class Targets {
     bool is_triangle() const { return left == 0; }
   };
 
-  // Of the triangles that count. O(n log n).
-  explicit Targets(scene::FlaggedMesh scene);
+  // Of the triangles that count. O(n log n), and a search for the solids that each lies on.
+  Targets(scene::FlaggedMesh scene, const Solids& solids);
 
   const std::vector<Node>& nodes() const { return nodes_; }  // node 0 is the root; none without triangles
   // Of a triangle, or of a box.
   std::vector<scene::Point> corners_of(const Node& node) const;
 
+  // Planes of a triangle inside of which solids lie on nearly all of it. No line that begins on the inside, in the plane or not, and in none of these solids gets to
+  // the triangle: just before its end it would be in one.
+  const std::vector<Side>& backs_of(std::uint32_t triangle) const { return backs_[triangle]; }
+
  private:
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
   scene::Bounds bounds_of(std::uint32_t triangle) const;
+  void find_backs(std::uint32_t triangle, const Solids& solids);
 
   scene::FlaggedMesh scene_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
+  std::vector<std::vector<Side>> backs_;  // per triangle of the scene
 };
 
 }  // namespace clues::fastpath::solids

@@ -1,0 +1,214 @@
+#include "fastpath/solids/openings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+namespace clues::fastpath::solids {
+namespace {
+
+using Spot = Section::Spot;
+
+constexpr double kMostlyOpen = 0.5;  // of a rectangle: then it is not cut up
+constexpr int kMostHalvings = 10;
+
+struct Rectangle {
+  Spot low{}, high{};
+  double area() const { return (high[0] - low[0]) * (high[1] - low[1]); }
+};
+
+Rectangle hull_of(const Rectangle& a, const Rectangle& b) {
+  Rectangle out;
+  for (std::size_t i = 0; i < 2; ++i) {
+    out.low[i] = std::min(a.low[i], b.low[i]);
+    out.high[i] = std::max(a.high[i], b.high[i]);
+  }
+  return out;
+}
+
+template <typename Spots>
+Rectangle rectangle_around(const Spots& spots) {
+  Rectangle out{{spots[0].x, spots[0].y}, {spots[0].x, spots[0].y}};
+  for (const ExactSpot& s : spots) out = hull_of(out, {{s.x, s.y}, {s.x, s.y}});
+  return out;
+}
+
+ExactPolygon exactly(const Rectangle& r) {
+  return {exact_spot(r.low[0], r.low[1]), exact_spot(r.high[0], r.low[1]), exact_spot(r.high[0], r.high[1]),
+          exact_spot(r.low[0], r.high[1])};
+}
+
+// What of the polygon is in the rectangle, rounded.
+std::vector<Spot> clipped(std::vector<Spot> polygon, const Rectangle& r) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t axis = i / 2;
+    const double sign = i % 2 == 0 ? 1 : -1, bound = i % 2 == 0 ? r.low[axis] : r.high[axis];
+    std::vector<Spot> left;
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Spot &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+      const double at_a = sign * (a[axis] - bound), at_b = sign * (b[axis] - bound);
+      if (at_a >= 0) left.push_back(a);
+      if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) {
+        Spot between{};
+        between[axis] = bound;
+        between[1 - axis] = a[1 - axis] + at_a / (at_a - at_b) * (b[1 - axis] - a[1 - axis]);
+        left.push_back(between);
+      }
+    }
+    polygon = std::move(left);
+  }
+  return polygon;
+}
+
+bool is_inside(const ExactSpot& spot, const ExactPolygon& polygon, int least) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    if (sign_of_turn(polygon[i], polygon[(i + 1) % polygon.size()], spot) < least) return false;
+  }
+  return true;
+}
+
+// Whether their interiors have no point in common, by an edge of one.
+bool are_apart(const ExactPolygon& a, const ExactPolygon& b) {
+  const auto by_edge_of = [](const ExactPolygon& one, const ExactPolygon& other) {
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      if (std::all_of(other.begin(), other.end(), [&](const ExactSpot& s) {
+            return sign_of_turn(one[i], one[(i + 1) % one.size()], s) <= 0;
+          }))
+        return true;
+    }
+    return false;
+  };
+  return by_edge_of(a, b) || by_edge_of(b, a);
+}
+
+class Opener {
+ public:
+  Opener(ExactPolygon facet, const std::vector<ExactPolygon>& polygons, const std::vector<ExactSegment>& rim,
+         double smallest)
+      : facet_(std::move(facet)), around_(rectangle_around(facet_)), smallest_(smallest) {
+    for (const auto& s : facet_) rounded_.push_back({s.x, s.y});
+    for (const auto& polygon : polygons) {
+      if (!misses(rectangle_around(polygon))) polygons_.push_back(&polygon);
+    }
+    for (const auto& segment : rim) {
+      if (!misses(rectangle_around(segment)) && enters_interior(segment, {facet_})) rim_.push_back(&segment);
+    }
+  }
+
+  std::vector<Rectangle> open() const { return open_in(around_, 0); }
+  bool has_none_open() const { return is_filled(around_); }
+  std::vector<Spot> part(const Rectangle& r) const { return clipped(rounded_, r); }
+
+ private:
+  // By its rounded corners; some that touch may seem to miss.
+  bool misses(const Rectangle& r) const {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double slack = 0x1p-40 * (std::fabs(around_.low[i]) + std::fabs(around_.high[i]));
+      if (r.low[i] > around_.high[i] + slack || r.high[i] < around_.low[i] - slack) return true;
+    }
+    return false;
+  }
+
+  bool is_filled(const Rectangle& r) const {
+    const std::vector<ExactPolygon> both{facet_, exactly(r)};
+    const auto rounded = clipped(rounded_, r);
+    if (rounded.size() < 3) return are_apart(both[0], both[1]);
+    Spot middle{};
+    for (const Spot& s : rounded) {
+      for (std::size_t i = 0; i < 2; ++i) middle[i] += s[i] / static_cast<double>(rounded.size());
+    }
+    const ExactSpot inner = exact_spot(middle[0], middle[1]);
+    if (!is_inside(inner, both[0], 1) || !is_inside(inner, both[1], 1)) return are_apart(both[0], both[1]);
+    return std::any_of(polygons_.begin(), polygons_.end(),
+                       [&](const ExactPolygon* p) { return is_inside(inner, *p, 0); }) &&
+           std::none_of(rim_.begin(), rim_.end(),
+                        [&](const ExactSegment* segment) { return enters_interior(*segment, both); });
+  }
+
+  // Rectangles that have all that is open of one in their union.
+  std::vector<Rectangle> open_in(const Rectangle& r, int depth) const {
+    if (is_filled(r)) return {};
+    const std::size_t longer = r.high[0] - r.low[0] >= r.high[1] - r.low[1] ? 0 : 1;
+    if (depth == kMostHalvings || r.high[longer] - r.low[longer] < smallest_) return {r};
+    const double middle = (r.low[longer] + r.high[longer]) / 2;
+    Rectangle lower = r, upper = r;
+    lower.high[longer] = upper.low[longer] = middle;
+    auto open = open_in(lower, depth + 1);
+    const auto above = open_in(upper, depth + 1);
+    open.insert(open.end(), above.begin(), above.end());
+    if (open.size() < 2) return open;
+    Rectangle hull = open[0];
+    double area = 0;
+    for (const Rectangle& part : open) {
+      hull = hull_of(hull, part);
+      area += part.area();
+    }
+    if (area >= kMostlyOpen * hull.area()) return {hull};
+    return open;
+  }
+
+  ExactPolygon facet_;
+  Rectangle around_;
+  double smallest_;
+  std::vector<Spot> rounded_;
+  std::vector<const ExactPolygon*> polygons_;
+  std::vector<const ExactSegment*> rim_;
+};
+
+}  // namespace
+
+std::optional<std::size_t> flat_axis(std::span<const Point> points) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (std::all_of(points.begin(), points.end(), [&](const Point& p) { return p[axis] == points[0][axis]; }))
+      return axis;
+  }
+  return std::nullopt;
+}
+
+FilledPlane::FilledPlane(const FacetPlane& plane, std::span<const Solid> solids)
+    : plane_(plane), u_((plane.axis + 1) % 3), v_((plane.axis + 2) % 3) {
+  SectionPlane section;
+  section.normal[plane.axis] = plane.outside_is_above ? 1 : -1;
+  section.distance = plane.outside_is_above ? plane.at : -plane.at;
+  for (const Solid& solid : solids) {
+    if (solid.bounds.low[plane.axis] > plane.at || solid.bounds.high[plane.axis] < plane.at) continue;
+    if (auto polygon = section_of(solid, section, plane.axis, Cutting::just_above))
+      polygons_.push_back(std::move(*polygon));
+  }
+  rim_ = rim_of_union(polygons_);
+}
+
+ExactPolygon FilledPlane::in_plane(const std::vector<Point>& polygon) const {
+  std::vector<ExactSpot> spots;
+  for (const Point& p : polygon) spots.push_back(exact_spot(p[u_], p[v_]));
+  return convex_hull(std::move(spots));
+}
+
+bool FilledPlane::fills(const std::vector<Point>& polygon) const {
+  ExactPolygon exact = in_plane(polygon);
+  return exact.size() >= 3 && Opener(std::move(exact), polygons_, rim_, 0).has_none_open();
+}
+
+std::vector<std::vector<Point>> FilledPlane::open_parts(const std::vector<Point>& facet, double smallest) const {
+  const ExactPolygon polygon = in_plane(facet);
+  if (polygon.size() < 3) return {facet};
+  const Opener opener(polygon, polygons_, rim_, smallest);
+  std::vector<std::vector<Point>> parts;
+  for (const Rectangle& r : opener.open()) {
+    auto part = opener.part(r);
+    if (part.empty()) part = {r.low, {r.high[0], r.low[1]}, r.high, {r.low[0], r.high[1]}};
+    auto& polygon_of_part = parts.emplace_back();
+    for (const Spot& s : part) {
+      Point p{};
+      p[plane_.axis] = plane_.at;
+      p[u_] = s[0];
+      p[v_] = s[1];
+      polygon_of_part.push_back(p);
+    }
+  }
+  return parts;
+}
+
+}  // namespace clues::fastpath::solids
