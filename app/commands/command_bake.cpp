@@ -166,12 +166,13 @@ fastpath::bakes::ListerMaker lister_for(const BakeRequest& request, const scene:
                                         const std::vector<scene::Hull>& hulls, const scene::BakePlan& plan) {
   namespace solids = fastpath::solids;
   if (request.kernel == "exact") return validate::exact_lister();
-  if (request.kernel == "fast") return fastpath::bakes::fast_lister(request.effort.value_or(kEffort));
   std::vector<std::vector<scene::Point>> cells;
   for (const auto& cell : plan.cells) cells.push_back(cell.points);
   auto found = hulls.empty() ? solids::find_solids(scene) : solids::solids_of(hulls);
-  return fastpath::bakes::solid_lister(
-      std::make_shared<const solids::Solids>(std::move(found), solids::bounds_of_questions(scene, cells)));
+  if (request.kernel == "fast" && hulls.empty()) return fastpath::bakes::fast_lister(request.effort.value_or(kEffort));
+  auto all = std::make_shared<const solids::Solids>(std::move(found), solids::bounds_of_questions(scene, cells));
+  return request.kernel == "solids" ? fastpath::bakes::solid_lister(std::move(all))
+                                    : fastpath::bakes::fast_lister(request.effort.value_or(kEffort), std::move(all));
 }
 
 int run_bake(const BakeRequest& request) {

@@ -22,9 +22,16 @@ using scene::PlaceKind;
 
 class FastLister : public CellLister {
  public:
-  FastLister(scene::FlaggedMesh scene, std::uint64_t effort) : scene_(std::move(scene)) { options_.effort = effort; }
+  FastLister(scene::FlaggedMesh scene, std::uint64_t effort, std::shared_ptr<const solids::Solids> solids)
+      : scene_(std::move(scene)), solids_(std::move(solids)) {
+    options_.effort = effort;
+    if (solids_) targets_.emplace(scene_.scene(), *solids_);
+  }
   CellList list(const std::vector<scene::Point>& cell, std::span<const std::uint32_t> guess) const override {
-    const auto found = exact::by_threads(1, [&] { return fastpath::visible_through(scene_, cell, options_, guess); });
+    Ids bound;
+    if (solids_) bound = solids::not_hidden(*solids_, *targets_, cell);
+    const auto found = exact::by_threads(
+        1, [&] { return fastpath::visible_through(scene_, cell, options_, guess, solids_ ? &bound : nullptr); });
     CellList out;
     out.visible = found.all();
     out.fallbacks = static_cast<std::int64_t>(found.conservative_fallbacks);
@@ -35,6 +42,8 @@ class FastLister : public CellLister {
 
  private:
   fastpath::SeeThroughScene scene_;
+  std::shared_ptr<const solids::Solids> solids_;  // none: nothing is proved beforehand
+  std::optional<solids::Targets> targets_;
   LocalMapOptions options_;
 };
 
@@ -270,8 +279,10 @@ ListerMaker solid_lister(std::shared_ptr<const solids::Solids> solids) {
   };
 }
 
-ListerMaker fast_lister(std::uint64_t effort) {
-  return [effort](scene::FlaggedMesh scene) { return std::make_unique<FastLister>(std::move(scene), effort); };
+ListerMaker fast_lister(std::uint64_t effort, std::shared_ptr<const solids::Solids> solids) {
+  return [effort, solids = std::move(solids)](scene::FlaggedMesh scene) {
+    return std::make_unique<FastLister>(std::move(scene), effort, solids);
+  };
 }
 
 void bake(const scene::FlaggedMesh& scene, const scene::BakePlan& plan, scene::BakeStore& store,

@@ -32,8 +32,8 @@ class CellLister {
 };
 using ListerMaker = std::function<std::unique_ptr<CellLister>(scene::FlaggedMesh scene)>;
 
-// `effort`: LocalMapOptions.
-ListerMaker fast_lister(std::uint64_t effort);
+// `effort`: LocalMapOptions. `solids`: if there are any, cells are mapped for what these do not hide (T15).
+ListerMaker fast_lister(std::uint64_t effort, std::shared_ptr<const solids::Solids> solids = nullptr);
 
 // What these do not hide (T15); only triangles that count are listed, and each as a fallback.
 ListerMaker solid_lister(std::shared_ptr<const solids::Solids> solids);

@@ -15,7 +15,7 @@ namespace {
 
 using Polygon = std::vector<Point>;
 
-constexpr int kDeepest = 24;               // cuts of a shaft within one another
+constexpr int kDeepest = 12;               // cuts of a shaft within one another
 constexpr std::size_t kMostPlanes = 24;    // that are tried for one shaft
 constexpr std::size_t kProbes = 6;         // segments that look for a way that is free, before a proof is tried
 constexpr double kProbesWithin = 0.9;      // of the way from the middle to the corners

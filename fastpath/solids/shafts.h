@@ -14,7 +14,7 @@ namespace clues::fastpath::solids {
 
 // How many shafts may be looked at for a proof about one facet of the cell.
 struct ShaftOptions {
-  std::uint32_t of_a_box = 4, of_a_triangle = 300;
+  std::uint32_t of_a_box = 2, of_a_triangle = 150;
 };
 
 struct ShaftCounts {

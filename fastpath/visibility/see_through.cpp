@@ -37,7 +37,16 @@ std::vector<std::uint32_t> meeting_the_cell(const Bvh& passing, const std::vecto
 }
 
 SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Point>& cell,
-                             const LocalMapOptions& options, std::span<const std::uint32_t> guess) {
+                             const LocalMapOptions& options, std::span<const std::uint32_t> guess,
+                             const std::vector<std::uint32_t>* bound) {
+  const auto in_bound = [bound](std::uint32_t id) {
+    return bound == nullptr || std::binary_search(bound->begin(), bound->end(), id);
+  };
+  const auto all_that_count = scene.blocking_that_count();
+  std::vector<std::uint8_t> counting(all_that_count.begin(), all_that_count.end());
+  for (std::uint32_t t = 0; t < counting.size(); ++t) {
+    if (!in_bound(scene.blocking_id(t))) counting[t] = 0;
+  }
   std::vector<std::uint32_t> guessed;
   for (const auto t : guess) {
     if (const auto at = scene.find_blocking(t)) guessed.push_back(*at);
@@ -45,7 +54,7 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
   exact::CutMemories::Loan cuts(scene.cuts_of_blocking());
   const ClosedScene closed = close_by_engine(scene.blocking(), cell, options,
                                              scene::hull_of(outside_of(scene.blocking()), outside_of(scene.passing())),
-                                             cuts.memory(), guessed, scene.blocking_that_count());
+                                             cuts.memory(), guessed, counting);
   SeeThroughList list;
   const LocalMap* map = closed.map();
   std::vector<std::uint32_t> listed = closed.closure.unproved;
@@ -53,12 +62,16 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
     for (const auto t : map->visible()) listed.push_back(closed.closure.part[t]);
   }
   std::sort(listed.begin(), listed.end());
-  for (const auto t : listed) list.blocking.push_back(scene.blocking_id(t));
+  for (const auto t : listed) {
+    if (counting[t] != 0 || all_that_count[t] == 0) list.blocking.push_back(scene.blocking_id(t));
+  }
   auto passing = not_proved_dark(scene.passing(), closed.closure, scene.blocking(), Cell(cell));
   const auto met = meeting_the_cell(scene.passing(), cell);
   std::vector<std::uint32_t> all;
   std::set_union(passing.begin(), passing.end(), met.begin(), met.end(), std::back_inserter(all));
-  for (const auto t : all) list.passing.push_back(scene.passing_id(t));
+  for (const auto t : all) {
+    if (in_bound(scene.passing_id(t))) list.passing.push_back(scene.passing_id(t));
+  }
   list.mapped = closed.closure.part.size();
   list.passes = closed.closure.counts.passes;
   list.walks = map ? map->counts().walks : 0;
@@ -98,13 +111,14 @@ std::vector<std::uint32_t> SeeThroughList::counting(const scene::FlaggedMesh& sc
 }
 
 SeeThroughList visible_through(const SeeThroughScene& scene, const std::vector<Point>& cell,
-                               const LocalMapOptions& options, std::span<const std::uint32_t> guess) {
+                               const LocalMapOptions& options, std::span<const std::uint32_t> guess,
+                               const std::vector<std::uint32_t>* bound) {
   return exact::by_dialed_threads(options.dials.threads, [&] {
     const exact::StandardRange range(scene.scene().mesh, cell);
-    if (!range.moves()) return list_in_range(scene, cell, options, guess);
+    if (!range.moves()) return list_in_range(scene, cell, options, guess, bound);
     scene::FlaggedMesh moved = scene.scene();
     moved.mesh = range.moved_in(moved.mesh);
-    return list_in_range(SeeThroughScene(std::move(moved)), range.moved_in(cell), options, guess);
+    return list_in_range(SeeThroughScene(std::move(moved)), range.moved_in(cell), options, guess, bound);
   });
 }
 

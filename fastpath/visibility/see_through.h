@@ -58,7 +58,9 @@ struct SeeThroughList {
 
 // The same for any number of threads of the current arena. `guess`: triangles that are mapped from the start (closure.h), ids of the scene; those that do not
 // block are passed over. Where options.effort is spent what is not proved to be hidden is listed, and counts as a fallback. Errors as of first_order_visibility.
+// `bound`: if it is there, ids of the scene, ascending, that have among them all that counts and is visible; nothing else is asked about.
 SeeThroughList visible_through(const SeeThroughScene& scene, const std::vector<Point>& cell,
-                               const LocalMapOptions& options, std::span<const std::uint32_t> guess = {});
+                               const LocalMapOptions& options, std::span<const std::uint32_t> guess = {},
+                               const std::vector<std::uint32_t>* bound = nullptr);
 
 }  // namespace clues::fastpath
