@@ -40,7 +40,7 @@ namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
 
-constexpr std::uint64_t kEffort = 500;
+constexpr std::uint64_t kEffort = 500, kEffortInLevels = 50;  // in levels solids hide what is given up
 constexpr int kTries = 3;  // what effort is: raised when that changes, so that no store has lists of two kinds
 
 struct BakeRequest {
@@ -149,8 +149,9 @@ void report(const BakeRequest& request, const Summary& s, const std::string& not
 // What could only be found when hours are over, or with a store begun that nobody can use.
 void require_unspoilt(const BakeRequest& request) {
   if (request.effort && request.kernel != "fast")
-    throw Error(ErrorCode::bad_argument,
-                fmt::format("--effort: only the fast kernel gives maps up; leave it out, or --kernel {}", request.kernel));
+    throw Error(
+        ErrorCode::bad_argument,
+        fmt::format("--effort: only the fast kernel gives maps up; leave it out, or --kernel {}", request.kernel));
   std::vector<const std::string*> inputs{&request.scene, &request.cells};
   for (const auto& file : request.merged) inputs.push_back(&file);
   require_apart({&request.out, &request.json.file(), &request.exported}, inputs);

@@ -258,8 +258,8 @@ std::vector<ExactSegment> rim_of_union(const std::vector<ExactPolygon>& polygons
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     // Coordinates are rounded, so boxes may seem to miss each other by two roundings where they touch.
     const Extent& mine = extents[i];
-    const double slack =
-        0x1p-50 * std::max({std::fabs(mine.low_x), std::fabs(mine.low_y), std::fabs(mine.high_x), std::fabs(mine.high_y)});
+    const double slack = 0x1p-50 * std::max({std::fabs(mine.low_x), std::fabs(mine.low_y), std::fabs(mine.high_x),
+                                             std::fabs(mine.high_y)});
     beside.clear();
     for (std::size_t j = 0; j < polygons.size(); ++j) {
       const Extent& other = extents[j];

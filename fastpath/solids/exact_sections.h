@@ -16,7 +16,7 @@ namespace clues::fastpath::solids {
 // A point of the plane, and its coordinates as doubles: nearest but for one bit, or exact where `brief` says so.
 struct ExactSpot {
   double x = 0, y = 0;
-  bool brief = false;  // multiples of 2^-6 below 2^17: determinants of such are exact in doubles
+  bool brief = false;          // multiples of 2^-6 below 2^17: determinants of such are exact in doubles
   mpq_class exact_x, exact_y;  // unless it is brief
 };
 

@@ -24,7 +24,8 @@ class Groups {
   std::vector<std::uint32_t> leader_;
 };
 
-constexpr std::size_t kMostFaces = 4096;  // of a solid: beyond that it is hardly a wall, and takes a square of steps to prove
+constexpr std::size_t kMostFaces =
+    4096;  // of a solid: beyond that it is hardly a wall, and takes a square of steps to prove
 
 }  // namespace
 
@@ -41,7 +42,8 @@ std::vector<Solid> find_solids(const scene::FlaggedMesh& scene) {
   const auto& mesh = scene.mesh;
   std::map<Point, std::uint32_t> first_with;
   std::vector<std::uint32_t> place(mesh.points.size());  // of a point: the first one with its coordinates
-  for (std::uint32_t i = 0; i < mesh.points.size(); ++i) place[i] = first_with.try_emplace(mesh.points[i], i).first->second;
+  for (std::uint32_t i = 0; i < mesh.points.size(); ++i)
+    place[i] = first_with.try_emplace(mesh.points[i], i).first->second;
   Groups groups(mesh.points.size());
   const auto blocking = scene::blocking_ids(scene);
   for (const auto t : blocking) {

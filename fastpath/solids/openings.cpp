@@ -73,9 +73,8 @@ bool is_inside(const ExactSpot& spot, const ExactPolygon& polygon, int least) {
 bool are_apart(const ExactPolygon& a, const ExactPolygon& b) {
   const auto by_edge_of = [](const ExactPolygon& one, const ExactPolygon& other) {
     for (std::size_t i = 0; i < one.size(); ++i) {
-      if (std::all_of(other.begin(), other.end(), [&](const ExactSpot& s) {
-            return sign_of_turn(one[i], one[(i + 1) % one.size()], s) <= 0;
-          }))
+      if (std::all_of(other.begin(), other.end(),
+                      [&](const ExactSpot& s) { return sign_of_turn(one[i], one[(i + 1) % one.size()], s) <= 0; }))
         return true;
     }
     return false;

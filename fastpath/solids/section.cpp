@@ -179,7 +179,8 @@ bool Section::rim_meets(const std::vector<Spot>& window) const {
         const auto& [a, b] = rim_[rim_at_.ids[i]];
         bool apart = false;
         for (std::size_t k = 0; k < 2; ++k)
-          apart = apart || (a[k] < range.low[k] && b[k] < range.low[k]) || (a[k] > range.high[k] && b[k] > range.high[k]);
+          apart =
+              apart || (a[k] < range.low[k] && b[k] < range.low[k]) || (a[k] > range.high[k] && b[k] > range.high[k]);
         double from = 0, to = 1;
         for (std::size_t h = 0; !apart && h < halves.size(); ++h) {
           const double at_a = halves[h].above(a), at_b = halves[h].above(b);

@@ -15,12 +15,12 @@ namespace {
 
 using Polygon = std::vector<Point>;
 
-constexpr int kDeepest = 12;               // cuts of a shaft within one another
-constexpr std::size_t kMostPlanes = 24;    // that are tried for one shaft
-constexpr std::size_t kProbes = 6;         // segments that look for a way that is free, before a proof is tried
-constexpr double kProbesWithin = 0.9;      // of the way from the middle to the corners
+constexpr int kDeepest = 12;                 // cuts of a shaft within one another
+constexpr std::size_t kMostPlanes = 24;      // that are tried for one shaft
+constexpr std::size_t kProbes = 6;           // segments that look for a way that is free, before a proof is tried
+constexpr double kProbesWithin = 0.9;        // of the way from the middle to the corners
 constexpr double kSmallestOpening = 0x1p-9;  // of the scale
-constexpr double kSmallest = 0x1p-14;      // of the scale: what is no longer cut
+constexpr double kSmallest = 0x1p-14;        // of the scale: what is no longer cut
 
 Point middle_of(std::span<const Point> points) {
   Point middle{};
@@ -141,7 +141,7 @@ class ViewCell {
   // Whether it only sees the triangle from behind (targets.h).
   bool is_behind(const std::vector<Side>& backs, const std::vector<Point>& triangle) const {
     return std::any_of(backs.begin(), backs.end(), [this](const Side& s) { return s.has_none_outside(corners_); }) &&
-           is_out_of_solids_around(triangle);
+           is_apart_from(triangle) && is_out_of_solids_around(triangle);
   }
 
   // Of solids that the viewer may be in: whether the target is out of all of them.
@@ -247,9 +247,8 @@ std::vector<std::uint8_t> not_from_behind(const ViewCell& view, const Targets& t
   std::vector<std::uint8_t> some(nodes.size());
   for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parents
     const auto& node = nodes[i];
-    some[i] = node.is_triangle()
-                  ? (view.is_behind(targets.backs_of(node.triangle), targets.corners_of(node)) ? 0 : 1)
-                  : some[node.left] | some[node.right];
+    some[i] = node.is_triangle() ? (view.is_behind(targets.backs_of(node.triangle), targets.corners_of(node)) ? 0 : 1)
+                                 : some[node.left] | some[node.right];
   }
   return some;
 }

@@ -74,21 +74,18 @@ Side side_through(const Point& a, const Point& b, const Point& c) {
 
 // A point is outside of a side where its corners turn left seen from there.
 bool Side::has_none_inside(const std::vector<Point>& points) const {
-  return std::all_of(points.begin(), points.end(), [this](const Point& p) {
-    return orientation(corners[0], corners[1], corners[2], p) >= 0;
-  });
+  return std::all_of(points.begin(), points.end(),
+                     [this](const Point& p) { return orientation(corners[0], corners[1], corners[2], p) >= 0; });
 }
 
 bool Side::has_all_outside(const std::vector<Point>& points) const {
-  return std::all_of(points.begin(), points.end(), [this](const Point& p) {
-    return orientation(corners[0], corners[1], corners[2], p) > 0;
-  });
+  return std::all_of(points.begin(), points.end(),
+                     [this](const Point& p) { return orientation(corners[0], corners[1], corners[2], p) > 0; });
 }
 
 bool Side::has_none_outside(const std::vector<Point>& points) const {
-  return std::all_of(points.begin(), points.end(), [this](const Point& p) {
-    return orientation(corners[0], corners[1], corners[2], p) <= 0;
-  });
+  return std::all_of(points.begin(), points.end(),
+                     [this](const Point& p) { return orientation(corners[0], corners[1], corners[2], p) <= 0; });
 }
 
 std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {
@@ -100,7 +97,8 @@ std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {
       if (ids.try_emplace(p, static_cast<std::uint32_t>(solid.corners.size())).second) solid.corners.push_back(p);
     }
   }
-  std::map<std::array<std::uint32_t, 2>, int> borders;  // from the lower corner to the higher one: how often this way, less how often the other
+  std::map<std::array<std::uint32_t, 2>, int>
+      borders;  // from the lower corner to the higher one: how often this way, less how often the other
   for (const auto& face : faces) {
     int outside = 0;  // seen from where the fan turns left
     for (std::size_t i = 1; i + 1 < face.size(); ++i) {

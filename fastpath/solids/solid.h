@@ -21,9 +21,7 @@ int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
 struct HalfSpace {
   Point normal{};
   double distance = 0;
-  double above(const Point& x) const {
-    return normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] - distance;
-  }
+  double above(const Point& x) const { return normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] - distance; }
 };
 
 // A side of a convex polytope: its plane is that of three corners, exactly.

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kFarthest = 0x1p10;  // how far a solid may reach, in units of the scale
 constexpr std::uint32_t kLeaf = 2;    // solids in a leaf of the tree
-constexpr double kNormalUnit = 0x1p20, kDistanceUnit = 0x1p20;  // to which planes are rounded: of a unit normal, of the scale
+constexpr double kNormalUnit = 0x1p20,
+                 kDistanceUnit = 0x1p20;  // to which planes are rounded: of a unit normal, of the scale
 
 // Determinants of three of its lengths are neither too large nor too small for doubles.
 bool is_in_range(const Scale& scale) { return scale.largest <= 0x1p200 && scale.largest >= 0x1p-200; }
@@ -65,8 +66,7 @@ bool pierce(const Solid& solid, const Point& from, const Point& to, Pierced& hit
 }  // namespace
 
 Solids::Solids(std::vector<Solid> solids, const Bounds& about) : solids_(std::move(solids)), scale_(Scale::of(about)) {
-  std::erase_if(solids_,
-                [this](const Solid& solid) { return !is_in_range(scale_) || reaches_too_far(solid, scale_); });
+  std::erase_if(solids_, [this](const Solid& solid) { return !is_in_range(scale_) || reaches_too_far(solid, scale_); });
   build();
   find_planes();
 }
@@ -111,8 +111,7 @@ void Solids::find_planes() {
       SectionPlane plane;
       for (std::size_t i = 0; i < 3; ++i)
         plane.normal[i] = std::round(side.estimate.normal[i] * kNormalUnit) / kNormalUnit;
-      plane.distance =
-          std::round((side.estimate.distance - std::min(scale_.depth(), -lowest / 2)) / unit) * unit;
+      plane.distance = std::round((side.estimate.distance - std::min(scale_.depth(), -lowest / 2)) / unit) * unit;
       const auto first = std::find_if(plane.normal.begin(), plane.normal.end(), [](double x) { return x != 0; });
       if (first != plane.normal.end() && *first < 0) {  // the same plane from its other side
         for (double& x : plane.normal) x = 0 - x;
@@ -173,9 +172,8 @@ void Solids::find_pierced(const Point& from, const Point& to, std::vector<Pierce
     if (pierce(solids_[solid], from, to, hit)) out.push_back(hit);
     return false;
   });
-  std::sort(out.begin(), out.end(), [](const Pierced& a, const Pierced& b) {
-    return a.in < b.in || (a.in == b.in && a.solid < b.solid);
-  });
+  std::sort(out.begin(), out.end(),
+            [](const Pierced& a, const Pierced& b) { return a.in < b.in || (a.in == b.in && a.solid < b.solid); });
 }
 
 bool Solids::pierces_any(const Point& from, const Point& to) const {

@@ -23,10 +23,11 @@ void Targets::find_backs(std::uint32_t triangle, const Solids& solids) {
   auto& backs = backs_[triangle];
   for (const auto i : solids.touching(bounds_of(triangle))) {
     const Solid& solid = solids.all()[i];
-    const auto side = std::find_if(solid.sides.begin(), solid.sides.end(),
-                                   [&](const Side& s) { return s.has_none_outside(corners) && s.has_none_inside(corners); });
-    if (side != solid.sides.end() && std::all_of(solid.sides.begin(), solid.sides.end(),
-                                                 [&](const Side& s) { return s.has_none_outside(corners); }))
+    const auto side = std::find_if(solid.sides.begin(), solid.sides.end(), [&](const Side& s) {
+      return s.has_none_outside(corners) && s.has_none_inside(corners);
+    });
+    if (side != solid.sides.end() &&
+        std::all_of(solid.sides.begin(), solid.sides.end(), [&](const Side& s) { return s.has_none_outside(corners); }))
       backs.push_back(*side);
   }
   const auto axis = flat_axis(corners);

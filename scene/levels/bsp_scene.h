@@ -30,7 +30,7 @@ struct LevelScene {
   std::uint32_t hulls = 0;                          // structural brushes with a hull
   std::uint32_t hull_sides = 0, covered_sides = 0;  // of the hulls; the covered ones are left out (bsp_covered.h)
   std::uint32_t thin_brushes = 0;                   // structural brushes that were left out: nothing is left of them
-  std::vector<Hull> solids;                         // the hulls, with all of their sides, whichever of these are in the scene
+  std::vector<Hull> solids;  // the hulls, with all of their sides, whichever of these are in the scene
 };
 
 // Which sides of hulls are in the scene: those that nothing covers (bsp_covered.h), or all, for who is to be accused of missing something. Drawn triangles

@@ -254,7 +254,7 @@ TEST(Bake, OthersStoresAreNotTouched) {
   refused({"bake", "scene.off", "--cells", "grid:1x1x1:box:0,0,0,1,1,1", "-o", "a.bake"}, "of other cells or options");
   refused(bake("a.bake", {"--group", "2"}), "of other cells or options");
   refused(bake("a.bake", {"--effort", "7"}), "of other cells or options");
-  refused(bake("b.bake", {"--kernel", "exact", "--effort", "7"}), "the exact kernel gives nothing up");
+  refused(bake("b.bake", {"--kernel", "exact", "--effort", "7"}), "only the fast kernel gives maps up");
   folder.write("scene.off", std::string(screen_scene) + "# another\n");
   refused(bake("a.bake"), "of another scene");
   EXPECT_EQ(read_all(folder.path() / "a.bake"), before);

@@ -1,0 +1,181 @@
+// T15: what is a solid, what sections of solids cover, where facets are open, and what is hidden by all that.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "fastpath/solids/find_solids.h"
+#include "fastpath/solids/shafts.h"
+#include "tests/solids/worlds.h"
+
+namespace clues::tests {
+namespace {
+
+namespace solids = fastpath::solids;
+using scene::Bounds;
+using scene::Point;
+using solids::Solid;
+
+const Bounds about{{0, 0, 0}, {64, 64, 64}};
+
+std::vector<Solid> boxes(const std::vector<std::array<Point, 2>>& all) {
+  std::vector<Solid> out;
+  for (const auto& [low, high] : all) out.push_back(*solids::solid_of(faces_of_box(low, high)));
+  return out;
+}
+
+TEST(Solid, IsWhatIsConvexAndClosed) {
+  const auto box = faces_of_box({0, 0, 0}, {4, 4, 4});
+  ASSERT_TRUE(solids::solid_of(box));
+  EXPECT_EQ(solids::solid_of(box)->sides.size(), 6U);
+  EXPECT_EQ(solids::solid_of(box)->edges.size(), 12U);
+  auto turned = box;
+  std::reverse(turned[2].begin(), turned[2].end());
+  EXPECT_TRUE(solids::solid_of(turned)) << "it does not matter which way a face turns";
+  auto repeated = box;
+  repeated.push_back({box[0][0], box[0][0], box[0][1], box[0][1]});
+  EXPECT_TRUE(solids::solid_of(repeated)) << "nor a face without an area";
+  for (std::size_t i = 0; i < box.size(); ++i) {
+    auto open = box;
+    open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
+    EXPECT_FALSE(solids::solid_of(open)) << "without face " << i;
+  }
+  auto dented = box;
+  for (auto& face : dented) {
+    for (auto& p : face) {
+      if (p == Point{4, 4, 4}) p = {4, 4, 4 - 0x1p-40};
+    }
+  }
+  EXPECT_FALSE(solids::solid_of(dented)) << "its upper face is bent the wrong way";
+  EXPECT_FALSE(solids::solid_of(faces_of_box({0, 0, 0}, {4, 4, 0})));
+  EXPECT_FALSE(solids::solid_of({}));
+}
+
+TEST(Solid, IsFoundInAScene) {
+  scene::FlaggedMeshBuilder builder;
+  const auto add = [&](const std::vector<Face>& faces, bool blocks) {
+    for (const auto& face : faces) {
+      for (std::size_t i = 1; i + 1 < face.size(); ++i) builder.add({face[0], face[i], face[i + 1]}, 0, {blocks, true});
+    }
+  };
+  add(faces_of_box({0, 0, 0}, {1, 1, 1}), true);
+  add(faces_of_box({4, 0, 0}, {5, 1, 1}), false);  // glass
+  auto open = faces_of_box({8, 0, 0}, {9, 1, 1});
+  open.pop_back();
+  add(open, true);
+  const auto found = solids::find_solids(builder.take());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].bounds.high, (Point{1, 1, 1}));
+}
+
+// Whether all lines from a small window at x = 0 to one at x = 64, both about the same y and z, are stopped by the sections behind x = 30.
+bool stops(std::vector<Solid> walls, double y, double z) {
+  const solids::Solids all(std::move(walls), about);
+  const auto window = [&](double x) {
+    return std::vector<Point>{{x, y - 1, z - 1}, {x, y + 1, z - 1}, {x, y + 1, z + 1}, {x, y - 1, z + 1}};
+  };
+  bool any = false;
+  for (std::uint32_t solid = 0; solid < all.all().size(); ++solid) {
+    for (std::uint32_t side = 0; side < all.all()[solid].sides.size(); ++side)
+      any = any || all.section(all.plane_behind(solid, side)).covers(window(0), window(64));
+  }
+  return any;
+}
+
+TEST(Section, WallsThatAbutAreOne) {
+  EXPECT_TRUE(stops(boxes({{{{30, 0, 0}, {34, 20, 64}}}, {{{30, 20, 0}, {34, 64, 64}}}}), 20, 30));
+  EXPECT_TRUE(stops(boxes({{{{30, 0, 0}, {34, 24, 64}}}, {{{30, 20, 0}, {34, 64, 64}}}}), 20, 30)) << "or overlap";
+  EXPECT_TRUE(stops(boxes({{{{30, 0, 0}, {34, 64, 64}}}, {{{30, 0, 0}, {34, 64, 64}}}}), 20, 30))
+      << "or are twice there";
+  const double crack = 0x1p-40;
+  EXPECT_FALSE(stops(boxes({{{{30, 0, 0}, {34, 20, 64}}}, {{{30, 20 + crack, 0}, {34, 64, 64}}}}), 20, 30));
+  EXPECT_FALSE(stops(boxes({{{{30, 0, 0}, {34, 20, 64}}}}), 20, 30)) << "half of a wall";
+  EXPECT_FALSE(stops(boxes({{{{30, 0, 0}, {34, 20, 20}}},
+                            {{{30, 20, 0}, {34, 64, 30}}},
+                            {{{30, 10, 30}, {34, 64, 64}}},
+                            {{{30, 0, 20}, {34, 10, 64}}}}),
+                     15, 25))
+      << "four around a hole";
+}
+
+// Wedges that meet along a plane whose section has no short coordinates: the crossing at a third is the same for both.
+TEST(Section, WallsThatAbutAskewAreOne) {
+  const auto prism = [](double y0, double y1, double y2, double y3) {
+    const std::array<Point, 8> p{Point{30, y0, 0}, {36, y1, 0},  {36, y2, 0},  {30, y3, 0},
+                                 {30, y0, 64},     {36, y1, 64}, {36, y2, 64}, {30, y3, 64}};
+    return *solids::solid_of({{p[0], p[1], p[2], p[3]},
+                              {p[4], p[5], p[6], p[7]},
+                              {p[0], p[1], p[5], p[4]},
+                              {p[1], p[2], p[6], p[5]},
+                              {p[2], p[3], p[7], p[6]},
+                              {p[3], p[0], p[4], p[7]}});
+  };
+  EXPECT_TRUE(stops({prism(0, 0, 23, 16), prism(16, 23, 64, 64)}, 18, 30));
+  EXPECT_FALSE(stops({prism(0, 0, 23, 16), prism(16, 23 + 0x1p-30, 64, 64)}, 18, 30));
+}
+
+TEST(FilledPlane, KnowsWhereAFacetIsOpen) {
+  // A wall behind x = 10 with a door in it.
+  const auto walls = boxes({{{{10, 0, 0}, {12, 8, 16}}}, {{{10, 12, 0}, {12, 20, 16}}}, {{{10, 8, 6}, {12, 12, 16}}}});
+  const solids::FilledPlane plane({0, 10, true}, walls);
+  const auto facet = [](double y0, double y1, double z1) {
+    return std::vector<Point>{{10, y0, 0}, {10, y1, 0}, {10, y1, z1}, {10, y0, z1}};
+  };
+  EXPECT_TRUE(plane.open_parts(facet(0, 8, 16), 0.5).empty()) << "exactly the wall";
+  EXPECT_TRUE(plane.fills(facet(0, 8, 16)));
+  const auto open = plane.open_parts(facet(0, 20, 16), 0.5);
+  ASSERT_FALSE(open.empty());
+  double area = 0;
+  for (const auto& part : open) {
+    const Bounds box = scene::bounds_of(part);
+    EXPECT_EQ(box.low[0], 10);
+    EXPECT_EQ(box.high[0], 10);
+    area += (box.high[1] - box.low[1]) * (box.high[2] - box.low[2]);
+  }
+  EXPECT_GE(area, 4 * 6);
+  EXPECT_LE(area, 2 * 4 * 6);
+  EXPECT_FALSE(plane.fills(facet(0, 20, 16)));
+  EXPECT_FALSE(plane.fills(facet(0, 8 + 0x1p-40, 16)));
+  // Seen from the other side these solids are not behind the plane.
+  EXPECT_FALSE(solids::FilledPlane({0, 10, false}, walls).fills(facet(0, 8, 16)));
+}
+
+// A room that is walled in: its openings are none, and yet what touches it is seen.
+TEST(Shafts, WhatMeetsTheCellIsListed) {
+  scene::FlaggedMeshBuilder builder;
+  const auto walls = boxes({{{{0, 0, 0}, {1, 10, 10}}},
+                            {{{9, 0, 0}, {10, 10, 10}}},
+                            {{{1, 0, 0}, {9, 1, 10}}},
+                            {{{1, 9, 0}, {9, 10, 10}}},
+                            {{{1, 1, 0}, {9, 9, 1}}},
+                            {{{1, 1, 9}, {9, 9, 10}}}});
+  builder.add({Point{1, 2, 2}, {1, 8, 2}, {1, 2, 8}}, 0, {});     // on a wall of the room
+  builder.add({Point{4, 4, 4}, {5, 4, 4}, {4, 5, 4}}, 1, {});     // in the room
+  builder.add({Point{0, 2, 2}, {0, 8, 2}, {0, 2, 8}}, 2, {});     // on the far side of that wall
+  builder.add({Point{20, 0, 0}, {20, 9, 0}, {20, 0, 9}}, 3, {});  // outside
+  const auto scene = builder.take();
+  const auto cell = scene::corners_of({{1, 1, 1}, {9, 9, 9}});
+  const solids::Solids all(walls, solids::bounds_of_questions(scene, {cell}));
+  EXPECT_EQ(solids::not_hidden(all, solids::Targets(scene, all), cell), (std::vector<std::uint32_t>{0, 1}));
+  // Seen from within the wall nothing is hidden by it, but by others.
+  const auto in_wall = scene::corners_of({{0.25, 4, 4}, {0.75, 6, 6}});
+  const auto seen = solids::not_hidden(all, solids::Targets(scene, all), in_wall);
+  EXPECT_TRUE(std::binary_search(seen.begin(), seen.end(), 0U));
+  EXPECT_TRUE(std::binary_search(seen.begin(), seen.end(), 2U));
+}
+
+TEST(Shafts, NothingThatASightLineReachesIsHidden) {
+  const Looked looked = look_for_what_is_hidden(1, 150, 150);
+  EXPECT_EQ(looked.seen, "");
+  EXPECT_GT(looked.hidden, 1000U);
+  std::cout << looked.hidden << " hidden triangles, " << looked.lines << " sight lines\n";
+}
+
+TEST(ShaftsLong, NothingThatASightLineReachesIsHidden) {
+  const Looked looked = look_for_what_is_hidden(1'000, 3'000, 200);
+  EXPECT_EQ(looked.seen, "");
+  std::cout << looked.hidden << " hidden triangles, " << looked.lines << " sight lines\n";
+}
+
+}  // namespace
+}  // namespace clues::tests
