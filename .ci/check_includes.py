@@ -26,7 +26,7 @@ CHAPTERS = {
     "reference": [".", "visibility/planar", "visibility/wedges", "visibility/labels", "visibility/search",
                   "visibility/map", "visibility/traversal", "visibility/hidden", "visibility",
                   "visibility/refinement", "delta", "contours", "streams", "link", "motion", "multires/stars", "multires"],
-    "fastpath": ["predicates", "queries", "visibility/points", "visibility/scene", "visibility/wedges",
+    "fastpath": ["predicates", "queries", "solids", "visibility/points", "visibility/scene", "visibility/wedges",
                  "visibility/labels", "visibility/search", "visibility/map", "visibility/closure", "visibility",
                  "visibility/refinement", "contours", "motion/bounds", "motion", "multires", "bakes"],
     "validate": [".", "processes", "windows", "certificates", "verdicts", "visible_set", "see_through", "cells", "vectors", "conform",

@@ -40,13 +40,15 @@ namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
 
-constexpr std::uint64_t kEffort = 500, kEffortInLevels = 50;  // in levels solids hide what is given up
-constexpr int kTries = 3;  // what effort is: raised when that changes, so that no store has lists of two kinds
+constexpr std::uint64_t kEffort = 500;
+constexpr std::uint64_t kEffortInLevels =
+    50;                    // where a map is given up, what solids do not hide is listed: less is lost
+constexpr int kTries = 4;  // what effort is: raised when that changes, so that no store has lists of two kinds
 
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;
   std::size_t group = 1;
-  std::optional<std::uint64_t> effort;  // of the fast kernel; none: kEffort
+  std::optional<std::uint64_t> effort;  // of the fast kernel; none: as the scene is
   std::vector<std::string> merged;
   std::string shard;
   int threads = 0;
@@ -60,26 +62,26 @@ char up_of(const BakeRequest& request) {
 }
 
 // Everything that the lists depend on, but for the scene.
-std::string question_of(const BakeRequest& request, const BakeCells& cells) {
+std::string question_of(const BakeRequest& request, const BakeCells& cells, std::uint64_t effort) {
   nlohmann::json question{{"cells", request.cells},
                           {"cells_sha256", cells.bytes.empty() ? "" : scene::sha256_of(cells.bytes)},
                           {"kernel", request.kernel},
                           {"group", request.group},
                           {"up", std::string(1, up_of(request))}};
   if (request.kernel == "fast") {
-    question["effort"] = request.effort.value_or(kEffort);
+    question["effort"] = effort;
     question["tries"] = kTries;
   }
   return question.dump();
 }
 
 scene::BakePlan plan_of(const BakeRequest& request, const std::string& sha256, const scene::FlaggedMesh& scene,
-                        BakeCells cells) {
+                        BakeCells cells, std::uint64_t effort) {
   scene::BakePlan plan;
   plan.scene_file = fs::path(request.scene).filename().string();
   plan.scene_sha256 = sha256;
   plan.triangles = static_cast<std::uint32_t>(scene.mesh.triangles.size());
-  plan.question = question_of(request, cells);
+  plan.question = question_of(request, cells, effort);
   plan.note = std::move(cells.note);
   plan.cells = std::move(cells.cells);
   fastpath::bakes::add_groups(plan, request.group);
@@ -163,17 +165,18 @@ void require_unspoilt(const BakeRequest& request) {
                 request.exported + ": must be empty when " + request.out + " is exported; name another folder");
 }
 
-fastpath::bakes::ListerMaker lister_for(const BakeRequest& request, const scene::FlaggedMesh& scene,
-                                        const std::vector<scene::Hull>& hulls, const scene::BakePlan& plan) {
+fastpath::bakes::ListerMaker lister_for(const BakeRequest& request, std::uint64_t effort,
+                                        const scene::FlaggedMesh& scene, const std::vector<scene::Hull>& hulls,
+                                        const scene::BakePlan& plan) {
   namespace solids = fastpath::solids;
   if (request.kernel == "exact") return validate::exact_lister();
+  if (request.kernel == "fast" && hulls.empty()) return fastpath::bakes::fast_lister(effort);
   std::vector<std::vector<scene::Point>> cells;
   for (const auto& cell : plan.cells) cells.push_back(cell.points);
-  auto found = hulls.empty() ? solids::find_solids(scene) : solids::solids_of(hulls);
-  if (request.kernel == "fast" && hulls.empty()) return fastpath::bakes::fast_lister(request.effort.value_or(kEffort));
-  auto all = std::make_shared<const solids::Solids>(std::move(found), solids::bounds_of_questions(scene, cells));
-  return request.kernel == "solids" ? fastpath::bakes::solid_lister(std::move(all))
-                                    : fastpath::bakes::fast_lister(request.effort.value_or(kEffort), std::move(all));
+  auto all = std::make_shared<const solids::Solids>(
+      hulls.empty() ? solids::find_solids(scene) : solids::solids_of(hulls), solids::bounds_of_questions(scene, cells));
+  if (request.kernel == "solids") return fastpath::bakes::solid_lister(std::move(all));
+  return fastpath::bakes::fast_lister(effort, std::move(all));
 }
 
 int run_bake(const BakeRequest& request) {
@@ -199,9 +202,10 @@ int run_bake(const BakeRequest& request) {
     scene = std::move(of_level.scene);
     hulls = std::move(of_level.solids);
   });
-  const auto plan =
-      plan_of(request, sha256, scene, parse_bake_cells(request.cells, request.scene, scene, level, up_of(request)));
-  const auto make_lister = lister_for(request, scene, hulls, plan);
+  const std::uint64_t effort = request.effort.value_or(level ? kEffortInLevels : kEffort);
+  const auto plan = plan_of(request, sha256, scene,
+                            parse_bake_cells(request.cells, request.scene, scene, level, up_of(request)), effort);
+  const auto make_lister = lister_for(request, effort, scene, hulls, plan);
   const int threads = cluster.threads(request.threads);
   if (!cluster.leads()) {
     serve_bake(cluster, threads, scene, plan, make_lister, *question);
@@ -270,7 +274,7 @@ void add_bake_command(CLI::App& program, int& status) {
   command
       ->add_option("--effort", request->effort,
                    "With the fast kernel: give up a map beyond this, for each triangle mapped, and list what is not " +
-                       fmt::format("proved hidden; 0: never (default: {})", kEffort))
+                       fmt::format("proved hidden; 0: never (default: {}; {} in levels)", kEffort, kEffortInLevels))
       ->type_name("N")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 32));
   command->add_option("--up", request->up, "Which way is up, for --cells auto (default: y in glTF files, else z)")

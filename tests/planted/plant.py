@@ -18,22 +18,22 @@ COPIES = {
     # ---- solids (T15)
 
     # A window is covered if its middle is.
-    "rims_forgotten": ("fastpath/solids/section.cpp", [
+    "rims_forgotten": ("fastpath/section.cpp", [
         ("return held && !rim_meets(window);", "return held;")]),
     # A box without a lid is a solid.
-    "open_solids": ("fastpath/solids/solid.cpp", [
+    "open_solids": ("fastpath/solid.cpp", [
         ("    if (count != 0) return std::nullopt;\n", "")]),
     # Solids that the viewer may be in hide as all others do.
-    "viewer_in_a_wall": ("fastpath/solids/shafts.cpp", [
+    "viewer_in_a_wall": ("fastpath/shafts.cpp", [
         ("if (!is_outside(solids.all()[i])) around_", "if (i == ~0U) around_")]),
     # A facet is filled if its middle is.
-    "doors_overlooked": ("fastpath/solids/openings.cpp", [
+    "doors_overlooked": ("fastpath/openings.cpp", [
         ("return enters_interior(*segment, both); })", "return enters_interior(*segment, both) && false; })")]),
     # A triangle is seen from behind if the cell reaches there.
-    "behind_from_the_side": ("fastpath/solids/shafts.cpp", [
+    "behind_from_the_side": ("fastpath/shafts.cpp", [
         ("return s.has_none_outside(corners_); }) &&", "return !s.has_all_outside(corners_); }) &&")]),
     # What touches the cell may be hidden.
-    "touched_and_hidden": ("fastpath/solids/shafts.cpp", [
+    "touched_and_hidden": ("fastpath/shafts.cpp", [
         ("           is_apart_from(triangle) && is_out", "           is_out")]),
 
     # ---- the reference
