@@ -68,16 +68,17 @@ TEST(Solid, IsFoundInAScene) {
   EXPECT_EQ(found[0].bounds.high, (Point{1, 1, 1}));
 }
 
+std::vector<Point> window(double x, double y, double z) {
+  return {{x, y - 1, z - 1}, {x, y + 1, z - 1}, {x, y + 1, z + 1}, {x, y - 1, z + 1}};
+}
+
 // Whether all lines from a small window at x = 0 to one at x = 64, both about the same y and z, are stopped by the sections behind x = 30.
 bool stops(std::vector<Solid> walls, double y, double z) {
   const solids::Solids all(std::move(walls), about);
-  const auto window = [&](double x) {
-    return std::vector<Point>{{x, y - 1, z - 1}, {x, y + 1, z - 1}, {x, y + 1, z + 1}, {x, y - 1, z + 1}};
-  };
   bool any = false;
   for (std::uint32_t solid = 0; solid < all.all().size(); ++solid) {
     for (std::uint32_t side = 0; side < all.all()[solid].sides.size(); ++side)
-      any = any || all.section(all.plane_behind(solid, side)).covers(window(0), window(64));
+      any = any || all.section(all.plane_behind(solid, side)).covers(window(0, y, z), window(64, y, z));
   }
   return any;
 }
@@ -98,7 +99,7 @@ TEST(Section, WallsThatAbutAreOne) {
       << "four around a hole";
 }
 
-// Wedges that meet along a plane whose section has no short coordinates: the crossing at a third is the same for both.
+// Prisms that meet along a plane, and are cut a third of the way along it: both have the same edge there, and no double has it.
 TEST(Section, WallsThatAbutAskewAreOne) {
   const auto prism = [](double y0, double y1, double y2, double y3) {
     const std::array<Point, 8> p{Point{30, y0, 0}, {36, y1, 0},  {36, y2, 0},  {30, y3, 0},
@@ -110,8 +111,14 @@ TEST(Section, WallsThatAbutAskewAreOne) {
                               {p[2], p[3], p[7], p[6]},
                               {p[3], p[0], p[4], p[7]}});
   };
-  EXPECT_TRUE(stops({prism(0, 0, 23, 16), prism(16, 23, 64, 64)}, 18, 30));
-  EXPECT_FALSE(stops({prism(0, 0, 23, 16), prism(16, 23 + 0x1p-30, 64, 64)}, 18, 30));
+  const auto covers = [&](double gap) {
+    const std::vector<Solid> both{prism(0, 0, 23, 16), prism(16 + gap, 23 + gap, 64, 64)};
+    const solids::Section section({{1, 0, 0}, 32}, both, solids::Scale::of(about));
+    EXPECT_EQ(section.polygons(), 2U);
+    return section.covers(window(0, 18, 30), window(64, 18, 30));
+  };
+  EXPECT_TRUE(covers(0));
+  EXPECT_FALSE(covers(0x1p-40));
 }
 
 TEST(FilledPlane, KnowsWhereAFacetIsOpen) {
