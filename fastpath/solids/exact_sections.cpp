@@ -8,6 +8,7 @@
 namespace clues::fastpath::solids {
 namespace {
 
+constexpr double kUnderflow = 0x1p-1000;  // more than is lost of products that are too small for doubles
 constexpr double kBriefUnit = 0x1p6, kBriefMost = 0x1p17;
 
 bool is_brief(double x) { return std::fabs(x) < kBriefMost && x * kBriefUnit == std::nearbyint(x * kBriefUnit); }
@@ -40,7 +41,7 @@ Turn turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
   const double largest =
       std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y), std::fabs(c.x), std::fabs(c.y)});
   const double lengths = std::fabs(bx) + std::fabs(by) + std::fabs(cx) + std::fabs(cy);
-  t.error = 0x1p-47 * largest * (lengths + 0x1p-47 * largest);
+  t.error = 0x1p-47 * largest * (lengths + 0x1p-47 * largest) + kUnderflow;
   return t;
 }
 
@@ -66,7 +67,7 @@ namespace {
 
 int compare(double a, const mpq_class& exact_a, bool brief_a, double b, const mpq_class& exact_b, bool brief_b) {
   if (brief_a && brief_b) return a < b ? -1 : a > b ? 1 : 0;
-  const double error = 0x1p-50 * (std::fabs(a) + std::fabs(b));
+  const double error = 0x1p-50 * (std::fabs(a) + std::fabs(b)) + kUnderflow;
   if (std::fabs(a - b) > error) return a < b ? -1 : 1;
   return cmp(exact(a, exact_a, brief_a), exact(b, exact_b, brief_b));
 }
@@ -106,7 +107,7 @@ int side_of(const SectionPlane& plane, const Point& p) {
     value += plane.normal[i] * p[i];
     size += std::fabs(plane.normal[i] * p[i]);
   }
-  const double error = 0x1p-50 * size;  // of seven roundings
+  const double error = 0x1p-50 * size + kUnderflow;  // of seven roundings
   if (std::fabs(value) > error) return value > 0 ? 1 : -1;
   return sgn(value_at(plane, p));
 }
@@ -187,7 +188,7 @@ class EdgeOfUnion {
     const double across = at_a.value - at_b.value, error = at_a.error + at_b.error;
     if (std::fabs(across) <= 2 * error || across == 0) return {0.5, 1, &c, &d};
     const double share = std::clamp(at_a.value / across, 0.0, 1.0);
-    return {share, 2 * error / std::fabs(across) + 0x1p-50, &c, &d};
+    return {share, 4 * error / std::fabs(across) + 0x1p-50, &c, &d};
   }
 
   mpq_class exact_share(const Cut& cut) const {

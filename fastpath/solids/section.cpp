@@ -70,7 +70,9 @@ Scale Scale::of(const Bounds& bounds) {
   double largest = 0;
   for (std::size_t i = 0; i < 3; ++i)
     largest = std::max({largest, std::fabs(bounds.low[i]), std::fabs(bounds.high[i])});
-  return {std::exp2(std::ceil(std::log2(std::max(largest, std::numeric_limits<double>::min()))))};
+  double power = std::exp2(std::ceil(std::log2(std::max(largest, std::numeric_limits<double>::min()))));
+  if (power < largest) power *= 2;  // logarithms are rounded
+  return {power};
 }
 
 Section::Section(const SectionPlane& plane, std::span<const Solid> solids, const Scale& scale)
@@ -112,6 +114,7 @@ Section::Section(const SectionPlane& plane, std::span<const Solid> solids, const
 // Rises with x, so that what two ranges share is in a square of both.
 std::size_t Section::square(double x, std::size_t axis) const {
   const double width = (all_.high[axis] - all_.low[axis]) / static_cast<double>(squares_);
+  if (!(width > 0)) return 0;
   const double at = (x - all_.low[axis]) / width;
   return at <= 0 ? 0 : std::min(static_cast<std::size_t>(at), squares_ - 1);
 }

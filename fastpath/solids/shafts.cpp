@@ -96,8 +96,7 @@ class ViewCell {
         for (const int i : facet.corners) window.facet.push_back(corners_[static_cast<std::size_t>(i)]);
         window.side = side_through(window.facet[0], window.facet[1], window.facet[2]);
         if (const auto axis = flat_axis(window.facet)) {
-          const FilledPlane& filled =
-              solids.filled({*axis, window.facet[0][*axis], window.side.estimate.normal[*axis] > 0});
+          const FilledPlane& filled = solids.filled({*axis, window.facet[0][*axis], faces_up(window.side, *axis)});
           window.open = filled.open_parts(window.facet, kSmallestOpening * solids.scale().largest);
         } else {
           window.open.push_back(window.facet);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -83,6 +84,17 @@ bool Side::has_all_outside(const std::vector<Point>& points) const {
                      [this](const Point& p) { return orientation(corners[0], corners[1], corners[2], p) > 0; });
 }
 
+bool Side::has_all_on(std::span<const Point> points) const {
+  return std::all_of(points.begin(), points.end(),
+                     [this](const Point& p) { return orientation(corners[0], corners[1], corners[2], p) == 0; });
+}
+
+bool faces_up(const Side& side, std::size_t axis) {
+  Point above = side.corners[0];
+  above[axis] = std::nextafter(above[axis], std::numeric_limits<double>::infinity());
+  return orientation(side.corners[0], side.corners[1], side.corners[2], above) > 0;
+}
+
 bool Side::has_none_outside(const std::vector<Point>& points) const {
   return std::all_of(points.begin(), points.end(),
                      [this](const Point& p) { return orientation(corners[0], corners[1], corners[2], p) <= 0; });
@@ -101,15 +113,20 @@ std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {
       borders;  // from the lower corner to the higher one: how often this way, less how often the other
   for (const auto& face : faces) {
     int outside = 0;  // seen from where the fan turns left
+    const std::size_t first = solid.sides.size();
     for (std::size_t i = 1; i + 1 < face.size(); ++i) {
       const std::array<Point, 3> fan{face[0], face[i], face[i + 1]};
       const auto side = side_of_all(fan, solid.corners);
       if (!side || (*side != 0 && outside != 0 && outside != -*side)) return std::nullopt;
       if (*side == 0) continue;
-      if (outside == 0) {
-        solid.sides.push_back(*side < 0 ? side_through(fan[0], fan[1], fan[2]) : side_through(fan[0], fan[2], fan[1]));
-      }
       outside = -*side;
+      // A face may be bent outwards between the triangles of its fan.
+      if (solid.sides.size() > first && solid.sides.back().has_all_on(fan)) continue;
+      if (solid.sides.size() > first) {
+        const std::uint32_t a = ids.at(face[0]), b = ids.at(face[i]);
+        if (a != b) borders[{std::min(a, b), std::max(a, b)}] += 0;  // an edge that borders nothing
+      }
+      solid.sides.push_back(*side < 0 ? side_through(fan[0], fan[1], fan[2]) : side_through(fan[0], fan[2], fan[1]));
     }
     if (outside == 0) return std::nullopt;
     for (std::size_t i = 0; i < face.size(); ++i) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "scene/mesh/bounds.h"
@@ -32,16 +34,20 @@ struct Side {
   // Of all points: whether none is strictly inside of the plane, or all are strictly outside.
   bool has_none_inside(const std::vector<Point>& points) const;
   bool has_all_outside(const std::vector<Point>& points) const;
-  // Whether none is strictly outside.
+  // Whether none is strictly outside, or all are in the plane.
   bool has_none_outside(const std::vector<Point>& points) const;
+  bool has_all_on(std::span<const Point> points) const;
 };
-// Three corners that are not collinear, seen from outside.
+// Three corners that are not collinear, seen from outside. The estimate may be no number where they nearly are.
 Side side_through(const Point& a, const Point& b, const Point& c);
+
+// Of a side whose plane is parallel to the two other axes: whether its outside is where coordinates along this axis are larger. Decided exactly.
+bool faces_up(const Side& side, std::size_t axis);
 
 struct Solid {
   std::vector<Point> corners;                       // distinct
   std::vector<std::array<std::uint32_t, 2>> edges;  // of its faces, each once
-  std::vector<Side> sides;                          // one for each face
+  std::vector<Side> sides;                          // of the planes of all faces, some several times
   Bounds bounds;
 };
 

@@ -25,6 +25,13 @@ bool reaches_too_far(const Solid& solid, const Scale& scale) {
   return false;
 }
 
+// A side that is so thin that its normal is lost.
+bool has_no_normal(const Side& side) {
+  return !std::all_of(side.estimate.normal.begin(), side.estimate.normal.end(), [](double x) {
+    return std::isfinite(x);
+  }) || !std::isfinite(side.estimate.distance);
+}
+
 // Whether the segment is in the box somewhere, but for roundings.
 bool passes(const Bounds& box, const Point& from, const Point& to) {
   double in = 0, out = 1;
@@ -66,7 +73,10 @@ bool pierce(const Solid& solid, const Point& from, const Point& to, Pierced& hit
 }  // namespace
 
 Solids::Solids(std::vector<Solid> solids, const Bounds& about) : solids_(std::move(solids)), scale_(Scale::of(about)) {
-  std::erase_if(solids_, [this](const Solid& solid) { return !is_in_range(scale_) || reaches_too_far(solid, scale_); });
+  std::erase_if(solids_, [this](const Solid& solid) {
+    return !is_in_range(scale_) || reaches_too_far(solid, scale_) ||
+           std::any_of(solid.sides.begin(), solid.sides.end(), has_no_normal);
+  });
   build();
   find_planes();
 }

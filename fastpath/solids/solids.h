@@ -24,7 +24,7 @@ struct Pierced {
 // Serves many threads at once.
 class Solids {
  public:
-  // `about`: of all that will be asked about. Solids that reach a thousand times as far are left out, as their roundings would be too large; all are where it is beyond 2^200 or within 2^-200. O(n log n).
+  // `about`: of all that will be asked about. Solids that reach a thousand times as far are left out, as their roundings would be too large; all are where it is beyond 2^200 or within 2^-200. So are those with a side that is too thin for doubles. O(n log n).
   Solids(std::vector<Solid> solids, const Bounds& about);
   Solids(const Solids&) = delete;
   Solids& operator=(const Solids&) = delete;

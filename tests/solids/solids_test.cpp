@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iostream>
+#include <utility>
 
 #include "fastpath/solids/find_solids.h"
 #include "fastpath/solids/shafts.h"
@@ -145,6 +148,74 @@ TEST(FilledPlane, KnowsWhereAFacetIsOpen) {
   EXPECT_FALSE(plane.fills(facet(0, 8 + 0x1p-40, 16)));
   // Seen from the other side these solids are not behind the plane.
   EXPECT_FALSE(solids::FilledPlane({0, 10, false}, walls).fills(facet(0, 8, 16)));
+}
+
+std::vector<std::uint32_t> listed_of(const scene::FlaggedMesh& scene, std::vector<Solid> walls,
+                                     const std::vector<Point>& cell) {
+  const solids::Solids all(std::move(walls), solids::bounds_of_questions(scene, {cell}));
+  return solids::not_hidden(all, solids::Targets(scene, all), cell);
+}
+
+// The upper face is bent outwards along a diagonal. A triangle in the plane of one half, over the other, is out of the solid.
+TEST(Solid, HasASideForEachPartOfABentFace) {
+  const std::vector<Face> faces{
+      {{4, 0, 4}, {4, 4, 2}, {0, 4, 4}, {0, 0, 4}}, {{0, 0, 0}, {0, 4, 0}, {4, 4, 0}, {4, 0, 0}},
+      {{0, 0, 0}, {4, 0, 0}, {4, 0, 4}, {0, 0, 4}}, {{4, 0, 0}, {4, 4, 0}, {4, 4, 2}, {4, 0, 4}},
+      {{4, 4, 0}, {0, 4, 0}, {0, 4, 4}, {4, 4, 2}}, {{0, 4, 0}, {0, 0, 0}, {0, 0, 4}, {0, 4, 4}}};
+  const auto solid = solids::solid_of(faces);
+  ASSERT_TRUE(solid);
+  EXPECT_EQ(solid->sides.size(), 7U);
+  EXPECT_EQ(solid->edges.size(), 13U);
+  scene::FlaggedMeshBuilder builder;
+  builder.add({Point{0, 0, 6}, {4, 0, 4}, {0, 4, 4}}, 0, {});
+  EXPECT_EQ(
+      listed_of(builder.take(), {*solid}, {{.25, .25, 4.25}, {1.25, .25, 4.25}, {.25, 1.25, 4.25}, {.25, .25, 4.75}}),
+      std::vector<std::uint32_t>{0});
+}
+
+// So thin that its normal is lost in doubles: on which side of it the boxes are has to be decided exactly.
+TEST(Shafts, AThinTriangleOnAFloorIsSeenFromAbove) {
+  const Point a{-97.590556144714355, -127.53261184692383, 0}, b{35.315532684326172, 46.150800704956055, 0},
+      c{62.275025367736816, 81.381817817687988, 0};
+  scene::FlaggedMeshBuilder builder;
+  for (const auto& [p, q, r] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}, std::array{a, c, b},
+                                std::array{c, b, a}, std::array{b, a, c}})
+    builder.add({p, q, r}, 0, {});
+  const auto scene = builder.take();
+  const auto floor = boxes({{{{-256, -256, -8}, {.125, 256, 0}}}, {{{.125, -256, -8}, {256, 256, 0}}}});
+  EXPECT_EQ(listed_of(scene, floor, scene::corners_of({{10, 10, 4}, {20, 20, 8}})).size(), 6U);
+  EXPECT_TRUE(listed_of(scene, floor, scene::corners_of({{10, 10, -20}, {20, 20, -12}})).empty());
+}
+
+// What products of its coordinates underflow to is no proof of anything.
+TEST(Shafts, ATinyTriangleInTheOpenIsSeen) {
+  scene::FlaggedMeshBuilder builder;
+  const auto at = [](double x, double y) { return Point{std::ldexp(x, -541), std::ldexp(y, -541), 0}; };
+  builder.add({at(23, 25), at(28, 11), at(33, 31)}, 0, {});
+  EXPECT_EQ(listed_of(builder.take(), {}, scene::corners_of({{-1, -1, 1}, {1, 1, 2}})), std::vector<std::uint32_t>{0});
+}
+
+// Sides without a normal make no planes.
+TEST(Shafts, SolidsThatAreTooThinForDoublesAreLeftOut) {
+  scene::FlaggedMeshBuilder builder;
+  builder.add({Point{12, -1, -1}, {12, 1, -1}, {12, 0, 1}}, 0, {});
+  const auto scene = builder.take();
+  const auto cell = scene::corners_of({{-4, -1, -1}, {-2, 1, 1}});
+  const double s = 0x1p-20, large = 0x1p27;
+  const std::array<Point, 3> floor{Point{0, 0, 0}, {(large + 1) * s, large * s, 0}, {large * s, (large - 1) * s, 0}};
+  std::array<Point, 3> roof = floor;
+  for (auto& p : roof) p[2] = 1;
+  const auto thin = solids::solid_of({{floor[0], floor[1], floor[2]},
+                                      {roof[0], roof[1], roof[2]},
+                                      {floor[0], floor[1], roof[1], roof[0]},
+                                      {floor[1], floor[2], roof[2], roof[1]},
+                                      {floor[2], floor[0], roof[0], roof[2]}});
+  ASSERT_TRUE(thin);
+  for (const Solid& first : {*thin, boxes({{{{0, 0, 0}, {1e-170, 1e-170, 1e-170}}}})[0]}) {
+    std::vector<Solid> walls = boxes({{{{4, -16, -16}, {8, 16, 16}}}});
+    walls.insert(walls.begin(), first);
+    EXPECT_TRUE(listed_of(scene, walls, cell).empty()) << "it is behind the wall";
+  }
 }
 
 // A room that is walled in: its openings are none, and yet what touches it is seen.
