@@ -40,9 +40,8 @@ namespace fs = std::filesystem;
 using scene::Error;
 using scene::ErrorCode;
 
-constexpr std::uint64_t kEffort = 500;
-constexpr std::uint64_t kEffortInLevels =
-    50;                    // where a map is given up, what solids do not hide is listed: less is lost
+// In levels less is lost where a map is given up: what solids do not hide is listed.
+constexpr std::uint64_t kEffort = 500, kEffortInLevels = 50;
 constexpr int kTries = 4;  // what effort is: raised when that changes, so that no store has lists of two kinds
 
 struct BakeRequest {
@@ -205,10 +204,9 @@ int run_bake(const BakeRequest& request) {
   const std::uint64_t effort = request.effort.value_or(level ? kEffortInLevels : kEffort);
   const auto plan = plan_of(request, sha256, scene,
                             parse_bake_cells(request.cells, request.scene, scene, level, up_of(request)), effort);
-  const auto make_lister = lister_for(request, effort, scene, hulls, plan);
   const int threads = cluster.threads(request.threads);
   if (!cluster.leads()) {
-    serve_bake(cluster, threads, scene, plan, make_lister, *question);
+    serve_bake(cluster, threads, scene, plan, lister_for(request, effort, scene, hulls, plan), *question);
     return fine;
   }
   if (!fs::exists(request.out)) {  // else they are looked at when it is open, and only if it is not finished
@@ -219,6 +217,7 @@ int run_bake(const BakeRequest& request) {
     if (!store.is_finished()) {
       for (const auto& file : request.merged)
         std::fputs(fmt::format("clues bake: {} cells from {}\n", store.take_from(file), file).c_str(), stderr);
+      const auto make_lister = lister_for(request, effort, scene, hulls, plan);
       const auto& stop = catch_interrupts();
       std::uint64_t done = 0;
       {
@@ -311,7 +310,11 @@ void add_bake_command(CLI::App& program, int& status) {
           "where that takes\n"
           "  too much, too, what the map before does not prove to be hidden is listed. That is sound, and lists are "
           "longer; what is\n"
-          "  listed without a proof counts as a fallback.\n\n") +
+          "  listed without a proof counts as a fallback.\n"
+          "  --kernel solids asks only what walls hide: closed convex parts of the scene, or the brushes of a level "
+          "(docs/solids.md).\n"
+          "  That takes a fraction of the time, and its lists are longer. In levels the fast kernel asks only about "
+          "what it lists.\n\n") +
       bake_cells_help +
       "\n\nEXAMPLES\n"
       "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 -o town.bake\n"
