@@ -50,7 +50,7 @@ class FastLister : public CellLister {
 class SolidLister : public CellLister {
  public:
   SolidLister(std::shared_ptr<const solids::Solids> solids, scene::FlaggedMesh scene)
-      : solids_(std::move(solids)), targets_(std::move(scene), *solids_) {}
+      : scene_(std::move(scene)), solids_(std::move(solids)), targets_(scene_, *solids_) {}
   CellList list(const std::vector<scene::Point>& cell, std::span<const std::uint32_t> /*guess*/) const override {
     CellList out;
     out.visible = solids::not_hidden(*solids_, targets_, cell);
@@ -59,6 +59,7 @@ class SolidLister : public CellLister {
   }
 
  private:
+  scene::FlaggedMesh scene_;
   std::shared_ptr<const solids::Solids> solids_;
   solids::Targets targets_;
 };

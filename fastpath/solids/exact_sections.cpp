@@ -82,14 +82,7 @@ bool before(const ExactSpot& a, const ExactSpot& b) {
 ExactPolygon convex_hull(std::vector<ExactSpot> points) {
   std::sort(points.begin(), points.end(), before);
   ExactPolygon hull;
-  const auto go_on = [&](const ExactSpot& p, std::size_t least) {
-    while (hull.size() >= least + 2 && sign_of_turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const auto& p : points) go_on(p, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (std::size_t i = points.size() - 1; i-- > 0;) go_on(points[i], lower);
-  hull.pop_back();
+  hull_of_sorted(points, sign_of_turn, hull);
   return hull;
 }
 
@@ -213,19 +206,20 @@ class EdgeOfUnion {
   std::vector<std::pair<Cut, Cut>> covered_;
 };
 
-struct Extent {
-  double low_x, low_y, high_x, high_y;
-};
-
-Extent extent_of(const ExactPolygon& polygon) {
-  Extent e{polygon[0].x, polygon[0].y, polygon[0].x, polygon[0].y};
-  for (const auto& p : polygon) {
-    e = {std::min(e.low_x, p.x), std::min(e.low_y, p.y), std::max(e.high_x, p.x), std::max(e.high_y, p.y)};
+bool touch_within(const Rectangle& a, const Rectangle& b, double slack) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (b.low[i] > a.high[i] + slack || a.low[i] > b.high[i] + slack) return false;
   }
-  return e;
+  return true;
 }
 
 }  // namespace
+
+Rectangle rectangle_around(std::span<const ExactSpot> spots) {
+  Rectangle out{{spots[0].x, spots[0].y}, {spots[0].x, spots[0].y}};
+  for (const ExactSpot& s : spots) out = hull_of(out, {{s.x, s.y}, {s.x, s.y}});
+  return out;
+}
 
 std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& plane, std::size_t dropped,
                                        Cutting cutting) {
@@ -252,21 +246,19 @@ std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& p
 }
 
 std::vector<ExactSegment> rim_of_union(const std::vector<ExactPolygon>& polygons) {
-  std::vector<Extent> extents;
-  for (const auto& polygon : polygons) extents.push_back(extent_of(polygon));
+  std::vector<Rectangle> boxes;
+  for (const auto& polygon : polygons) boxes.push_back(rectangle_around(polygon));
   std::vector<ExactSegment> rim;
   std::vector<const ExactPolygon*> beside;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     // Coordinates are rounded, so boxes may seem to miss each other by two roundings where they touch.
-    const Extent& mine = extents[i];
-    const double slack = 0x1p-50 * std::max({std::fabs(mine.low_x), std::fabs(mine.low_y), std::fabs(mine.high_x),
-                                             std::fabs(mine.high_y)});
+    const Rectangle& mine = boxes[i];
+    const double slack = 0x1p-50 * std::max({std::fabs(mine.low[0]), std::fabs(mine.low[1]), std::fabs(mine.high[0]),
+                                             std::fabs(mine.high[1])});
     beside.clear();
     for (std::size_t j = 0; j < polygons.size(); ++j) {
-      const Extent& other = extents[j];
-      if (j != i && other.low_x <= mine.high_x + slack && mine.low_x <= other.high_x + slack &&
-          other.low_y <= mine.high_y + slack && mine.low_y <= other.high_y + slack)
-        beside.push_back(&polygons[j]);
+      const Rectangle& other = boxes[j];
+      if (j != i && touch_within(mine, other, slack)) beside.push_back(&polygons[j]);
     }
     for (std::size_t k = 0; k < polygons[i].size(); ++k) {
       EdgeOfUnion edge(polygons[i][k], polygons[i][(k + 1) % polygons[i].size()]);

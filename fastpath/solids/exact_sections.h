@@ -27,6 +27,9 @@ using ExactSegment = std::array<ExactSpot, 2>;
 // 1 where a, b, c turn left.
 int sign_of_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c);
 
+// Of the rounded spots, one or more.
+Rectangle rectangle_around(std::span<const ExactSpot> spots);
+
 // The corners of the hull, none on an edge; fewer than three if it is flat.
 ExactPolygon convex_hull(std::vector<ExactSpot> points);
 

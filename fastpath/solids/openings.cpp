@@ -9,31 +9,8 @@
 namespace clues::fastpath::solids {
 namespace {
 
-using Spot = Section::Spot;
-
 constexpr double kMostlyOpen = 0.5;  // of a rectangle: then it is not cut up
 constexpr int kMostHalvings = 10;
-
-struct Rectangle {
-  Spot low{}, high{};
-  double area() const { return (high[0] - low[0]) * (high[1] - low[1]); }
-};
-
-Rectangle hull_of(const Rectangle& a, const Rectangle& b) {
-  Rectangle out;
-  for (std::size_t i = 0; i < 2; ++i) {
-    out.low[i] = std::min(a.low[i], b.low[i]);
-    out.high[i] = std::max(a.high[i], b.high[i]);
-  }
-  return out;
-}
-
-template <typename Spots>
-Rectangle rectangle_around(const Spots& spots) {
-  Rectangle out{{spots[0].x, spots[0].y}, {spots[0].x, spots[0].y}};
-  for (const ExactSpot& s : spots) out = hull_of(out, {{s.x, s.y}, {s.x, s.y}});
-  return out;
-}
 
 ExactPolygon exactly(const Rectangle& r) {
   return {exact_spot(r.low[0], r.low[1]), exact_spot(r.high[0], r.low[1]), exact_spot(r.high[0], r.high[1]),
@@ -41,23 +18,10 @@ ExactPolygon exactly(const Rectangle& r) {
 }
 
 // What of the polygon is in the rectangle, rounded.
-std::vector<Spot> clipped(std::vector<Spot> polygon, const Rectangle& r) {
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::size_t axis = i / 2;
-    const double sign = i % 2 == 0 ? 1 : -1, bound = i % 2 == 0 ? r.low[axis] : r.high[axis];
-    std::vector<Spot> left;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Spot &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-      const double at_a = sign * (a[axis] - bound), at_b = sign * (b[axis] - bound);
-      if (at_a >= 0) left.push_back(a);
-      if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) {
-        Spot between{};
-        between[axis] = bound;
-        between[1 - axis] = a[1 - axis] + at_a / (at_a - at_b) * (b[1 - axis] - a[1 - axis]);
-        left.push_back(between);
-      }
-    }
-    polygon = std::move(left);
+std::vector<Spot> clipped_to(std::vector<Spot> polygon, const Rectangle& r) {
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    polygon = clipped(polygon, axis, r.low[axis], true);
+    polygon = clipped(polygon, axis, r.high[axis], false);
   }
   return polygon;
 }
@@ -98,7 +62,7 @@ class Opener {
 
   std::vector<Rectangle> open() const { return open_in(around_, 0); }
   bool has_none_open() const { return is_filled(around_); }
-  std::vector<Spot> part(const Rectangle& r) const { return clipped(rounded_, r); }
+  std::vector<Spot> part(const Rectangle& r) const { return clipped_to(rounded_, r); }
 
  private:
   // By its rounded corners; some that touch may seem to miss.
@@ -112,7 +76,7 @@ class Opener {
 
   bool is_filled(const Rectangle& r) const {
     const std::vector<ExactPolygon> both{facet_, exactly(r)};
-    const auto rounded = clipped(rounded_, r);
+    const auto rounded = clipped_to(rounded_, r);
     if (rounded.size() < 3) return are_apart(both[0], both[1]);
     Spot middle{};
     for (const Spot& s : rounded) {

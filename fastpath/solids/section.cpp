@@ -10,8 +10,6 @@
 namespace clues::fastpath::solids {
 namespace {
 
-using Spot = Section::Spot;
-
 constexpr std::size_t kMostSquares = 64;  // along each axis
 constexpr double kSquaresPerThing = 0.5;
 
@@ -25,20 +23,6 @@ std::size_t longest(const std::array<double, 3>& normal) {
     if (std::fabs(normal[i]) > std::fabs(normal[axis])) axis = i;
   }
   return axis;
-}
-
-// Corners of the hull, counter-clockwise; the points are sorted. What lies on an edge but for a rounding may be missing.
-void hull_into(std::vector<Spot>& points, std::vector<Spot>& hull) {
-  std::sort(points.begin(), points.end());
-  hull.clear();
-  const auto go_on = [&](const Spot& p, std::size_t least) {
-    while (hull.size() >= least + 2 && turn_of(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const Spot& p : points) go_on(p, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (std::size_t i = points.size() - 1; i-- > 0;) go_on(points[i], lower);
-  if (hull.size() > 1) hull.pop_back();
 }
 
 // Distances from the plane, and their range.
@@ -82,29 +66,16 @@ Section::Section(const SectionPlane& plane, std::span<const Solid> solids, const
     if (auto polygon = section_of(solid, plane_, dropped_, Cutting::across)) exact.push_back(std::move(*polygon));
   }
   for (const auto& [a, b] : rim_of_union(exact)) rim_.push_back({Spot{a.x, a.y}, Spot{b.x, b.y}});
-  std::vector<Range> of_polygons, of_rim;
-  const auto widen = [](Range& range, const Spot& s) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      range.low[i] = std::min(range.low[i], s[i]);
-      range.high[i] = std::max(range.high[i], s[i]);
-    }
-  };
+  std::vector<Rectangle> of_polygons, of_rim;
   for (const auto& polygon : exact) {
     auto& rounded = polygons_.emplace_back();
     for (const auto& spot : polygon) rounded.push_back({spot.x, spot.y});
-    of_polygons.push_back({rounded[0], rounded[0]});
-    for (const Spot& s : rounded) widen(of_polygons.back(), s);
+    of_polygons.push_back(rectangle_around(polygon));
   }
-  for (const auto& [a, b] : rim_) {
-    of_rim.push_back({a, a});
-    widen(of_rim.back(), b);
-  }
+  for (const auto& [a, b] : rim_) of_rim.push_back(hull_of({a, a}, {b, b}));
   if (polygons_.empty()) return;
   all_ = of_polygons[0];
-  for (const Range& range : of_polygons) {
-    widen(all_, range.low);
-    widen(all_, range.high);
-  }
+  for (const Rectangle& box : of_polygons) all_ = hull_of(all_, box);
   const double things = static_cast<double>(polygons_.size() + rim_.size());
   squares_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(kSquaresPerThing * things)), 1, kMostSquares);
   polygons_at_ = grid_of(of_polygons);
@@ -119,21 +90,21 @@ std::size_t Section::square(double x, std::size_t axis) const {
   return at <= 0 ? 0 : std::min(static_cast<std::size_t>(at), squares_ - 1);
 }
 
-Section::Grid Section::grid_of(const std::vector<Range>& ranges) const {
+Section::Grid Section::grid_of(const std::vector<Rectangle>& boxes) const {
   Grid grid;
   grid.first.assign(squares_ * squares_ + 1, 0);
-  const auto for_each_square = [&](const Range& range, const auto& f) {
+  const auto for_each_square = [&](const Rectangle& range, const auto& f) {
     const std::size_t last_x = square(range.high[0], 0), last_y = square(range.high[1], 1);
     for (std::size_t x = square(range.low[0], 0); x <= last_x; ++x) {
       for (std::size_t y = square(range.low[1], 1); y <= last_y; ++y) f(x * squares_ + y);
     }
   };
-  for (const Range& range : ranges) for_each_square(range, [&](std::size_t at) { ++grid.first[at + 1]; });
+  for (const Rectangle& box : boxes) for_each_square(box, [&](std::size_t at) { ++grid.first[at + 1]; });
   std::partial_sum(grid.first.begin(), grid.first.end(), grid.first.begin());
   grid.ids.resize(grid.first.back());
   std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
-  for (std::uint32_t i = 0; i < ranges.size(); ++i)
-    for_each_square(ranges[i], [&](std::size_t at) { grid.ids[next[at]++] = i; });
+  for (std::uint32_t i = 0; i < boxes.size(); ++i)
+    for_each_square(boxes[i], [&](std::size_t at) { grid.ids[next[at]++] = i; });
   return grid;
 }
 
@@ -156,15 +127,12 @@ bool Section::holds(const Spot& spot) const {
 // Whether some of the rim is within the margin of the window, a convex polygon.
 bool Section::rim_meets(const std::vector<Spot>& window) const {
   const double margin = scale_.margin();
-  Range range{window[0], window[0]};
+  Rectangle range{window[0], window[0]};
   static thread_local std::vector<HalfPlane> halves;
   halves.clear();
   for (std::size_t i = 0; i < window.size(); ++i) {
     const Spot &a = window[i], &b = window[(i + 1) % window.size()];
-    for (std::size_t k = 0; k < 2; ++k) {
-      range.low[k] = std::min(range.low[k], a[k]);
-      range.high[k] = std::max(range.high[k], a[k]);
-    }
+    range = hull_of(range, {a, a});
     const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
     if (length < margin) continue;  // the half planes of its neighbours, and the range, have what it would cut off
     const double x = (b[1] - a[1]) / length, y = (a[0] - b[0]) / length;
@@ -226,7 +194,8 @@ bool Section::covers(std::span<const Point> from, std::span<const Point> to) con
       if (s[k] <= all_.low[k] || s[k] >= all_.high[k]) return false;
     }
   }
-  hull_into(crossings, window);
+  std::sort(crossings.begin(), crossings.end());
+  hull_of_sorted(crossings, turn_of, window);  // what lies on an edge but for a rounding may be missing
   Spot middle{};
   for (const Spot& s : window) {
     for (std::size_t k = 0; k < 2; ++k) middle[k] += s[k] / static_cast<double>(window.size());

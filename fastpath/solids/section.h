@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "fastpath/solids/plane_shapes.h"
 #include "fastpath/solids/solid.h"
 
 namespace clues::fastpath::solids {
@@ -32,8 +33,6 @@ struct SectionPlane {
 
 class Section {
  public:
-  using Spot = std::array<double, 2>;  // in the plane, the axis left out along which its normal is longest
-
   // Of solids with corners on both sides of the plane. With n of them O(n^2) for boxes, and as many exact steps as their sections have neighbours.
   Section(const SectionPlane& plane, std::span<const Solid> solids, const Scale& scale);
 
@@ -42,29 +41,25 @@ class Section {
   bool covers(std::span<const Point> from, std::span<const Point> to) const;
 
   std::size_t polygons() const { return polygons_.size(); }
-  const std::vector<std::array<Spot, 2>>& rim() const { return rim_; }
-  // Whether the point is in one of the sections, and not within a rounding of its border.
-  bool holds(const Spot& spot) const;
-  Spot spot_of(const Point& point) const { return {point[u_], point[v_]}; }
 
  private:
-  struct Range {
-    Spot low{}, high{};
-  };
   // Numbers of what may be in a part of the plane, by squares of a grid.
   struct Grid {
     std::vector<std::uint32_t> first, ids;
   };
   std::size_t square(double x, std::size_t axis) const;
-  Grid grid_of(const std::vector<Range>& ranges) const;
+  Grid grid_of(const std::vector<Rectangle>& boxes) const;
+  // Whether the point is in one of the sections, and not within a rounding of its border.
+  bool holds(const Spot& spot) const;
   bool rim_meets(const std::vector<Spot>& window) const;
 
   SectionPlane plane_;
   Scale scale_;
-  std::size_t dropped_ = 0, u_ = 1, v_ = 2;
+  std::size_t dropped_ = 0, u_ = 1,
+              v_ = 2;  // the axis that is left out in the plane, along which its normal is longest; the others
   std::vector<std::vector<Spot>> polygons_;  // counter-clockwise
   std::vector<std::array<Spot, 2>> rim_;
-  Range all_;
+  Rectangle all_;
   std::size_t squares_ = 1;  // along each axis
   Grid polygons_at_, rim_at_;
 };

@@ -15,6 +15,8 @@ namespace {
 
 using Polygon = std::vector<Point>;
 
+// How many shafts may be looked at for a proof about one opening of the cell.
+constexpr std::uint32_t kShaftsOfABox = 2, kShaftsOfATriangle = 150;
 constexpr int kDeepest = 12;                 // cuts of a shaft within one another
 constexpr std::size_t kMostPlanes = 24;      // that are tried for one shaft
 constexpr std::size_t kProbes = 6;           // segments that look for a way that is free, before a proof is tried
@@ -30,39 +32,12 @@ Point middle_of(std::span<const Point> points) {
   return middle;
 }
 
-struct Length {
-  std::size_t axis = 0;
-  double length = 0, middle = 0;
-};
+double length_along(const Bounds& box, std::size_t axis) { return box.high[axis] - box.low[axis]; }
 
-Length longest_extent(std::span<const Point> points) {
-  const Bounds box = scene::bounds_of(points);
-  Length extent;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (box.high[i] - box.low[i] > extent.length)
-      extent = {i, box.high[i] - box.low[i], (box.low[i] + box.high[i]) / 2};
-  }
-  return extent;
-}
-
-// Both have all of the polygon in their union, but for roundings.
-std::array<Polygon, 2> cut(const Polygon& polygon, const Length& extent) {
-  std::array<Polygon, 2> parts;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    const double at_a = a[extent.axis] - extent.middle, at_b = b[extent.axis] - extent.middle;
-    if (at_a <= 0) parts[0].push_back(a);
-    if (at_a >= 0) parts[1].push_back(a);
-    if ((at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0)) {
-      const double share = at_a / (at_a - at_b);
-      Point between{};
-      for (std::size_t k = 0; k < 3; ++k) between[k] = a[k] + share * (b[k] - a[k]);
-      between[extent.axis] = extent.middle;
-      parts[0].push_back(between);
-      parts[1].push_back(between);
-    }
-  }
-  return parts;
+// In the middle of the axis: both have all of the polygon in their union, but for roundings.
+std::array<Polygon, 2> halves_of(const Polygon& polygon, const Bounds& box, std::size_t axis) {
+  const double middle = (box.low[axis] + box.high[axis]) / 2;
+  return {clipped(polygon, axis, middle, false), clipped(polygon, axis, middle, true)};
 }
 
 // A facet of the cell, and where of it sight lines may leave the cell.
@@ -125,11 +100,9 @@ class ViewCell {
     return all;
   }
 
-  // Whether it has no point in common with the target, with certainty.
-  bool is_apart_from(const std::vector<Point>& target) const {
-    if (!scene::touch(bounds_, scene::bounds_of(target))) return true;
-    return solid_ && std::any_of(windows_.begin(), windows_.end(),
-                                 [&](const Window& w) { return w.side.has_all_outside(target); });
+  // Whether T15 may be used: it has no point in common with the target, and the target is out of all solids that the viewer may be in.
+  bool may_be_hidden(const std::vector<Point>& target) const {
+    return is_apart_from(target) && is_out_of_solids_around(target);
   }
 
   // Whether lines to the target may go through the window, if they are apart.
@@ -137,10 +110,17 @@ class ViewCell {
     return !solid_ || !window.side.has_none_outside(target);
   }
 
-  // Whether it only sees the triangle from behind (targets.h).
-  bool is_behind(const std::vector<Side>& backs, const std::vector<Point>& triangle) const {
-    return std::any_of(backs.begin(), backs.end(), [this](const Side& s) { return s.has_none_outside(corners_); }) &&
-           is_apart_from(triangle) && is_out_of_solids_around(triangle);
+  // Whether it is on the inside of one of these planes.
+  bool is_behind(const std::vector<Side>& backs) const {
+    return std::any_of(backs.begin(), backs.end(), [this](const Side& s) { return s.has_none_outside(corners_); });
+  }
+
+ private:
+  // Whether it has no point in common with the target, with certainty.
+  bool is_apart_from(const std::vector<Point>& target) const {
+    if (!scene::touch(bounds_, scene::bounds_of(target))) return true;
+    return solid_ && std::any_of(windows_.begin(), windows_.end(),
+                                 [&](const Window& w) { return w.side.has_all_outside(target); });
   }
 
   // Of solids that the viewer may be in: whether the target is out of all of them.
@@ -151,7 +131,6 @@ class ViewCell {
     });
   }
 
- private:
   // Whether no inner point of the cell is in the solid's interior; a flat cell must not touch it.
   bool is_outside(const Solid& solid) const {
     if (!solid_) {
@@ -173,13 +152,12 @@ class ViewCell {
 
 class Prover {
  public:
-  Prover(const Solids& solids, const ShaftOptions& options, ShaftCounts& counts)
-      : solids_(solids), options_(options), counts_(counts) {}
+  explicit Prover(const Solids& solids) : solids_(solids) {}
 
   // Whether no line from the window to the target is free.
   bool prove(const Polygon& window, const Polygon& target, bool is_triangle) {
     if (finds_a_way(window, target)) return false;
-    left_ = is_triangle ? options_.of_a_triangle : options_.of_a_box;
+    left_ = is_triangle ? kShaftsOfATriangle : kShaftsOfABox;
     cuts_targets_ = is_triangle;
     return prove_shaft(window, target, 0);
   }
@@ -202,7 +180,6 @@ class Prover {
   bool prove_shaft(const Polygon& window, const Polygon& target, int depth) {
     if (left_ == 0) return false;
     --left_;
-    ++counts_.shafts;
     solids_.find_pierced(middle_of(window), middle_of(target), pierced_);
     if (pierced_.empty()) {
       left_ = 0;
@@ -216,24 +193,29 @@ class Prover {
         if (std::find(planes_.begin(), planes_.end(), plane) != planes_.end()) continue;
         if (planes_.size() == kMostPlanes) break;
         planes_.push_back(plane);
-        ++counts_.planes;
         if (solids_.section(plane).covers(window, target)) return true;
       }
     }
     if (depth == kDeepest) return false;
-    const Length of_window = longest_extent(window), of_target = longest_extent(target);
-    const bool cuts_window = !cuts_targets_ || of_window.length >= of_target.length;
-    const Length& longer = cuts_window ? of_window : of_target;
-    if (longer.length < kSmallest * solids_.scale().largest) return false;
-    for (const Polygon& part : cut(cuts_window ? window : target, longer)) {
-      if (!(cuts_window ? prove_shaft(part, target, depth + 1) : prove_shaft(window, part, depth + 1))) return false;
+    const Bounds of_window = scene::bounds_of(window), of_target = scene::bounds_of(target);
+    const std::size_t along_window = longest_axis(of_window), along_target = longest_axis(of_target);
+    const double window_length = length_along(of_window, along_window),
+                 target_length = length_along(of_target, along_target);
+    const bool cuts_window = !cuts_targets_ || window_length >= target_length;
+    if ((cuts_window ? window_length : target_length) < kSmallest * solids_.scale().largest) return false;
+    if (cuts_window) {
+      for (const Polygon& part : halves_of(window, of_window, along_window)) {
+        if (!prove_shaft(part, target, depth + 1)) return false;
+      }
+    } else {
+      for (const Polygon& part : halves_of(target, of_target, along_target)) {
+        if (!prove_shaft(window, part, depth + 1)) return false;
+      }
     }
     return true;
   }
 
   const Solids& solids_;
-  const ShaftOptions options_;
-  ShaftCounts& counts_;
   std::uint32_t left_ = 0;  // shafts that may still be looked at
   bool cuts_targets_ = false;
   std::vector<Pierced> pierced_;
@@ -246,21 +228,22 @@ std::vector<std::uint8_t> not_from_behind(const ViewCell& view, const Targets& t
   std::vector<std::uint8_t> some(nodes.size());
   for (std::size_t i = nodes.size(); i-- > 0;) {  // children come after their parents
     const auto& node = nodes[i];
-    some[i] = node.is_triangle() ? (view.is_behind(targets.backs_of(node.triangle), targets.corners_of(node)) ? 0 : 1)
-                                 : some[node.left] | some[node.right];
+    if (node.is_triangle()) {
+      some[i] = view.is_behind(targets.backs_of(node.triangle)) && view.may_be_hidden(targets.corners_of(node)) ? 0 : 1;
+    } else {
+      some[i] = some[node.left] | some[node.right];
+    }
   }
   return some;
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> not_hidden(const Solids& solids, const Targets& targets, const std::vector<Point>& cell,
-                                      const ShaftOptions& options, ShaftCounts* counts) {
+std::vector<std::uint32_t> not_hidden(const Solids& solids, const Targets& targets, const std::vector<Point>& cell) {
   std::vector<std::uint32_t> found;
   if (targets.nodes().empty()) return found;
-  ShaftCounts uncounted;
   const ViewCell view(cell, solids);
-  Prover prover(solids, options, counts != nullptr ? *counts : uncounted);
+  Prover prover(solids);
   const auto in_question = not_from_behind(view, targets);
   std::vector<OpenNode> open{{0, view.openings()}};
   while (!open.empty()) {
@@ -269,8 +252,8 @@ std::vector<std::uint32_t> not_hidden(const Solids& solids, const Targets& targe
     if (in_question[next.node] == 0) continue;
     const Targets::Node& node = targets.nodes()[next.node];
     const Polygon target = targets.corners_of(node);
-    const bool seen_through_openings = view.is_apart_from(target) && view.is_out_of_solids_around(target);
-    if (seen_through_openings) {
+    const bool may_be_hidden = view.may_be_hidden(target);
+    if (may_be_hidden) {
       std::size_t left = 0;
       for (const Opening& opening : next.openings) {
         const Window& window = view.windows()[opening.window];
@@ -281,7 +264,7 @@ std::vector<std::uint32_t> not_hidden(const Solids& solids, const Targets& targe
       }
       next.openings.resize(left);
     }
-    if (seen_through_openings && next.openings.empty()) continue;
+    if (may_be_hidden && next.openings.empty()) continue;
     if (node.is_triangle()) {
       found.push_back(node.triangle);
       continue;

@@ -12,17 +12,7 @@
 
 namespace clues::fastpath::solids {
 
-// How many shafts may be looked at for a proof about one facet of the cell.
-struct ShaftOptions {
-  std::uint32_t of_a_box = 2, of_a_triangle = 150;
-};
-
-struct ShaftCounts {
-  std::uint64_t shafts = 0, planes = 0, boxes = 0;
-};
-
 // Ids of targets that are not proved to be hidden, ascending: whatever is visible from the cell is among them. By one thread; several may ask at once. The same whatever was asked before.
-std::vector<std::uint32_t> not_hidden(const Solids& solids, const Targets& targets, const std::vector<Point>& cell,
-                                      const ShaftOptions& options = {}, ShaftCounts* counts = nullptr);
+std::vector<std::uint32_t> not_hidden(const Solids& solids, const Targets& targets, const std::vector<Point>& cell);
 
 }  // namespace clues::fastpath::solids

@@ -73,31 +73,28 @@ Side side_through(const Point& a, const Point& b, const Point& c) {
   return side;
 }
 
-// A point is outside of a side where its corners turn left seen from there.
+int Side::side_of(const Point& p) const { return orientation(corners[0], corners[1], corners[2], p); }
+
 bool Side::has_none_inside(const std::vector<Point>& points) const {
-  return std::all_of(points.begin(), points.end(),
-                     [this](const Point& p) { return orientation(corners[0], corners[1], corners[2], p) >= 0; });
+  return std::all_of(points.begin(), points.end(), [this](const Point& p) { return side_of(p) >= 0; });
+}
+
+bool Side::has_none_outside(const std::vector<Point>& points) const {
+  return std::all_of(points.begin(), points.end(), [this](const Point& p) { return side_of(p) <= 0; });
 }
 
 bool Side::has_all_outside(const std::vector<Point>& points) const {
-  return std::all_of(points.begin(), points.end(),
-                     [this](const Point& p) { return orientation(corners[0], corners[1], corners[2], p) > 0; });
+  return std::all_of(points.begin(), points.end(), [this](const Point& p) { return side_of(p) > 0; });
 }
 
 bool Side::has_all_on(std::span<const Point> points) const {
-  return std::all_of(points.begin(), points.end(),
-                     [this](const Point& p) { return orientation(corners[0], corners[1], corners[2], p) == 0; });
+  return std::all_of(points.begin(), points.end(), [this](const Point& p) { return side_of(p) == 0; });
 }
 
 bool faces_up(const Side& side, std::size_t axis) {
   Point above = side.corners[0];
   above[axis] = std::nextafter(above[axis], std::numeric_limits<double>::infinity());
-  return orientation(side.corners[0], side.corners[1], side.corners[2], above) > 0;
-}
-
-bool Side::has_none_outside(const std::vector<Point>& points) const {
-  return std::all_of(points.begin(), points.end(),
-                     [this](const Point& p) { return orientation(corners[0], corners[1], corners[2], p) <= 0; });
+  return side.side_of(above) > 0;
 }
 
 std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {

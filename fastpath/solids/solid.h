@@ -31,11 +31,11 @@ struct Side {
   std::array<Point, 3> corners{};  // they turn left seen from outside
   HalfSpace estimate;              // of the inside, with a normal of about unit length
 
-  // Of all points: whether none is strictly inside of the plane, or all are strictly outside.
+  int side_of(const Point& point) const;  // 1: outside, 0: in the plane, -1: inside; exactly
+  // Of all points.
   bool has_none_inside(const std::vector<Point>& points) const;
-  bool has_all_outside(const std::vector<Point>& points) const;
-  // Whether none is strictly outside, or all are in the plane.
   bool has_none_outside(const std::vector<Point>& points) const;
+  bool has_all_outside(const std::vector<Point>& points) const;
   bool has_all_on(std::span<const Point> points) const;
 };
 // Three corners that are not collinear, seen from outside. The estimate may be no number where they nearly are.

@@ -94,10 +94,7 @@ std::uint32_t Solids::build(std::uint32_t first, std::uint32_t count) {
     nodes_[at].bounds = scene::hull_of(nodes_[at].bounds, solids_[order_[first + i]].bounds);
   if (count <= kLeaf) return at;
   const Bounds box = nodes_[at].bounds;
-  std::size_t axis = 0;
-  for (std::size_t i = 1; i < 3; ++i) {
-    if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
-  }
+  const std::size_t axis = longest_axis(box);
   const auto begin = order_.begin() + first;
   std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t a, std::uint32_t b) {
     const double at_a = solids_[a].bounds.low[axis] + solids_[a].bounds.high[axis];

@@ -9,8 +9,8 @@
 
 namespace clues::fastpath::solids {
 
-Targets::Targets(scene::FlaggedMesh scene, const Solids& solids)
-    : scene_(std::move(scene)), backs_(scene_.mesh.triangles.size()) {
+Targets::Targets(const scene::FlaggedMesh& scene, const Solids& solids)
+    : scene_(scene), backs_(scene_.mesh.triangles.size()) {
   for (std::uint32_t t = 0; t < scene_.mesh.triangles.size(); ++t) {
     if (scene_.counting(t)) order_.push_back(t);
   }
@@ -55,10 +55,7 @@ std::uint32_t Targets::build(std::uint32_t first, std::uint32_t count) {
   for (std::uint32_t i = 1; i < count; ++i) box = scene::hull_of(box, bounds_of(order_[first + i]));
   nodes_.push_back({box, 0, 0, order_[first]});
   if (count == 1) return at;
-  std::size_t axis = 0;
-  for (std::size_t i = 1; i < 3; ++i) {
-    if (box.high[i] - box.low[i] > box.high[axis] - box.low[axis]) axis = i;
-  }
+  const std::size_t axis = longest_axis(box);
   const auto begin = order_.begin() + first;
   std::nth_element(begin, begin + count / 2, begin + count, [&](std::uint32_t a, std::uint32_t b) {
     const scene::Bounds of_a = bounds_of(a), of_b = bounds_of(b);

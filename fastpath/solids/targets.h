@@ -21,8 +21,9 @@ class Targets {
     bool is_triangle() const { return left == 0; }
   };
 
-  // Of the triangles that count. O(n log n), and a search for the solids that each lies on.
-  Targets(scene::FlaggedMesh scene, const Solids& solids);
+  // Of the triangles that count. Keeps a reference: the scene must outlive it. O(n log n), and a search for the solids that each lies on.
+  Targets(const scene::FlaggedMesh& scene, const Solids& solids);
+  Targets(scene::FlaggedMesh&&, const Solids&) = delete;
 
   const std::vector<Node>& nodes() const { return nodes_; }  // node 0 is the root; none without triangles
   // Of a triangle, or of a box.
@@ -37,7 +38,7 @@ class Targets {
   scene::Bounds bounds_of(std::uint32_t triangle) const;
   void find_backs(std::uint32_t triangle, const Solids& solids);
 
-  scene::FlaggedMesh scene_;
+  const scene::FlaggedMesh& scene_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
   std::vector<std::vector<Side>> backs_;  // per triangle of the scene

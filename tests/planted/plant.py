@@ -31,10 +31,12 @@ COPIES = {
         ("return enters_interior(*segment, both); })", "return enters_interior(*segment, both) && false; })")]),
     # A triangle is seen from behind if the cell reaches there.
     "behind_from_the_side": ("fastpath/shafts.cpp", [
-        ("return s.has_none_outside(corners_); }) &&", "return !s.has_all_outside(corners_); }) &&")]),
+        ("return s.has_none_outside(corners_); });", "return !s.has_all_outside(corners_); });")]),
     # What touches the cell may be hidden.
     "touched_and_hidden": ("fastpath/shafts.cpp", [
-        ("           is_apart_from(triangle) && is_out", "           is_out")]),
+        ("view.is_behind(targets.backs_of(node.triangle)) && view.may_be_hidden(targets.corners_of(node))",
+         "view.is_behind(targets.backs_of(node.triangle)) && view.is_out_of_solids_around(targets.corners_of(node))"),
+        (" private:\n  // Whether it has no point in common", " public:\n  // Whether it has no point in common")]),
 
     # ---- the reference
 
