@@ -2,8 +2,6 @@
 // outwards, and where their borders cancel they are a cycle of that sphere, so they cover each of its points equally often; not 0 times, as there is one.
 #include "fastpath/solids/solid.h"
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,22 +9,11 @@
 #include <map>
 #include <utility>
 
+#include "exact/kernel.h"
 #include "fastpath/predicates/filter.h"
 
 namespace clues::fastpath::solids {
 namespace {
-
-int exact_orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
-  std::array<std::array<mpq_class, 3>, 3> m;
-  const std::array<const Point*, 3> rows{&b, &c, &d};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) m[i][k] = mpq_class((*rows[i])[k]) - mpq_class(a[k]);
-  }
-  const mpq_class determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-                                m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                                m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-  return sgn(determinant);
-}
 
 // On which sides of the plane of the three the corners are: -1 or 1, if all that are not on it are on that side; 0, if all are on it; none, if there are some on both.
 std::optional<int> side_of_all(const std::array<Point, 3>& plane, const std::vector<Point>& corners) {
@@ -55,7 +42,8 @@ std::vector<std::vector<Point>> without_repetitions(const std::vector<std::vecto
 
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
   const FilteredSign sign = orient3d_filtered(a, b, c, d, kOrient3dError);
-  return sign.certain ? static_cast<int>(sign.sign) : exact_orientation(a, b, c, d);
+  if (sign.certain) return static_cast<int>(sign.sign);
+  return CGAL::orientation(exact::to_exact(a), exact::to_exact(b), exact::to_exact(c), exact::to_exact(d));
 }
 
 Side side_through(const Point& a, const Point& b, const Point& c) {
