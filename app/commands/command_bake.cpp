@@ -42,7 +42,7 @@ using scene::ErrorCode;
 
 // In levels less is lost where a map is given up: what solids do not hide is listed.
 constexpr std::uint64_t kEffort = 500, kEffortInLevels = 50;
-constexpr int kTries = 4;  // what effort is: raised when that changes, so that no store has lists of two kinds
+constexpr int kTries = 5;  // what these kernels do: raised when that changes, so that no store has lists of two kinds
 
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;
@@ -67,10 +67,8 @@ std::string question_of(const BakeRequest& request, const BakeCells& cells, std:
                           {"kernel", request.kernel},
                           {"group", request.group},
                           {"up", std::string(1, up_of(request))}};
-  if (request.kernel == "fast") {
-    question["effort"] = effort;
-    question["tries"] = kTries;
-  }
+  if (request.kernel == "fast") question["effort"] = effort;
+  if (request.kernel != "exact") question["tries"] = kTries;
   return question.dump();
 }
 
@@ -165,15 +163,16 @@ void require_unspoilt(const BakeRequest& request) {
 }
 
 fastpath::bakes::ListerMaker lister_for(const BakeRequest& request, std::uint64_t effort,
-                                        const scene::FlaggedMesh& scene, const std::vector<scene::Hull>& hulls,
+                                        const scene::FlaggedMesh& scene, const std::vector<scene::Polytope>& brushes,
                                         const scene::BakePlan& plan) {
   namespace solids = fastpath::solids;
   if (request.kernel == "exact") return validate::exact_lister();
-  if (request.kernel == "fast" && hulls.empty()) return fastpath::bakes::fast_lister(effort);
+  if (request.kernel == "fast" && brushes.empty()) return fastpath::bakes::fast_lister(effort);
   std::vector<std::vector<scene::Point>> cells;
   for (const auto& cell : plan.cells) cells.push_back(cell.points);
-  auto all = std::make_shared<const solids::Solids>(
-      hulls.empty() ? solids::find_solids(scene) : solids::solids_of(hulls), solids::bounds_of_questions(scene, cells));
+  auto all =
+      std::make_shared<const solids::Solids>(brushes.empty() ? solids::find_solids(scene) : solids::solids_of(brushes),
+                                             solids::bounds_of_questions(scene, cells));
   if (request.kernel == "solids") return fastpath::bakes::solid_lister(std::move(all));
   return fastpath::bakes::fast_lister(effort, std::move(all));
 }
@@ -190,7 +189,7 @@ int run_bake(const BakeRequest& request) {
   }
   std::optional<scene::BspFile> level;
   scene::FlaggedMesh scene;
-  std::vector<scene::Hull> hulls;  // of a level
+  std::vector<scene::Polytope> brushes;  // of a level
   const auto sha256 = sha256_around(request.scene, [&] {
     level = scene::read_level(request.scene);
     if (!level) {
@@ -199,14 +198,14 @@ int run_bake(const BakeRequest& request) {
     }
     auto of_level = scene::scene_of_level(*level);
     scene = std::move(of_level.scene);
-    hulls = std::move(of_level.solids);
+    brushes = std::move(of_level.solids);
   });
   const std::uint64_t effort = request.effort.value_or(level ? kEffortInLevels : kEffort);
   const auto plan = plan_of(request, sha256, scene,
                             parse_bake_cells(request.cells, request.scene, scene, level, up_of(request)), effort);
   const int threads = cluster.threads(request.threads);
   if (!cluster.leads()) {
-    serve_bake(cluster, threads, scene, plan, lister_for(request, effort, scene, hulls, plan), *question);
+    serve_bake(cluster, threads, scene, plan, lister_for(request, effort, scene, brushes, plan), *question);
     return fine;
   }
   if (!fs::exists(request.out)) {  // else they are looked at when it is open, and only if it is not finished
@@ -217,7 +216,7 @@ int run_bake(const BakeRequest& request) {
     if (!store.is_finished()) {
       for (const auto& file : request.merged)
         std::fputs(fmt::format("clues bake: {} cells from {}\n", store.take_from(file), file).c_str(), stderr);
-      const auto make_lister = lister_for(request, effort, scene, hulls, plan);
+      const auto make_lister = lister_for(request, effort, scene, brushes, plan);
       const auto& stop = catch_interrupts();
       std::uint64_t done = 0;
       {

@@ -246,6 +246,7 @@ std::string fuzz_footer() {
       "                 the reference refined to depth 2, its hidden regions included\n"
       "  fast:subdivided, fast:backprojected\n"
       "                 the fast path refined to depth 3\n"
+      "  solids         what closed convex parts of the scene do not hide (docs/solids.md)\n"
       "  maps, motion, deltas, bakes, streams, levels\n"
       "                 what answers no cell, or many, or one of a whole level, see below\n"
       "  all            a campaign of each kind, one after the other: reference, fast and the six above, in folders "

@@ -1,5 +1,7 @@
 // clues iut: the reference, or a shared library, as an implementation under test: a speaker of docs/protocol.md.
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -10,6 +12,7 @@
 #include "app/common.h"
 #include "exact/cell/convex_cell.h"
 #include "exact/threads.h"
+#include "fastpath/solids/find_solids.h"
 #include "fastpath/visibility/first_order.h"
 #include "fastpath/visibility/see_through.h"
 #include "reference/visibility/first_order.h"
@@ -59,18 +62,31 @@ std::vector<std::uint32_t> fast_pvs(const validate::Request& request) {
       1, [&] { return fastpath::first_order_visibility(fastpath::Bvh(request.mesh), request.cell, options).visible; });
 }
 
-void serve_kernel(const std::string& kernel) {
-  MethodOptions method;
-  method.kernel = kernel;
-  method.check();
+// What sees in solid mode sees in sheet mode, so that nothing visible is missing in either.
+std::vector<std::uint32_t> solids_pvs(const validate::Request& request) {
+  if (request.mode == validate::CaseMode::solid) fastpath::require_solid(request.mesh);
+  return fastpath::solids::not_hidden({request.mesh, request.blocks, request.counts, {}}, request.cell);
+}
+
+struct Kernel {
+  const char *name, *about;
+  std::vector<std::uint32_t> (*pvs)(const validate::Request&);
+};
+
+constexpr std::array kKernels{Kernel{"exact", "clues first-order reference", exact_pvs},
+                              Kernel{"fast", "clues fast path", fast_pvs},
+                              Kernel{"solids", "clues, what solids do not hide", solids_pvs}};
+
+void serve_kernel(const std::string& name) {
+  const auto kernel = std::find_if(kKernels.begin(), kKernels.end(), [&](const Kernel& k) { return k.name == name; });
   validate::Implementation about;
-  about.name = kernel == "fast" ? "clues fast path" : "clues first-order reference";
+  about.name = kernel->about;
   about.version = CLUES_VERSION;
   about.language = "C++";
   about.see_through = true;
   validate::serve(std::cin, stdout, about, [&](const validate::Request& request) {
     validate::Answer answer;
-    answer.visible = kernel == "fast" ? fast_pvs(request) : exact_pvs(request);
+    answer.visible = kernel->pvs(request);
     return answer;
   });
 }
@@ -98,8 +114,10 @@ void add_iut_command(CLI::App& program, int& status) {
   auto* command =
       program.add_subcommand("iut", "Be an implementation under test: speak JSON lines on standard input and output");
   auto request = std::make_shared<IutRequest>();
-  command->add_option("--kernel", request->kernel, "Answer ourselves: exact (the first-order reference) or fast")
-      ->type_name("NAME");
+  command
+      ->add_option("--kernel", request->kernel,
+                   "Answer ourselves: exact (the first-order reference), fast, or solids (what walls do not hide)")
+      ->check(CLI::IsMember({"exact", "fast", "solids"}));
   command->add_option("--library", request->library, "Answer with the function clues_iut_pvs of a shared library")
       ->type_name("LIB.so");
   command->footer(

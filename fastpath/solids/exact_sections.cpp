@@ -8,7 +8,6 @@
 namespace clues::fastpath::solids {
 namespace {
 
-constexpr double kUnderflow = 0x1p-1000;  // more than is lost of products that are too small for doubles
 constexpr double kBriefUnit = 0x1p6, kBriefMost = 0x1p17;
 
 bool is_brief(double x) { return std::fabs(x) < kBriefMost && x * kBriefUnit == std::nearbyint(x * kBriefUnit); }
@@ -88,32 +87,48 @@ ExactPolygon convex_hull(std::vector<ExactSpot> points) {
 
 namespace {
 
-mpq_class value_at(const SectionPlane& plane, const Point& p) {
+mpq_class value_at(const SectionPlane& plane, const scene::RationalPoint& p) {
   mpq_class value = -mpq_class(plane.distance);
-  for (std::size_t i = 0; i < 3; ++i) value += mpq_class(plane.normal[i]) * mpq_class(p[i]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (plane.normal[i] != 0) value += mpq_class(plane.normal[i]) * p[i];
+  }
   return value;
 }
 
-int side_of(const SectionPlane& plane, const Point& p) {
+// On which side of the plane the solid's i-th corner is.
+int side_of(const SectionPlane& plane, const Solid& solid, std::size_t corner) {
+  const Point& p = solid.corners[corner];
   double value = -plane.distance, size = std::fabs(plane.distance);
   for (std::size_t i = 0; i < 3; ++i) {
     value += plane.normal[i] * p[i];
     size += std::fabs(plane.normal[i] * p[i]);
   }
-  const double error = 0x1p-50 * size + kUnderflow;  // of seven roundings
+  const double error = 0x1p-49 * size + kUnderflow;  // of seven roundings, and those of the corner
   if (std::fabs(value) > error) return value > 0 ? 1 : -1;
-  return sgn(value_at(plane, p));
+  return sgn(value_at(plane, solid.exact_corner(corner)));
 }
 
-// Where the segment from p to q crosses the plane, on different sides of which they are.
-ExactSpot crossing(const SectionPlane& plane, const Point& p, const Point& q, std::size_t u, std::size_t v) {
-  if (p[u] == q[u] && p[v] == q[v]) return exact_spot(p[u], p[v]);
+ExactSpot spot_of(const Solid& solid, std::uint32_t corner, std::size_t u, std::size_t v) {
+  auto out = solid.exact_corners.empty() ? exact_spot(solid.corners[corner][u], solid.corners[corner][v])
+                                         : spot(solid.exact_corners[corner][u], solid.exact_corners[corner][v]);
+  out.between = {corner, corner};
+  return out;
+}
+
+// Where an edge crosses the plane, on different sides of which its ends are.
+ExactSpot crossing(const SectionPlane& plane, const Solid& solid, const std::array<std::uint32_t, 2>& edge,
+                   std::size_t u, std::size_t v) {
+  const auto p = solid.exact_corner(edge[0]), q = solid.exact_corner(edge[1]);
+  if (p[u] == q[u] && p[v] == q[v]) {
+    auto out = spot_of(solid, edge[0], u, v);
+    out.between = edge;
+    return out;
+  }
   const mpq_class at_p = value_at(plane, p), at_q = value_at(plane, q), share = at_p / (at_p - at_q);
-  const auto along = [&](std::size_t axis) -> mpq_class {
-    const mpq_class from(p[axis]);
-    return from + share * (mpq_class(q[axis]) - from);
-  };
-  return spot(along(u), along(v));
+  const auto along = [&](std::size_t axis) -> mpq_class { return p[axis] + share * (q[axis] - p[axis]); };
+  auto out = spot(along(u), along(v));
+  out.between = edge;
+  return out;
 }
 
 // A point of an edge, by its share of the way along it: an end, or where the line cd crosses.
@@ -139,16 +154,18 @@ class EdgeOfUnion {
       return clip(polygon, from, to, [](const ExactSpot&, const ExactSpot&) { return false; });
     });
   }
-  void add_rim(std::vector<ExactSegment>& rim) {
+  // Calls add(segment) for each part that is not covered.
+  template <typename Add>
+  void for_rim(const Add& add) {
     std::sort(covered_.begin(), covered_.end(),
               [this](const auto& x, const auto& y) { return is_less(x.first, y.first); });
     Cut at{0, 0, nullptr, nullptr};
     for (const auto& [from, to] : covered_) {
-      if (is_less(at, from)) rim.push_back({spot_at(at), spot_at(from)});
+      if (is_less(at, from)) add(ExactSegment{spot_at(at), spot_at(from)});
       if (is_less(at, to)) at = to;
     }
     const Cut end{1, 0, nullptr, nullptr};
-    if (is_less(at, end)) rim.push_back({spot_at(at), spot_at(end)});
+    if (is_less(at, end)) add(ExactSegment{spot_at(at), spot_at(end)});
   }
 
  private:
@@ -226,18 +243,18 @@ std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& p
   const std::size_t u = (dropped + 1) % 3, v = (dropped + 2) % 3;
   std::vector<int> sides;
   bool below = false, above = false;
-  for (const Point& p : solid.corners) {
-    sides.push_back(side_of(plane, p));
+  for (std::size_t i = 0; i < solid.corners.size(); ++i) {
+    sides.push_back(side_of(plane, solid, i));
     below = below || sides.back() < 0;
     above = above || sides.back() > 0;
   }
   if (!above || (!below && cutting == Cutting::across)) return std::nullopt;
   std::vector<ExactSpot> spots;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (sides[i] == 0) spots.push_back(exact_spot(solid.corners[i][u], solid.corners[i][v]));
+  for (std::uint32_t i = 0; i < sides.size(); ++i) {
+    if (sides[i] == 0) spots.push_back(spot_of(solid, i, u, v));
   }
-  for (const auto& [i, j] : solid.edges) {
-    if (sides[i] * sides[j] < 0) spots.push_back(crossing(plane, solid.corners[i], solid.corners[j], u, v));
+  for (const auto& edge : solid.edges) {
+    if (sides[edge[0]] * sides[edge[1]] < 0) spots.push_back(crossing(plane, solid, edge, u, v));
   }
   if (spots.size() < 3) return std::nullopt;
   ExactPolygon hull = convex_hull(std::move(spots));
@@ -245,25 +262,35 @@ std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& p
   return hull;
 }
 
-std::vector<ExactSegment> rim_of_union(const std::vector<ExactPolygon>& polygons) {
+int side_with(const Solid& solid, const ExactSpot& a, const ExactSpot& b) {
+  for (std::size_t i = 0; i < solid.on_side.size(); ++i) {
+    const auto& on = solid.on_side[i];
+    const auto has = [&](std::uint32_t corner) { return std::binary_search(on.begin(), on.end(), corner); };
+    if (std::all_of(a.between.begin(), a.between.end(), has) && std::all_of(b.between.begin(), b.between.end(), has))
+      return static_cast<int>(i);
+  }
+  return -1;
+}
+
+std::vector<RimPart> rim_of_union(const std::vector<ExactPolygon>& polygons) {
   std::vector<Rectangle> boxes;
   for (const auto& polygon : polygons) boxes.push_back(rectangle_around(polygon));
-  std::vector<ExactSegment> rim;
+  std::vector<RimPart> rim;
   std::vector<const ExactPolygon*> beside;
-  for (std::size_t i = 0; i < polygons.size(); ++i) {
+  for (std::uint32_t i = 0; i < polygons.size(); ++i) {
     // Coordinates are rounded, so boxes may seem to miss each other by two roundings where they touch.
     const Rectangle& mine = boxes[i];
     const double slack = 0x1p-50 * std::max({std::fabs(mine.low[0]), std::fabs(mine.low[1]), std::fabs(mine.high[0]),
                                              std::fabs(mine.high[1])});
     beside.clear();
-    for (std::size_t j = 0; j < polygons.size(); ++j) {
+    for (std::uint32_t j = 0; j < polygons.size(); ++j) {
       const Rectangle& other = boxes[j];
       if (j != i && touch_within(mine, other, slack)) beside.push_back(&polygons[j]);
     }
-    for (std::size_t k = 0; k < polygons[i].size(); ++k) {
+    for (std::uint32_t k = 0; k < polygons[i].size(); ++k) {
       EdgeOfUnion edge(polygons[i][k], polygons[i][(k + 1) % polygons[i].size()]);
       for (const auto* other : beside) edge.cover_by(*other);
-      edge.add_rim(rim);
+      edge.for_rim([&](ExactSegment segment) { rim.push_back({std::move(segment), i, k}); });
     }
   }
   return rim;

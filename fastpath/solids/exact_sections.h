@@ -16,8 +16,9 @@ namespace clues::fastpath::solids {
 // A point of the plane, and its coordinates as doubles: nearest but for one bit, or exact where `brief` says so.
 struct ExactSpot {
   double x = 0, y = 0;
-  bool brief = false;          // multiples of 2^-6 below 2^17: determinants of such are exact in doubles
-  mpq_class exact_x, exact_y;  // unless it is brief
+  bool brief = false;                      // multiples of 2^-6 below 2^17: determinants of such are exact in doubles
+  mpq_class exact_x, exact_y;              // unless it is brief
+  std::array<std::uint32_t, 2> between{};  // of a section: the corners of the solid that it lies between, or one twice
 };
 
 ExactSpot exact_spot(double x, double y);
@@ -40,8 +41,17 @@ enum class Cutting : std::uint8_t { across, just_above };
 std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& plane, std::size_t dropped,
                                        Cutting cutting);
 
+// The number of a side of the solid in whose plane an edge of its section lies; -1 where none is found.
+int side_with(const Solid& solid, const ExactSpot& a, const ExactSpot& b);
+
+// A part of an edge of one of some polygons.
+struct RimPart {
+  ExactSegment segment;
+  std::uint32_t polygon = 0, edge = 0;  // from corner number `edge` to the next
+};
+
 // What of the polygons' edges borders their union, as a closed set without whiskers: where the outer side of an edge is in no polygon.
-std::vector<ExactSegment> rim_of_union(const std::vector<ExactPolygon>& polygons);
+std::vector<RimPart> rim_of_union(const std::vector<ExactPolygon>& polygons);
 
 // Whether the segment has a point in the interior of all of the polygons.
 bool enters_interior(const ExactSegment& segment, const std::vector<ExactPolygon>& polygons);

@@ -1,11 +1,16 @@
 #include "fastpath/solids/find_solids.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <numeric>
 #include <optional>
 #include <utility>
+
+#include "fastpath/solids/shafts.h"
+#include "fastpath/solids/targets.h"
 
 namespace clues::fastpath::solids {
 namespace {
@@ -27,36 +32,71 @@ class Groups {
 constexpr std::size_t kMostFaces =
     4096;  // of a solid: beyond that it is hardly a wall, and takes a square of steps to prove
 
+using Ids = std::vector<std::uint32_t>;
+
+enum class Joined { by_corners, by_edges };  // edges: of which exactly two triangles have each
+
+// Triangles that hang together, where vertices with equal entries in `places` are one.
+std::vector<Ids> parts_of(const scene::TriangleMesh& mesh, const Ids& triangles, const Ids& places, Joined how) {
+  std::map<std::array<std::uint32_t, 2>, Ids> at;  // numbers in `triangles`
+  for (std::uint32_t n = 0; n < triangles.size(); ++n) {
+    const auto& corners = mesh.triangles[triangles[n]];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto a = places[corners[i]], b = how == Joined::by_edges ? places[corners[(i + 1) % 3]] : a;
+      at[{std::min(a, b), std::max(a, b)}].push_back(n);
+    }
+  }
+  Groups groups(triangles.size());
+  for (const auto& [place, there] : at) {
+    if (how == Joined::by_edges && there.size() != 2) continue;
+    for (const auto n : there) groups.join(there[0], n);
+  }
+  std::map<std::uint32_t, Ids> parts;
+  for (std::uint32_t n = 0; n < triangles.size(); ++n) parts[groups.leader_of(n)].push_back(triangles[n]);
+  std::vector<Ids> all;
+  for (auto& [leader, part] : parts) all.push_back(std::move(part));
+  return all;
+}
+
+std::optional<Solid> solid_of_part(const scene::TriangleMesh& mesh, const Ids& triangles) {
+  if (triangles.size() > kMostFaces) return std::nullopt;
+  std::vector<std::vector<Point>> faces;
+  for (const auto t : triangles) {
+    auto& face = faces.emplace_back();
+    for (const auto i : mesh.triangles[t]) face.push_back(mesh.points[i]);
+  }
+  return solid_of(faces);
+}
+
 }  // namespace
 
-std::vector<Solid> solids_of(const std::vector<std::vector<std::vector<Point>>>& faces) {
+std::vector<Solid> solids_of(const std::vector<scene::Polytope>& polytopes) {
   std::vector<Solid> solids;
-  for (const auto& of_one : faces) {
-    if (of_one.size() > kMostFaces) continue;
-    if (auto solid = solid_of(of_one)) solids.push_back(std::move(*solid));
-  }
+  for (const auto& polytope : polytopes) solids.push_back(solid_of_polytope(polytope));
   return solids;
 }
 
 std::vector<Solid> find_solids(const scene::FlaggedMesh& scene) {
   const auto& mesh = scene.mesh;
   std::map<Point, std::uint32_t> first_with;
-  std::vector<std::uint32_t> place(mesh.points.size());  // of a point: the first one with its coordinates
-  for (std::uint32_t i = 0; i < mesh.points.size(); ++i)
-    place[i] = first_with.try_emplace(mesh.points[i], i).first->second;
-  Groups groups(mesh.points.size());
-  const auto blocking = scene::blocking_ids(scene);
-  for (const auto t : blocking) {
-    for (std::size_t i = 1; i < 3; ++i) groups.join(place[mesh.triangles[t][0]], place[mesh.triangles[t][i]]);
+  Ids numbers(mesh.points.size()), places(mesh.points.size());
+  std::iota(numbers.begin(), numbers.end(), 0U);
+  for (const auto i : numbers) places[i] = first_with.try_emplace(mesh.points[i], i).first->second;
+  std::vector<Solid> found;
+  auto left = scene::blocking_ids(scene);
+  for (const auto& [vertices, how] : {std::pair(&numbers, Joined::by_corners), std::pair(&places, Joined::by_edges),
+                                      std::pair(&places, Joined::by_corners)}) {
+    Ids others;
+    for (const auto& part : parts_of(mesh, left, *vertices, how)) {
+      if (auto solid = solid_of_part(mesh, part)) {
+        found.push_back(std::move(*solid));
+      } else {
+        others.insert(others.end(), part.begin(), part.end());
+      }
+    }
+    left = std::move(others);
   }
-  std::map<std::uint32_t, std::vector<std::vector<Point>>> parts;
-  for (const auto t : blocking) {
-    auto& face = parts[groups.leader_of(place[mesh.triangles[t][0]])].emplace_back();
-    for (const auto i : mesh.triangles[t]) face.push_back(mesh.points[i]);
-  }
-  std::vector<std::vector<std::vector<Point>>> faces;
-  for (auto& [leader, of_one] : parts) faces.push_back(std::move(of_one));
-  return solids_of(faces);
+  return found;
 }
 
 Bounds bounds_of_questions(const scene::FlaggedMesh& scene, const std::vector<std::vector<Point>>& cells) {
@@ -70,6 +110,11 @@ Bounds bounds_of_questions(const scene::FlaggedMesh& scene, const std::vector<st
     if (!cell.empty()) add(scene::bounds_of(cell));
   }
   return all.value_or(Bounds{});
+}
+
+std::vector<std::uint32_t> not_hidden(const scene::FlaggedMesh& scene, const std::vector<Point>& cell) {
+  const Solids solids(find_solids(scene), bounds_of_questions(scene, {cell}));
+  return not_hidden(solids, Targets(scene, solids), cell);
 }
 
 }  // namespace clues::fastpath::solids

@@ -48,15 +48,16 @@ bool are_apart(const ExactPolygon& a, const ExactPolygon& b) {
 
 class Opener {
  public:
-  Opener(ExactPolygon facet, const std::vector<ExactPolygon>& polygons, const std::vector<ExactSegment>& rim,
+  Opener(ExactPolygon facet, const std::vector<ExactPolygon>& polygons, const std::vector<RimPart>& rim,
          double smallest)
       : facet_(std::move(facet)), around_(rectangle_around(facet_)), smallest_(smallest) {
     for (const auto& s : facet_) rounded_.push_back({s.x, s.y});
     for (const auto& polygon : polygons) {
       if (!misses(rectangle_around(polygon))) polygons_.push_back(&polygon);
     }
-    for (const auto& segment : rim) {
-      if (!misses(rectangle_around(segment)) && enters_interior(segment, {facet_})) rim_.push_back(&segment);
+    for (const auto& part : rim) {
+      if (!misses(rectangle_around(part.segment)) && enters_interior(part.segment, {facet_}))
+        rim_.push_back(&part.segment);
     }
   }
 
@@ -154,22 +155,25 @@ bool FilledPlane::fills(const std::vector<Point>& polygon) const {
   return exact.size() >= 3 && Opener(std::move(exact), polygons_, rim_, 0).has_none_open();
 }
 
-std::vector<std::vector<Point>> FilledPlane::open_parts(const std::vector<Point>& facet, double smallest) const {
+std::vector<Piece> FilledPlane::open_parts(const std::vector<Point>& facet, double smallest) const {
   const ExactPolygon polygon = in_plane(facet);
-  if (polygon.size() < 3) return {facet};
+  if (polygon.size() < 3) return {Piece(facet)};
   const Opener opener(polygon, polygons_, rim_, smallest);
-  std::vector<std::vector<Point>> parts;
+  std::vector<Piece> parts;
   for (const Rectangle& r : opener.open()) {
     auto part = opener.part(r);
     if (part.empty()) part = {r.low, {r.high[0], r.low[1]}, r.high, {r.low[0], r.high[1]}};
-    auto& polygon_of_part = parts.emplace_back();
-    for (const Spot& s : part) {
+    const auto in_space = [&](const Spot& s) {
       Point p{};
       p[plane_.axis] = plane_.at;
       p[u_] = s[0];
       p[v_] = s[1];
-      polygon_of_part.push_back(p);
-    }
+      return p;
+    };
+    Piece& piece = parts.emplace_back();
+    for (const Spot& s : part) piece.corners.push_back(in_space(s));
+    piece.whole = facet;
+    piece.box = {in_space(r.low), in_space(r.high)};
   }
   return parts;
 }

@@ -30,7 +30,7 @@ class FilledPlane {
 
   // Convex polygons in the plane that have in their union all of the facet that is not filled; none narrower than `smallest` are told apart from what is between them. The facet's corners lie in the
   // plane. Lines that leave the cell through the rest meet a solid there: its interior lies just behind.
-  std::vector<std::vector<Point>> open_parts(const std::vector<Point>& facet, double smallest) const;
+  std::vector<Piece> open_parts(const std::vector<Point>& facet, double smallest) const;
 
   // Whether all of a convex polygon in the plane is filled, but for a set without area. False if it has no area.
   bool fills(const std::vector<Point>& polygon) const;
@@ -41,7 +41,7 @@ class FilledPlane {
   FacetPlane plane_;
   std::size_t u_, v_;
   std::vector<ExactPolygon> polygons_;
-  std::vector<ExactSegment> rim_;
+  std::vector<RimPart> rim_;
 };
 
 }  // namespace clues::fastpath::solids

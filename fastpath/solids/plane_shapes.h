@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "scene/mesh/bounds.h"
@@ -25,6 +26,17 @@ inline Rectangle hull_of(const Rectangle& a, const Rectangle& b) {
   }
   return out;
 }
+
+// A convex polygon, or the corners of a box, cut out of a whole. Its corners are rounded where it was cut.
+struct Piece {
+  Piece() = default;
+  explicit Piece(std::span<const scene::Point> all)
+      : corners(all.begin(), all.end()), whole(all), box(scene::bounds_of(corners)) {}
+
+  std::vector<scene::Point> corners;
+  std::span<const scene::Point> whole;  // all of it is in the hull of these, exactly,
+  scene::Bounds box;                    // and in this box
+};
 
 // Along which the box is longest.
 inline std::size_t longest_axis(const scene::Bounds& box) {
@@ -54,6 +66,17 @@ std::vector<std::array<double, N>> clipped(const std::vector<std::array<double, 
     }
   }
   return left;
+}
+
+// In the middle of the axis: both have all of the polygon in their union, but for roundings.
+inline std::array<Piece, 2> halves_of(const Piece& piece, const scene::Bounds& box, std::size_t axis) {
+  const double middle = (box.low[axis] + box.high[axis]) / 2;
+  std::array<Piece, 2> halves{piece, piece};
+  halves[0].corners = clipped(piece.corners, axis, middle, false);
+  halves[1].corners = clipped(piece.corners, axis, middle, true);
+  halves[0].box.high[axis] = std::min(piece.box.high[axis], middle);
+  halves[1].box.low[axis] = std::max(piece.box.low[axis], middle);
+  return halves;
 }
 
 // The corners of the hull of sorted points, counter-clockwise; turn(a, b, c) is positive where they turn left. One point of points that are all the same, two of points on a line.

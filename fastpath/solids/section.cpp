@@ -62,17 +62,27 @@ Scale Scale::of(const Bounds& bounds) {
 Section::Section(const SectionPlane& plane, std::span<const Solid> solids, const Scale& scale)
     : plane_(plane), scale_(scale), dropped_(longest(plane.normal)), u_((dropped_ + 1) % 3), v_((dropped_ + 2) % 3) {
   std::vector<ExactPolygon> exact;
+  std::vector<const Solid*> of;
   for (const Solid& solid : solids) {
-    if (auto polygon = section_of(solid, plane_, dropped_, Cutting::across)) exact.push_back(std::move(*polygon));
+    if (auto polygon = section_of(solid, plane_, dropped_, Cutting::across)) {
+      exact.push_back(std::move(*polygon));
+      of.push_back(&solid);
+    }
   }
-  for (const auto& [a, b] : rim_of_union(exact)) rim_.push_back({Spot{a.x, a.y}, Spot{b.x, b.y}});
+  for (const auto& [segment, polygon, edge] : rim_of_union(exact)) {
+    const auto& corners = exact[polygon];
+    const int side = side_with(*of[polygon], corners[edge], corners[(edge + 1) % corners.size()]);
+    rim_.push_back({{segment[0].x, segment[0].y},
+                    {segment[1].x, segment[1].y},
+                    side < 0 ? nullptr : &of[polygon]->sides[static_cast<std::size_t>(side)]});
+  }
   std::vector<Rectangle> of_polygons, of_rim;
   for (const auto& polygon : exact) {
     auto& rounded = polygons_.emplace_back();
     for (const auto& spot : polygon) rounded.push_back({spot.x, spot.y});
     of_polygons.push_back(rectangle_around(polygon));
   }
-  for (const auto& [a, b] : rim_) of_rim.push_back(hull_of({a, a}, {b, b}));
+  for (const Rim& rim : rim_) of_rim.push_back(hull_of({rim.a, rim.a}, {rim.b, rim.b}));
   if (polygons_.empty()) return;
   all_ = of_polygons[0];
   for (const Rectangle& box : of_polygons) all_ = hull_of(all_, box);
@@ -111,7 +121,7 @@ Section::Grid Section::grid_of(const std::vector<Rectangle>& boxes) const {
 bool Section::holds(const Spot& spot) const {
   if (polygons_.empty()) return false;
   const std::size_t at = square(spot[0], 0) * squares_ + square(spot[1], 1);
-  const double clear = scale_.margin() * 0x1p-10;
+  const double clear = scale_.margin() * 0x1p-4;
   for (std::uint32_t i = polygons_at_.first[at]; i < polygons_at_.first[at + 1]; ++i) {
     const auto& polygon = polygons_[polygons_at_.ids[i]];
     bool inside = true;
@@ -124,8 +134,7 @@ bool Section::holds(const Spot& spot) const {
   return false;
 }
 
-// Whether some of the rim is within the margin of the window, a convex polygon.
-bool Section::rim_meets(const std::vector<Spot>& window) const {
+bool Section::rim_meets(const std::vector<Spot>& window, const Piece& from_piece, const Piece& to_piece) const {
   const double margin = scale_.margin();
   Rectangle range{window[0], window[0]};
   static thread_local std::vector<HalfPlane> halves;
@@ -147,7 +156,7 @@ bool Section::rim_meets(const std::vector<Spot>& window) const {
     for (std::size_t y = square(range.low[1], 1); y <= last_y; ++y) {
       const std::size_t at = x * squares_ + y;
       for (std::uint32_t i = rim_at_.first[at]; i < rim_at_.first[at + 1]; ++i) {
-        const auto& [a, b] = rim_[rim_at_.ids[i]];
+        const auto& [a, b, side] = rim_[rim_at_.ids[i]];
         bool apart = false;
         for (std::size_t k = 0; k < 2; ++k)
           apart =
@@ -164,14 +173,26 @@ bool Section::rim_meets(const std::vector<Spot>& window) const {
           }
           apart = apart || from > to;
         }
-        if (!apart) return true;
+        if (!apart && !(side != nullptr && is_inside(*side, from_piece, scale_) && is_inside(*side, to_piece, scale_)))
+          return true;
       }
     }
   }
   return false;
 }
 
-bool Section::covers(std::span<const Point> from, std::span<const Point> to) const {
+bool is_inside(const Side& side, const Piece& piece, const Scale& scale) {
+  const double clear = scale.margin() * 0x1p-18;
+  const auto is_clearly_inside = [&](const Point& p) { return side.estimate.above(p) < -clear; };
+  if (std::all_of(piece.corners.begin(), piece.corners.end(), is_clearly_inside)) return true;
+  const auto is_not_outside = [&](const Point& p) { return side.side_of(p) <= 0; };
+  const auto box = scene::corners_of(piece.box);
+  return std::all_of(box.begin(), box.end(), is_not_outside) ||
+         std::all_of(piece.whole.begin(), piece.whole.end(), is_not_outside);
+}
+
+bool Section::covers(const Piece& from_piece, const Piece& to_piece) const {
+  const auto &from = from_piece.corners, &to = to_piece.corners;
   if (polygons_.empty()) return false;
   static thread_local Distances of_from, of_to;
   static thread_local std::vector<Spot> crossings, window;
@@ -191,7 +212,7 @@ bool Section::covers(std::span<const Point> from, std::span<const Point> to) con
   }
   for (const Spot& s : crossings) {
     for (std::size_t k = 0; k < 2; ++k) {
-      if (s[k] <= all_.low[k] || s[k] >= all_.high[k]) return false;
+      if (s[k] < all_.low[k] - scale_.margin() || s[k] > all_.high[k] + scale_.margin()) return false;
     }
   }
   std::sort(crossings.begin(), crossings.end());
@@ -203,7 +224,7 @@ bool Section::covers(std::span<const Point> from, std::span<const Point> to) con
   bool held = holds(middle);
   for (std::size_t i = 0; !held && i < window.size(); ++i)
     held = holds({(middle[0] + window[i][0]) / 2, (middle[1] + window[i][1]) / 2});
-  return held && !rim_meets(window);
+  return held && !rim_meets(window, from_piece, to_piece);
 }
 
 }  // namespace clues::fastpath::solids

@@ -25,6 +25,9 @@ struct Scale {
   static Scale of(const Bounds& bounds);
 };
 
+// Whether no point of the piece, as it would be if it were not rounded, is outside; with certainty.
+bool is_inside(const Side& side, const Piece& piece, const Scale& scale);
+
 // All x with normal * x = distance, exactly as these doubles are.
 struct SectionPlane {
   std::array<double, 3> normal{};
@@ -33,12 +36,11 @@ struct SectionPlane {
 
 class Section {
  public:
-  // Of solids with corners on both sides of the plane. With n of them O(n^2) for boxes, and as many exact steps as their sections have neighbours.
+  // Of solids with corners on both sides of the plane; they must outlive it. With n of them O(n^2) for boxes, and as many exact steps as their sections have neighbours.
   Section(const SectionPlane& plane, std::span<const Solid> solids, const Scale& scale);
 
-  // Whether every segment from the hull of some points to the hull of others crosses the plane in the union, but for a set of measure 0. False if the points are not on different sides of it, and whenever that
-  // is in doubt.
-  bool covers(std::span<const Point> from, std::span<const Point> to) const;
+  // Whether every segment from one piece to the other crosses the plane in the union, but for a set of measure 0. False if they are not on different sides of it, and whenever that is in doubt.
+  bool covers(const Piece& from, const Piece& to) const;
 
   std::size_t polygons() const { return polygons_.size(); }
 
@@ -51,14 +53,20 @@ class Section {
   Grid grid_of(const std::vector<Rectangle>& boxes) const;
   // Whether the point is in one of the sections, and not within a rounding of its border.
   bool holds(const Spot& spot) const;
-  bool rim_meets(const std::vector<Spot>& window) const;
+
+  // Whether some of the rim is within the margin of the window, a convex polygon, and may be inside of what crosses the plane.
+  bool rim_meets(const std::vector<Spot>& window, const Piece& from, const Piece& to) const;
 
   SectionPlane plane_;
   Scale scale_;
   std::size_t dropped_ = 0, u_ = 1,
               v_ = 2;  // the axis that is left out in the plane, along which its normal is longest; the others
   std::vector<std::vector<Spot>> polygons_;  // counter-clockwise
-  std::vector<std::array<Spot, 2>> rim_;
+  struct Rim {
+    Spot a, b;
+    const Side* side;  // in whose plane it lies; none: not known
+  };
+  std::vector<Rim> rim_;
   Rectangle all_;
   std::size_t squares_ = 1;  // along each axis
   Grid polygons_at_, rim_at_;

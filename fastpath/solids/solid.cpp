@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "exact/kernel.h"
@@ -52,16 +53,76 @@ Side side_through(const Point& a, const Point& b, const Point& c) {
     u[i] = b[i] - a[i];
     v[i] = c[i] - a[i];
   }
-  Side side{{a, b, c}, {}};
+  Side side{{a, b, c}, nullptr, {}};
   Point& n = side.estimate.normal;
   for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
   const double length = std::hypot(n[0], n[1], n[2]);
   for (double& x : n) x /= length;
   side.estimate.distance = n[0] * a[0] + n[1] * a[1] + n[2] * a[2];
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    if (a[axis] != b[axis] || a[axis] != c[axis]) continue;
+    Point above = a;
+    above[axis] = std::nextafter(above[axis], std::numeric_limits<double>::infinity());
+    side.up = side.side_of(above) > 0;
+    side.at = a[axis];
+    side.axis = i;
+  }
   return side;
 }
 
-int Side::side_of(const Point& p) const { return orientation(corners[0], corners[1], corners[2], p); }
+Side side_along(const scene::HalfSpace& inside) {
+  Side side{{}, std::make_shared<const scene::HalfSpace>(inside), {}};
+  Point& n = side.estimate.normal;
+  for (std::size_t i = 0; i < 3; ++i) n[i] = inside.normal[i].get_d();
+  const double length = std::hypot(n[0], n[1], n[2]);
+  for (double& x : n) x /= length;
+  side.estimate.distance = inside.offset.get_d() / length;
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    if (sgn(inside.normal[(axis + 1) % 3]) != 0 || sgn(inside.normal[(axis + 2) % 3]) != 0) continue;
+    const mpq_class at = inside.offset / inside.normal[axis];
+    side.at = at.get_d();
+    if (at != side.at) continue;
+    side.up = sgn(inside.normal[axis]) > 0;
+    side.axis = i;
+  }
+  return side;
+}
+
+// The numbers of an estimate are off by less than 2^-51 of themselves, if all are made as long as the normal is; four products and three sums add 2^-51 of the terms.
+int Side::side_of(const Point& p) const {
+  if (axis >= 0) {
+    const double x = p[static_cast<std::size_t>(axis)];
+    return x == at ? 0 : (x > at) == up ? 1 : -1;
+  }
+  if (!inside) return orientation(corners[0], corners[1], corners[2], p);
+  double value = -estimate.distance, terms = std::fabs(estimate.distance);
+  for (std::size_t i = 0; i < 3; ++i) {
+    value += estimate.normal[i] * p[i];
+    terms += std::fabs(estimate.normal[i] * p[i]);
+  }
+  const double error = 0x1p-49 * terms + kUnderflow;
+  if (std::fabs(value) > error) return value > 0 ? 1 : -1;
+  return side_of(scene::to_rational(p));
+}
+
+int Side::side_of(const scene::RationalPoint& p) const {
+  if (inside) return sgn(inside->height(p));
+  const auto a = scene::to_rational(corners[0]), b = scene::to_rational(corners[1]), c = scene::to_rational(corners[2]);
+  mpq_class volume;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    volume += (p[i] - a[i]) * ((b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]));
+  }
+  return sgn(volume);
+}
+
+bool Side::has_none_inside(const Solid& solid) const {
+  if (solid.exact_corners.empty()) return has_none_inside(solid.corners);
+  return std::all_of(solid.exact_corners.begin(), solid.exact_corners.end(),
+                     [this](const scene::RationalPoint& p) { return side_of(p) >= 0; });
+}
 
 bool Side::has_none_inside(const std::vector<Point>& points) const {
   return std::all_of(points.begin(), points.end(), [this](const Point& p) { return side_of(p) >= 0; });
@@ -77,12 +138,6 @@ bool Side::has_all_outside(const std::vector<Point>& points) const {
 
 bool Side::has_all_on(std::span<const Point> points) const {
   return std::all_of(points.begin(), points.end(), [this](const Point& p) { return side_of(p) == 0; });
-}
-
-bool faces_up(const Side& side, std::size_t axis) {
-  Point above = side.corners[0];
-  above[axis] = std::nextafter(above[axis], std::numeric_limits<double>::infinity());
-  return side.side_of(above) > 0;
 }
 
 std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {
@@ -124,7 +179,48 @@ std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {
     solid.edges.push_back(edge);
   }
   if (solid.sides.empty()) return std::nullopt;
+  for (const Side& side : solid.sides) {
+    auto& on = solid.on_side.emplace_back();
+    for (std::uint32_t i = 0; i < solid.corners.size(); ++i) {
+      if (side.side_of(solid.corners[i]) == 0) on.push_back(i);
+    }
+  }
   solid.bounds = scene::bounds_of(solid.corners);
+  return solid;
+}
+
+scene::RationalPoint Solid::exact_corner(std::size_t i) const {
+  return exact_corners.empty() ? scene::to_rational(corners[i]) : exact_corners[i];
+}
+
+Solid solid_of_polytope(const scene::Polytope& polytope) {
+  Solid solid;
+  bool rounded = false;
+  for (const auto& vertex : polytope.vertices) {
+    Point& corner = solid.corners.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) corner[i] = vertex[i].get_d();
+    rounded = rounded || vertex != scene::to_rational(corner);
+  }
+  solid.bounds = scene::bounds_of(solid.corners);
+  if (rounded) {
+    solid.exact_corners = polytope.vertices;
+    for (std::size_t i = 0; i < 3; ++i) {  // corners are off by less than a unit in the last place
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      solid.bounds.low[i] = std::nextafter(solid.bounds.low[i], -infinity);
+      solid.bounds.high[i] = std::nextafter(solid.bounds.high[i], infinity);
+    }
+  }
+  std::set<std::array<std::uint32_t, 2>> edges;
+  for (const auto& face : polytope.faces) {
+    solid.sides.push_back(side_along(face.half_space));
+    auto& on = solid.on_side.emplace_back(face.vertices);
+    std::sort(on.begin(), on.end());
+    for (std::size_t i = 0; i < face.vertices.size(); ++i) {
+      const auto a = face.vertices[i], b = face.vertices[(i + 1) % face.vertices.size()];
+      edges.insert({std::min(a, b), std::max(a, b)});
+    }
+  }
+  solid.edges.assign(edges.begin(), edges.end());
   return solid;
 }
 

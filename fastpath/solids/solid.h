@@ -1,13 +1,15 @@
-// T15: convex solids, the surfaces of which block all over. A hull of a level's brush is one.
+// T15: convex solids, the surfaces of which block all over: parts of a mesh, or the brushes of a level, which have rational corners.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "scene/levels/polytope.h"
 #include "scene/mesh/bounds.h"
 #include "scene/mesh/mesh.h"
 
@@ -15,6 +17,8 @@ namespace clues::fastpath::solids {
 
 using scene::Bounds;
 using scene::Point;
+
+inline constexpr double kUnderflow = 0x1p-1000;  // more than is lost of products that are too small for doubles
 
 // Of CGAL::orientation, exactly: 1 where a, b, c turn left seen from d.
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d);
@@ -26,33 +30,44 @@ struct HalfSpace {
   double above(const Point& x) const { return normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] - distance; }
 };
 
-// A side of a convex polytope: its plane is that of three corners, exactly.
+struct Solid;
+
+// A side of a convex polytope: its plane is that of three corners, exactly, or one with rational numbers.
 struct Side {
-  std::array<Point, 3> corners{};  // they turn left seen from outside
-  HalfSpace estimate;              // of the inside, with a normal of about unit length
+  std::array<Point, 3> corners{};                  // they turn left seen from outside; of no meaning if there is
+  std::shared_ptr<const scene::HalfSpace> inside;  // this: exactly what is inside
+  HalfSpace estimate;                              // of the inside, with a normal of about unit length
+  int axis = -1;                                   // the plane is exactly where this coordinate is
+  double at = 0;                                   // so large, if there is such an axis and a double;
+  bool up = false;                                 // and larger ones are outside
 
   int side_of(const Point& point) const;  // 1: outside, 0: in the plane, -1: inside; exactly
-  // Of all points.
+  int side_of(const scene::RationalPoint& point) const;
+  // Of all points, or of all corners of the solid.
   bool has_none_inside(const std::vector<Point>& points) const;
+  bool has_none_inside(const Solid& solid) const;
   bool has_none_outside(const std::vector<Point>& points) const;
   bool has_all_outside(const std::vector<Point>& points) const;
   bool has_all_on(std::span<const Point> points) const;
 };
 // Three corners that are not collinear, seen from outside. The estimate may be no number where they nearly are.
 Side side_through(const Point& a, const Point& b, const Point& c);
-
-// Of a side whose plane is parallel to the two other axes: whether its outside is where coordinates along this axis are larger. Decided exactly.
-bool faces_up(const Side& side, std::size_t axis);
+Side side_along(const scene::HalfSpace& inside);
 
 struct Solid {
   std::vector<Point> corners;                       // distinct
+  std::vector<scene::RationalPoint> exact_corners;  // of these, where they are rounded; else empty
   std::vector<std::array<std::uint32_t, 2>> edges;  // of its faces, each once
   std::vector<Side> sides;                          // of the planes of all faces, some several times
-  Bounds bounds;
+  std::vector<std::vector<std::uint32_t>> on_side;  // per side: numbers of the corners in its plane, ascending
+  Bounds bounds;                                    // all of it is in there
+
+  scene::RationalPoint exact_corner(std::size_t i) const;
 };
 
 // The polytope with the given faces, each a polygon that is fanned from its first corner; which way it turns does not matter. None, unless the triangles of the fans lie
 // on the surface of the corners' convex hull, which is no flat one, and cover it: decided exactly. O(faces * corners).
 std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given);
+Solid solid_of_polytope(const scene::Polytope& polytope);
 
 }  // namespace clues::fastpath::solids

@@ -35,8 +35,8 @@ void Targets::find_backs(std::uint32_t triangle, const Solids& solids) {
   const Side seen_left = side_through(corners[0], corners[1], corners[2]),
              seen_right = side_through(corners[0], corners[2], corners[1]);
   for (const Side& side : {seen_left, seen_right}) {
-    const bool solids_above = !faces_up(side, *axis);
-    const auto is_same = [&](const Side& other) { return faces_up(other, *axis) != solids_above; };
+    const bool solids_above = !side.up;
+    const auto is_same = [&](const Side& other) { return other.up != solids_above; };
     if (std::none_of(backs.begin(), backs.end(), is_same) &&
         solids.filled({*axis, corners[0][*axis], solids_above}).fills(corners))
       backs.push_back(side);

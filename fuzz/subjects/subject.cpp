@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "fastpath/solids/find_solids.h"
 #include "fastpath/visibility/first_order.h"
 #include "fastpath/visibility/refinement/refinement.h"
 #include "fuzz/findings/case_random.h"
@@ -141,6 +142,14 @@ std::unique_ptr<Subject> refined_fast_subject(const std::string& name, fastpath:
   });
 }
 
+// T15. What sees in solid mode sees in sheet mode.
+std::unique_ptr<Subject> solids_subject(const std::string& name) {
+  return subject_of(name, [](const Case& scene) {
+    if (scene.solid) fastpath::require_solid(scene.mesh);
+    return fastpath::solids::not_hidden(flagged(scene), scene.cell);
+  });
+}
+
 class CommandSubject : public Subject {
  public:
   explicit CommandSubject(std::string text) : text_(std::move(text)), words_(validate::split_command(text_)) {
@@ -218,6 +227,7 @@ std::unique_ptr<Subject> make_subject(const std::string& text) {
   if (text == "subdivided") return refined_subject(text, validate::Refinement::cells);
   if (text == "backprojected") return refined_subject(text, validate::Refinement::backprojection);
   if (text == "fast:subdivided") return refined_fast_subject(text, fastpath::RefineBy::cells);
+  if (text == "solids") return solids_subject(text);
   if (text == "maps") return subject_of(text, make_maps_trial());
   if (text == "motion") return subject_of(text, make_motion_trial());
   if (text == "deltas") return subject_of(text, make_deltas_trial());

@@ -48,7 +48,7 @@ class Subject {
 };
 
 // "reference": the exact reference. "fast": the fast path; "fast/N": the same, with the reference asked about one case in N. "subdivided",
-// "backprojected": the reference refined to depth 2; after "fast:" the fast path to depth 3. "maps", "motion", "deltas", "bakes", "streams", "levels": trials; "levels/N" with N sight lines a case. Anything else is a command line (words and quotes as in
+// "backprojected": the reference refined to depth 2; after "fast:" the fast path to depth 3. "solids": what solids do not hide (T15). "maps", "motion", "deltas", "bakes", "streams", "levels": trials; "levels/N" with N sight lines a case. Anything else is a command line (words and quotes as in
 // a shell), in which {scene}, {cell} and {pvs} stand for an OFF file, an OBJ file of the cell's points and the file that it has to write, {mode} for
 // sheet or solid; without any of these words, the first three are appended. Throws scene::Error bad_argument.
 std::unique_ptr<Subject> make_subject(const std::string& text);

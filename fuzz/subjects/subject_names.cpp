@@ -36,7 +36,8 @@ std::optional<std::uint64_t> lines_of_each_level(const std::string& name) {
 }
 
 bool is_program(const std::string& text) {
-  constexpr std::array names{"reference", "subdivided", "backprojected", "fast:subdivided", "fast:backprojected"};
+  constexpr std::array names{"reference",       "subdivided",         "backprojected",
+                             "fast:subdivided", "fast:backprojected", "solids"};
   const auto has = [&](const auto& all) { return std::find(all.begin(), all.end(), text) != all.end(); };
   return !cases_for_a_comparison(text) && !lines_of_each_level(text) && !has(names) && !has(trial_names);
 }

@@ -1,14 +1,16 @@
-// Whole levels are too large for the oracles of small scenes: nobody else has a map of them. The fast kernel's list is searched for holes by sight lines alone, each decided exactly, aimed at what
-// it denies and past what it lists.
+// Whole levels are too large for the oracles of small scenes: nobody else has a map of them. What the fast kernel lists, less what solids hide, as in a bake, is searched for holes by sight lines alone, each decided exactly, aimed at what
+// is not in it and past what is.
 #include "fuzz/trials/levels_trial.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "exact/cell/convex_cell.h"
 #include "exact/threads.h"
+#include "fastpath/solids/find_solids.h"
 #include "fuzz/findings/case_random.h"
 #include "fuzz/findings/witness_text.h"
 #include "fuzz/levels/made_levels.h"
@@ -129,7 +131,14 @@ std::unique_ptr<Trial> make_levels_trial(std::uint64_t lines, LevelLister lister
 }
 std::unique_ptr<Trial> make_levels_trial(std::uint64_t lines) {
   return make_levels_trial(lines, [](const fastpath::SeeThroughScene& scene, const std::vector<scene::Point>& cell) {
-    return exact::by_threads(1, [&] { return fastpath::visible_through(scene, cell, {}).counting(scene.scene()); });
+    return exact::by_threads(1, [&] {
+      const Ids mapped = fastpath::visible_through(scene, cell, {}).counting(scene.scene());
+      const Ids not_hidden = fastpath::solids::not_hidden(scene.scene(), cell);
+      Ids both;
+      std::set_intersection(mapped.begin(), mapped.end(), not_hidden.begin(), not_hidden.end(),
+                            std::back_inserter(both));
+      return both;
+    });
   });
 }
 

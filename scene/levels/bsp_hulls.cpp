@@ -84,7 +84,7 @@ std::vector<mpq_class> depths_of_drawings(const BspFile& level, const BspFile::B
   return depths;
 }
 
-std::optional<Polytope> solid_of(const std::vector<HalfSpace>& sides, const Polytope& bounds) {
+std::optional<Polytope> within(const std::vector<HalfSpace>& sides, const Polytope& bounds) {
   std::optional<Polytope> solid = bounds;
   for (const auto& side : sides) {
     if (solid) solid = intersection(*solid, side);
@@ -114,11 +114,11 @@ bool meets_box(const std::array<Point, 3>& t, const std::array<Point, 2>& box) {
 
 }  // namespace
 
-Hull hull_of_brush(const BspFile& level, const BspFile::Brush& brush, const Polytope& bounds,
-                   const std::vector<std::array<Point, 3>>& drawn) {
+std::optional<Polytope> solid_of_brush(const BspFile& level, const BspFile::Brush& brush, const Polytope& bounds,
+                                       const std::vector<std::array<Point, 3>>& drawn) {
   auto sides = sides_of(level, brush);
-  auto solid = solid_of(sides, bounds);
-  if (!solid) return {};
+  auto solid = within(sides, bounds);
+  if (!solid) return std::nullopt;
   const auto box = rough_box(*solid);
   std::vector<const std::array<Point, 3>*> near;
   for (const auto& triangle : drawn) {
@@ -127,13 +127,16 @@ Hull hull_of_brush(const BspFile& level, const BspFile::Brush& brush, const Poly
   const auto depths = depths_of_drawings(level, brush, sides, near);
   if (std::any_of(depths.begin(), depths.end(), [](const mpq_class& depth) { return sgn(depth) > 0; })) {
     for (std::size_t i = 0; i < sides.size(); ++i) sides[i].offset -= depths[i];
-    solid = solid_of(sides, bounds);
+    solid = within(sides, bounds);
   }
-  if (!solid) return {};
-  const auto corners = inner_vertices(*solid, corner_grid);
+  return solid;
+}
+
+Hull hull_of_solid(const Polytope& solid) {
+  const auto corners = inner_vertices(solid, corner_grid);
   if (!corners) return {};
   Hull hull;
-  for (const auto& face : solid->faces) {
+  for (const auto& face : solid.faces) {
     auto& polygon = hull.emplace_back();
     for (const auto vertex : face.vertices) polygon.push_back((*corners)[vertex]);
   }

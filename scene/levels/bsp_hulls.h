@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "scene/levels/bsp_file.h"
@@ -17,10 +18,12 @@ inline constexpr double side_thickness = 0.5;
 // The faces of a convex solid, each a polygon that is nearly flat; the corners are doubles.
 using Hull = std::vector<std::vector<Point>>;
 
-// With all corners in the brush, so that every triangle between them lies in it. Where a drawn triangle enters the brush a
-// little, the hull is held behind it: no point of a triangle that lies within side_thickness of a side, as a whole, is in
-// the interior of what is returned. Empty where nothing is left.
-Hull hull_of_brush(const BspFile& level, const BspFile::Brush& brush, const Polytope& bounds,
-                   const std::vector<std::array<Point, 3>>& drawn);
+// The brush within the bounds. Where a drawn triangle enters it a little, its sides are held behind that: no point of a triangle
+// that lies within side_thickness of a side, as a whole, is in the interior of what is returned. None where nothing is left.
+std::optional<Polytope> solid_of_brush(const BspFile& level, const BspFile::Brush& brush, const Polytope& bounds,
+                                       const std::vector<std::array<Point, 3>>& drawn);
+
+// With all corners in the solid, so that every triangle between them lies in it. Empty where it is too thin for doubles.
+Hull hull_of_solid(const Polytope& solid);
 
 }  // namespace clues::scene

@@ -50,7 +50,6 @@ class SceneBuilder {
     const Polytope bounds = bounds_of_brushes(level_);
     for (std::uint32_t i = 0; i < world.brushes.count; ++i) find_hull(world.brushes.first + i, bounds);
     add_hulls();
-    out_.solids = std::move(hulls_);
     out_.scene = builder_.take();
     return std::move(out_);
   }
@@ -81,7 +80,9 @@ class SceneBuilder {
   void find_hull(std::uint32_t index, const Polytope& bounds) {
     const auto& brush = level_.brushes[index];
     if (!is_structural(level_.shaders[brush.shader])) return;
-    Hull hull = hull_of_brush(level_, brush, bounds, drawn_);
+    auto solid = solid_of_brush(level_, brush, bounds, drawn_);
+    Hull hull = solid ? hull_of_solid(*solid) : Hull{};
+    if (solid) out_.solids.push_back(std::move(*solid));
     ++(hull.empty() ? out_.thin_brushes : out_.hulls);
     if (hull.empty()) return;
     brushes_.push_back(index);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "scene/levels/bsp_file.h"
-#include "scene/levels/bsp_hulls.h"
+#include "scene/levels/polytope.h"
 #include "scene/mesh/flagged_mesh.h"
 
 namespace clues::scene {
@@ -30,7 +30,8 @@ struct LevelScene {
   std::uint32_t hulls = 0;                          // structural brushes with a hull
   std::uint32_t hull_sides = 0, covered_sides = 0;  // of the hulls; the covered ones are left out (bsp_covered.h)
   std::uint32_t thin_brushes = 0;                   // structural brushes that were left out: nothing is left of them
-  std::vector<Hull> solids;  // the hulls, with all of their sides, whichever of these are in the scene
+  std::vector<Polytope>
+      solids;  // what hulls are rounded into: structural brushes, held behind what is drawn (bsp_hulls.h)
 };
 
 // Which sides of hulls are in the scene: those that nothing covers (bsp_covered.h), or all, for who is to be accused of missing something. Drawn triangles

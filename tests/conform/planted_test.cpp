@@ -125,6 +125,14 @@ TEST(FastPath, IsSoundThroughItsOwnDoor) {
       conform({"--impl", "'" CLUES_PROGRAM "' iut --kernel fast", "--time-limit", limit}, published_suite));
 }
 
+// Of edges it knows nothing, so its lists are longer.
+TEST(Solids, AreSoundThroughTheirOwnDoor) {
+  const auto done = conform({"--impl", "'" CLUES_PROGRAM "' iut --kernel solids"}, published_suite);
+  EXPECT_EQ(done.ran.exit_code, 0) << done.ran.out << done.ran.err;
+  EXPECT_EQ(count(done, "tight") + count(done, "conservative"), done.outcomes.size());
+  EXPECT_GT(count(done, "tight"), done.outcomes.size() / 2);
+}
+
 TEST(EverythingHidden, HasAnUnderestimateOfOne) {
   const auto done = conform({"--impl", planted("everything-hidden")});
   EXPECT_EQ(done.report["total"]["underestimate_qu"], 1.0);

@@ -120,7 +120,7 @@ TEST(Level, HoldsHullsBehindWhatIsDrawnFarFromTheOrigin) {
                                                      scene::to_rational({far + 0x1p20, 0x1p20, far + 0x1p20}));
   const std::vector<std::array<scene::Point, 3>> drawn{
       {{{far, 9.5, far}, {far + 1024, 9.5, far + 1024}, {far, 10, far}}}};
-  const auto hull = scene::hull_of_brush(level, brush, bounds, drawn);
+  const auto hull = scene::hull_of_solid(*scene::solid_of_brush(level, brush, bounds, drawn));
   EXPECT_FALSE(hull.empty());
   const scene::HalfSpace behind{scene::to_rational(level.planes[0].normal),
                                 mpq_class(4.75)};  // the lowest corner's height

@@ -126,7 +126,7 @@ std::set<Point> corners_of_hull(const std::vector<std::array<Point, 3>>& drawn) 
   const auto level = scene::parse_bsp(two_boxes().bytes(), "made.bsp");
   const auto bounds = scene::box_polytope({-100, -100, -100}, {100, 100, 100});
   std::set<Point> corners;
-  for (const auto& face : scene::hull_of_brush(level, level.brushes[0], bounds, drawn))
+  for (const auto& face : scene::hull_of_solid(*scene::solid_of_brush(level, level.brushes[0], bounds, drawn)))
     corners.insert(face.begin(), face.end());
   return corners;
 }

@@ -19,24 +19,31 @@ COPIES = {
 
     # A window is covered if its middle is.
     "rims_forgotten": ("fastpath/section.cpp", [
-        ("return held && !rim_meets(window);", "return held;")]),
+        ("return held && !rim_meets(window, from_piece, to_piece);", "return held;")]),
+    # A rim is passed beside if the viewer is beside it.
+    "rims_beside_the_viewer": ("fastpath/section.cpp", [
+        ("is_inside(*side, from_piece, scale_) && is_inside(*side, to_piece, scale_)",
+         "is_inside(*side, from_piece, scale_)")]),
+    # A sloped facet is filled if a corner of it is.
+    "sloped_doors_overlooked": ("fastpath/view_cell.cpp", [
+        ("      return is_inside(side, piece, solids.scale())",
+         "      const Point& corner = piece.corners[0];\n"
+         "      return is_inside(side, Piece(std::span(&corner, 1)), solids.scale())")]),
     # A box without a lid is a solid.
     "open_solids": ("fastpath/solid.cpp", [
         ("    if (count != 0) return std::nullopt;\n", "")]),
     # Solids that the viewer may be in hide as all others do.
-    "viewer_in_a_wall": ("fastpath/shafts.cpp", [
+    "viewer_in_a_wall": ("fastpath/view_cell.cpp", [
         ("if (!is_outside(solids.all()[i])) around_", "if (i == ~0U) around_")]),
     # A facet is filled if its middle is.
     "doors_overlooked": ("fastpath/openings.cpp", [
         ("return enters_interior(*segment, both); })", "return enters_interior(*segment, both) && false; })")]),
     # A triangle is seen from behind if the cell reaches there.
-    "behind_from_the_side": ("fastpath/shafts.cpp", [
+    "behind_from_the_side": ("fastpath/view_cell.cpp", [
         ("return s.has_none_outside(corners_); });", "return !s.has_all_outside(corners_); });")]),
     # What touches the cell may be hidden.
-    "touched_and_hidden": ("fastpath/shafts.cpp", [
-        ("view.is_behind(targets.backs_of(node.triangle)) && view.may_be_hidden(targets.corners_of(node))",
-         "view.is_behind(targets.backs_of(node.triangle)) && view.is_out_of_solids_around(targets.corners_of(node))"),
-        (" private:\n  // Whether it has no point in common", " public:\n  // Whether it has no point in common")]),
+    "touched_and_hidden": ("fastpath/view_cell.cpp", [
+        ("return is_apart_from(target) && is_out_of_solids_around(target);", "return is_out_of_solids_around(target);")]),
 
     # ---- the reference
 

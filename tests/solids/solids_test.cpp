@@ -71,8 +71,48 @@ TEST(Solid, IsFoundInAScene) {
   EXPECT_EQ(found[0].bounds.high, (Point{1, 1, 1}));
 }
 
+void add_faces(scene::FlaggedMesh& scene, const std::vector<Face>& faces) {
+  for (const auto& face : faces) {
+    const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
+    scene.mesh.points.insert(scene.mesh.points.end(), face.begin(), face.end());
+    for (std::uint32_t i = 1; i + 1 < face.size(); ++i)
+      scene.mesh.triangles.push_back({first, first + i, first + i + 1});
+  }
+}
+
+// Each face has vertices of its own, so only coordinates say what hangs together.
+TEST(Solid, IsFoundBesideOthersThatTouchIt) {
+  scene::FlaggedMesh scene;
+  add_faces(scene, faces_of_box({0, 0, 0}, {1, 1, 1}));
+  add_faces(scene, faces_of_box({1, 1, 1}, {2, 2, 2}));  // at a corner
+  add_faces(scene, faces_of_box({1, 1, 0}, {2, 2, 1}));  // along edges, and a face
+  add_faces(scene, faces_of_box({-1, 0, 1}, {0, 1, 2}));
+  EXPECT_EQ(solids::find_solids(scene).size(), 2U) << "those with a face in common are one part";
+}
+
+// Vertices of their own are enough, whatever they touch.
+TEST(Solid, IsFoundByItsVertices) {
+  scene::FlaggedMesh scene;
+  const auto add_box = [&](const Point& low, const Point& high) {
+    scene::FlaggedMeshBuilder builder;
+    for (const auto& face : faces_of_box(low, high)) {
+      for (std::size_t i = 1; i + 1 < face.size(); ++i) builder.add({face[0], face[i], face[i + 1]}, 0, {true, true});
+    }
+    const auto box = builder.take().mesh;
+    const auto first = static_cast<std::uint32_t>(scene.mesh.points.size());
+    scene.mesh.points.insert(scene.mesh.points.end(), box.points.begin(), box.points.end());
+    for (const auto& [a, b, c] : box.triangles) scene.mesh.triangles.push_back({first + a, first + b, first + c});
+  };
+  for (int i = 0; i < 3; ++i) add_box({1.0 * i, 0, 0}, {1.0 * i + 1, 1, 1});
+  EXPECT_EQ(solids::find_solids(scene).size(), 3U);
+}
+
 std::vector<Point> window(double x, double y, double z) {
   return {{x, y - 1, z - 1}, {x, y + 1, z - 1}, {x, y + 1, z + 1}, {x, y - 1, z + 1}};
+}
+
+bool is_covered(const solids::Section& section, const std::vector<Point>& from, const std::vector<Point>& to) {
+  return section.covers(solids::Piece(from), solids::Piece(to));
 }
 
 // Whether all lines from a small window at x = 0 to one at x = 64, both about the same y and z, are stopped by the sections behind x = 30.
@@ -81,7 +121,7 @@ bool stops(std::vector<Solid> walls, double y, double z) {
   bool any = false;
   for (std::uint32_t solid = 0; solid < all.all().size(); ++solid) {
     for (std::uint32_t side = 0; side < all.all()[solid].sides.size(); ++side)
-      any = any || all.section(all.plane_behind(solid, side)).covers(window(0, y, z), window(64, y, z));
+      any = any || is_covered(all.section(all.plane_behind(solid, side)), window(0, y, z), window(64, y, z));
   }
   return any;
 }
@@ -118,10 +158,69 @@ TEST(Section, WallsThatAbutAskewAreOne) {
     const std::vector<Solid> both{prism(0, 0, 23, 16), prism(16 + gap, 23 + gap, 64, 64)};
     const solids::Section section({{1, 0, 0}, 32}, both, solids::Scale::of(about));
     EXPECT_EQ(section.polygons(), 2U);
-    return section.covers(window(0, 18, 30), window(64, 18, 30));
+    return is_covered(section, window(0, 18, 30), window(64, 18, 30));
   };
   EXPECT_TRUE(covers(0));
   EXPECT_FALSE(covers(0x1p-40));
+}
+
+// Shafts that end in the plane of a wall's side, on its inside: they touch the rim, and nothing passes there.
+TEST(Section, AShaftMayTouchTheRim) {
+  const auto wall = boxes({{{{30, 0, 0}, {34, 20, 64}}}});
+  const solids::Section section({{1, 0, 0}, 32}, wall, solids::Scale::of(about));
+  const auto beside = [](double x, double least, double most) {
+    return std::vector<Point>{{x, least, 29}, {x, most, 29}, {x, most, 31}, {x, least, 31}};
+  };
+  EXPECT_TRUE(is_covered(section, beside(0, 18, 20), beside(64, 18, 20)));
+  EXPECT_TRUE(is_covered(section, beside(0, 18, 20), beside(64, 16, 19)));
+  const double crack = 0x1p-40;
+  EXPECT_FALSE(is_covered(section, beside(0, 18, 20), beside(64, 18, 20 + crack)));
+  EXPECT_FALSE(is_covered(section, beside(0, 18, 20 + crack), beside(64, 18, 20)));
+  EXPECT_FALSE(is_covered(section, beside(0, 20, 22), beside(64, 20, 22))) << "on the other side";
+  EXPECT_FALSE(is_covered(section, beside(0, 19, 21), beside(64, 19, 21)));
+}
+
+// Cut off the same box by a plane that no corner with doubles lies in.
+TEST(Section, BrushesThatAbutAreOne) {
+  const scene::HalfSpace askew{{mpq_class(1, 3), 1, mpq_class(1, 7)}, mpq_class(35)};
+  const auto box = scene::box_polytope(scene::to_rational({30, 0, 0}), scene::to_rational({34, 64, 64}));
+  const auto covers = [&](const mpq_class& gap) {
+    scene::HalfSpace beyond = askew.opposite();
+    beyond.offset -= gap;
+    const auto both = solids::solids_of({*scene::intersection(box, askew), *scene::intersection(box, beyond)});
+    EXPECT_FALSE(both[0].exact_corners.empty());
+    const solids::Section section({{1, 0, 0}, 32}, both, solids::Scale::of(about));
+    EXPECT_EQ(section.polygons(), 2U);
+    return is_covered(section, window(0, 20, 30), window(64, 20, 30));
+  };
+  EXPECT_TRUE(covers(0));
+  EXPECT_TRUE(covers(mpq_class(-1, 1000))) << "or overlap";
+  EXPECT_FALSE(covers(mpq_class(1, mpz_class(1) << 80)));
+}
+
+TEST(Solid, OfAPolytopeIsExact) {
+  const mpq_class third(1, 3);
+  const auto brush = scene::intersection(scene::box_polytope({0, 0, 0}, {1, 1, 1}), {{1, 1, 0}, third});
+  const auto solid = solids::solid_of_polytope(*brush);
+  ASSERT_EQ(solid.corners.size(), 6U);
+  EXPECT_EQ(solid.sides.size(), 5U);
+  EXPECT_EQ(solid.edges.size(), 9U);
+  EXPECT_LT(mpq_class(solid.bounds.low[0]), 0) << "no bound is within it";
+  EXPECT_GT(mpq_class(solid.bounds.high[0]), third);
+  for (std::size_t i = 0; i < solid.sides.size(); ++i) {
+    for (std::uint32_t k = 0; k < solid.corners.size(); ++k) {
+      const int side = solid.sides[i].side_of(solid.exact_corner(k));
+      EXPECT_LE(side, 0);
+      EXPECT_EQ(side == 0, std::binary_search(solid.on_side[i].begin(), solid.on_side[i].end(), k));
+    }
+    EXPECT_EQ(solid.sides[i].axis >= 0,
+              brush->faces[i].half_space.normal[0] == 0 || brush->faces[i].half_space.normal[1] == 0);
+  }
+  const auto sloped = std::find_if(solid.sides.begin(), solid.sides.end(), [](const auto& s) { return s.axis < 0; });
+  ASSERT_NE(sloped, solid.sides.end());
+  const double near = third.get_d();  // rounded down
+  EXPECT_EQ(sloped->side_of(Point{near, 0, 0.5}), -1);
+  EXPECT_EQ(sloped->side_of(Point{std::nextafter(near, 1.0), 0, 0.5}), 1);
 }
 
 TEST(FilledPlane, KnowsWhereAFacetIsOpen) {
@@ -137,7 +236,7 @@ TEST(FilledPlane, KnowsWhereAFacetIsOpen) {
   ASSERT_FALSE(open.empty());
   double area = 0;
   for (const auto& part : open) {
-    const Bounds box = scene::bounds_of(part);
+    const Bounds box = scene::bounds_of(part.corners);
     EXPECT_EQ(box.low[0], 10);
     EXPECT_EQ(box.high[0], 10);
     area += (box.high[1] - box.low[1]) * (box.high[2] - box.low[2]);

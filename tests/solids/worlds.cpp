@@ -61,6 +61,63 @@ Point mixed(const std::vector<Point>& corners, std::mt19937_64& random, double s
   return out;
 }
 
+scene::Polytope box_of(const Point& low, const Point& high) {
+  return scene::box_polytope(scene::to_rational(low), scene::to_rational(high));
+}
+
+// A brush, or two that abut along a plane askew; none that touches the cell.
+void add_brushes(World& world, const scene::Bounds& box, std::mt19937_64& random) {
+  if (scene::touch(box, scene::bounds_of(world.cell))) return;
+  std::uniform_int_distribution<int> part(-3, 3);
+  scene::HalfSpace half_space;
+  for (std::size_t i = 0; i < 3; ++i) {
+    half_space.normal[i] = part(random);
+    half_space.offset += half_space.normal[i] * mpq_class(box.low[i] + (box.high[i] - box.low[i]) / 2);
+  }
+  half_space.offset += mpq_class(part(random), 7);
+  const auto whole = box_of(box.low, box.high);
+  const bool both = part(random) > 0;
+  for (const auto& half : {half_space, half_space.opposite()}) {
+    if (auto brush = scene::intersection(whole, half)) world.brushes.push_back(std::move(*brush));
+    if (!both) break;
+  }
+}
+
+// Cuts two corners of a box off the cell, and puts a brush there at times.
+void make_wedge(World& world, std::mt19937_64& random) {
+  const scene::Bounds box = scene::bounds_of(world.cell);
+  constexpr std::size_t u = 1, v = 2;
+  std::erase_if(world.cell, [&](const Point& p) { return p[u] == box.high[u] && p[v] == box.high[v]; });
+  std::uniform_int_distribution<int> size(0, 3);
+  scene::HalfSpace beyond;
+  const mpq_class width = box.high[u] - box.low[u], height = box.high[v] - box.low[v];
+  beyond.normal = {0, -height, -width};
+  beyond.offset = -(height * mpq_class(box.high[u]) + width * mpq_class(box.low[v]));
+  Point low = box.low, high = box.high;
+  low[0] -= size(random) - 1;
+  for (double& x : high) x += size(random);
+  if (size(random) == 0 || low[0] >= high[0]) return;
+  if (auto brush = scene::intersection(box_of(low, high), beyond)) world.brushes.push_back(std::move(*brush));
+}
+
+// Whether the segment meets the brush, in or on its surface, before it ends.
+bool stops(const scene::Polytope& brush, const Point& from, const Point& to) {
+  const auto v = scene::to_rational(from), p = scene::to_rational(to);
+  mpq_class in = 0, out = 1;
+  for (const auto& face : brush.faces) {
+    const mpq_class at_v = face.half_space.height(v), at_p = face.half_space.height(p);
+    if (sgn(at_v) > 0 && sgn(at_p) > 0) return false;
+    if (sgn(at_v) <= 0 && sgn(at_p) <= 0) continue;
+    const mpq_class share = at_v / (at_v - at_p);
+    if (sgn(at_v) > 0) {
+      in = std::max(in, share);
+    } else {
+      out = std::min(out, share);
+    }
+  }
+  return in <= out && in < 1;
+}
+
 }  // namespace
 
 World random_world(std::uint64_t seed) {
@@ -100,6 +157,13 @@ World random_world(std::uint64_t seed) {
   const int flat = number(0, 5);  // along that axis, if there is one of that number
   for (int axis = 0; axis < 3; ++axis) high[static_cast<std::size_t>(axis)] += axis == flat ? 0 : 0.5 * number(1, 6);
   world.cell = scene::corners_of({low, high});
+  if (flat > 2 && number(0, 2) == 0) make_wedge(world, random);
+  for (int i = number(0, 3); i > 0; --i) {
+    const Point from = point(most);
+    Point to = from;
+    for (double& x : to) x += number(1, 4);
+    add_brushes(world, {from, to}, random);
+  }
   return world;
 }
 
@@ -109,8 +173,9 @@ Looked look_for_what_is_hidden(std::uint64_t first_seed, std::uint64_t worlds, i
   for (std::uint64_t seed = first_seed; seed < first_seed + worlds && looked.seen.empty(); ++seed) {
     const World world = random_world(seed);
     const auto& mesh = world.scene.mesh;
-    const solids::Solids found(solids::find_solids(world.scene),
-                               solids::bounds_of_questions(world.scene, {world.cell}));
+    auto walls_with_brushes = solids::find_solids(world.scene);
+    for (auto& brush : solids::solids_of(world.brushes)) walls_with_brushes.push_back(std::move(brush));
+    const solids::Solids found(std::move(walls_with_brushes), solids::bounds_of_questions(world.scene, {world.cell}));
     const auto listed = solids::not_hidden(found, solids::Targets(world.scene, found), world.cell);
     const auto blocking = scene::blocking_ids(world.scene);
     const auto walls = scene::part_of(mesh, blocking);
@@ -137,7 +202,9 @@ Looked look_for_what_is_hidden(std::uint64_t first_seed, std::uint64_t worlds, i
         const double sharpness = 1 << (i % 4);
         const Point v = mixed(world.cell, random, sharpness), p = mixed(corners, random, sharpness);
         ++looked.lines;
-        if (queries.any_hit({v, p}, {itself, &in_front})) continue;
+        if (queries.any_hit({v, p}, {itself, &in_front}) ||
+            std::any_of(world.brushes.begin(), world.brushes.end(), [&](const auto& b) { return stops(b, v, p); }))
+          continue;
         looked.seen =
             fmt::format("seed {}: triangle {} from {} {} {} at {} {} {}", seed, t, v[0], v[1], v[2], p[0], p[1], p[2]);
         break;

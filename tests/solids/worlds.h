@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/levels/polytope.h"
 #include "scene/mesh/flagged_mesh.h"
 
 namespace clues::tests {
@@ -16,11 +17,12 @@ std::vector<Face> faces_of_box(const scene::Point& low, const scene::Point& high
 
 struct World {
   scene::FlaggedMesh scene;
+  std::vector<scene::Polytope> brushes;  // of walls besides, with rational corners
   std::vector<scene::Point> cell;
 };
 
-// Boxes on a grid that abut, overlap and leave cracks, some without a side, tetrahedra, loose triangles, panes that do not block; a cell of any
-// dimension among them, in them at times.
+// Boxes on a grid that abut, overlap and leave cracks, some without a side, tetrahedra, loose triangles, panes that do not block, brushes with sloped sides; a cell of any
+// dimension among them, in them at times, or a wedge before a brush that has its sloped side.
 World random_world(std::uint64_t seed);
 
 struct Looked {
