@@ -182,13 +182,17 @@ bool Section::rim_meets(const std::vector<Spot>& window, const Piece& from_piece
 }
 
 bool is_inside(const Side& side, const Piece& piece, const Scale& scale) {
-  const double clear = scale.margin() * 0x1p-18;
-  const auto is_clearly_inside = [&](const Point& p) { return side.estimate.above(p) < -clear; };
-  if (std::all_of(piece.corners.begin(), piece.corners.end(), is_clearly_inside)) return true;
   const auto is_not_outside = [&](const Point& p) { return side.side_of(p) <= 0; };
-  const auto box = scene::corners_of(piece.box);
-  return std::all_of(box.begin(), box.end(), is_not_outside) ||
-         std::all_of(piece.whole.begin(), piece.whole.end(), is_not_outside);
+  const auto has_none_outside = [&](const Bounds& box) {
+    const auto corners = scene::corners_of(box);
+    return std::all_of(corners.begin(), corners.end(), is_not_outside);
+  };
+  const double off = scale.margin() * 0x1p-18;  // by much less the corners are, where they were cut
+  const auto is_well_inside = [&](const Point& p) {
+    return has_none_outside({{p[0] - off, p[1] - off, p[2] - off}, {p[0] + off, p[1] + off, p[2] + off}});
+  };
+  return has_none_outside(piece.box) || std::all_of(piece.whole.begin(), piece.whole.end(), is_not_outside) ||
+         std::all_of(piece.corners.begin(), piece.corners.end(), is_well_inside);
 }
 
 bool Section::covers(const Piece& from_piece, const Piece& to_piece) const {

@@ -23,7 +23,7 @@ COPIES = {
     # A rim is passed beside if the viewer is beside it.
     "rims_beside_the_viewer": ("fastpath/section.cpp", [
         ("is_inside(*side, from_piece, scale_) && is_inside(*side, to_piece, scale_)",
-         "is_inside(*side, from_piece, scale_)")]),
+         "is_inside(*side, from_piece, scale_) && !to_piece.corners.empty()")]),
     # A sloped facet is filled if a corner of it is.
     "sloped_doors_overlooked": ("fastpath/view_cell.cpp", [
         ("      return is_inside(side, piece, solids.scale())",
