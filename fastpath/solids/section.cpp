@@ -181,6 +181,24 @@ bool Section::rim_meets(const std::vector<Spot>& window, const Piece& from_piece
   return false;
 }
 
+bool Section::misses(const Spot& spot) const {
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (spot[k] < all_.low[k] - scale_.margin() || spot[k] > all_.high[k] + scale_.margin()) return true;
+  }
+  const std::size_t at = square(spot[0], 0) * squares_ + square(spot[1], 1);
+  const double margin = scale_.margin();
+  for (std::uint32_t i = polygons_at_.first[at]; i < polygons_at_.first[at + 1]; ++i) {
+    const auto& polygon = polygons_[polygons_at_.ids[i]];
+    bool outside = false;
+    for (std::size_t k = 0; !outside && k < polygon.size(); ++k) {
+      const Spot &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+      outside = turn_of(a, b, spot) < -margin * (std::fabs(b[0] - a[0]) + std::fabs(b[1] - a[1]));
+    }
+    if (!outside) return false;
+  }
+  return true;
+}
+
 bool is_inside(const Side& side, const Piece& piece, const Scale& scale) {
   const auto is_not_outside = [&](const Point& p) { return side.side_of(p) <= 0; };
   const auto has_none_outside = [&](const Bounds& box) {
@@ -211,12 +229,9 @@ bool Section::covers(const Piece& from_piece, const Piece& to_piece) const {
     for (std::size_t k = 0; k < to.size(); ++k) {
       const double share = of_from.all[i] / (of_from.all[i] - of_to.all[k]);
       const Point &a = from[i], &b = to[k];
-      crossings.push_back({a[u_] + share * (b[u_] - a[u_]), a[v_] + share * (b[v_] - a[v_])});
-    }
-  }
-  for (const Spot& s : crossings) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (s[k] < all_.low[k] - scale_.margin() || s[k] > all_.high[k] + scale_.margin()) return false;
+      const Spot s{a[u_] + share * (b[u_] - a[u_]), a[v_] + share * (b[v_] - a[v_])};
+      if (misses(s)) return false;
+      crossings.push_back(s);
     }
   }
   std::sort(crossings.begin(), crossings.end());

@@ -53,6 +53,8 @@ class Section {
   Grid grid_of(const std::vector<Rectangle>& boxes) const;
   // Whether the point is in one of the sections, and not within a rounding of its border.
   bool holds(const Spot& spot) const;
+  // Whether it is further away from all of them than the margin.
+  bool misses(const Spot& spot) const;
 
   // Whether some of the rim is within the margin of the window, a convex polygon, and may be inside of what crosses the plane.
   bool rim_meets(const std::vector<Spot>& window, const Piece& from, const Piece& to) const;

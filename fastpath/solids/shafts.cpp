@@ -69,6 +69,7 @@ class Prover {
   bool prove_shaft(const Piece& window, const Piece& target, int depth) {
     if (left_ == 0) return false;
     --left_;
+    if (recent_ && solids_.section(*recent_).covers(window, target)) return true;
     solids_.find_pierced(middle_of(window.corners), middle_of(target.corners), pierced_);
     if (pierced_.empty()) {
       left_ = 0;
@@ -82,7 +83,9 @@ class Prover {
         if (std::find(planes_.begin(), planes_.end(), plane) != planes_.end()) continue;
         if (planes_.size() == kMostPlanes) break;
         planes_.push_back(plane);
-        if (solids_.section(plane).covers(window, target)) return true;
+        if (plane == recent_ || !solids_.section(plane).covers(window, target)) continue;
+        recent_ = plane;
+        return true;
       }
     }
     if (depth == kDeepest) return false;
@@ -107,6 +110,7 @@ class Prover {
   const Solids& solids_;
   std::uint32_t left_ = 0;  // shafts that may still be looked at
   bool cuts_targets_ = false;
+  std::optional<std::uint32_t> recent_;  // the plane of the last proof: often that of the next one, too
   std::vector<Pierced> pierced_;
   std::vector<std::uint32_t> planes_;
 };

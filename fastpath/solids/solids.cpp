@@ -32,21 +32,29 @@ bool has_no_normal(const Side& side) {
   }) || !std::isfinite(side.estimate.distance);
 }
 
+struct Way {
+  Point from, inverse;  // of its length along each axis; 0: it has none there
+};
+
+Way way_between(const Point& from, const Point& to) {
+  Way way{from, {}};
+  for (std::size_t i = 0; i < 3; ++i) way.inverse[i] = to[i] == from[i] ? 0 : 1 / (to[i] - from[i]);
+  return way;
+}
+
 // Whether the segment is in the box somewhere, but for roundings.
-bool passes(const Bounds& box, const Point& from, const Point& to) {
+bool passes(const Bounds& box, const Way& way) {
   double in = 0, out = 1;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double way = to[i] - from[i];
-    if (way == 0) {
-      if (from[i] < box.low[i] || from[i] > box.high[i]) return false;
+    if (way.inverse[i] == 0) {
+      if (way.from[i] < box.low[i] || way.from[i] > box.high[i]) return false;
       continue;
     }
-    const double a = (box.low[i] - from[i]) / way, b = (box.high[i] - from[i]) / way;
+    const double a = (box.low[i] - way.from[i]) * way.inverse[i], b = (box.high[i] - way.from[i]) * way.inverse[i];
     in = std::max(in, std::min(a, b));
     out = std::min(out, std::max(a, b));
-    if (in > out) return false;
   }
-  return true;
+  return in <= out;
 }
 
 bool pierce(const Solid& solid, const Point& from, const Point& to, Pierced& hit) {
@@ -154,12 +162,13 @@ const FilledPlane& Solids::filled(const FacetPlane& plane) const {
 template <typename Visit>
 void Solids::walk(const Point& from, const Point& to, const Visit& visit) const {
   if (nodes_.empty()) return;
+  const Way way = way_between(from, to);
   static thread_local std::vector<std::uint32_t> open;
   open.assign(1, 0);
   while (!open.empty()) {
     const Node& node = nodes_[open.back()];
     open.pop_back();
-    if (!passes(node.bounds, from, to)) continue;
+    if (!passes(node.bounds, way)) continue;
     if (node.left != 0) {
       open.push_back(node.left);
       open.push_back(node.right);
