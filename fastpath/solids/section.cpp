@@ -42,6 +42,11 @@ void find_distances(const SectionPlane& plane, std::span<const Point> points, Di
   out.most = *most;
 }
 
+bool is_within(const Rectangle& box, const Spot& spot, double margin) {
+  return spot[0] >= box.low[0] - margin && spot[0] <= box.high[0] + margin && spot[1] >= box.low[1] - margin &&
+         spot[1] <= box.high[1] + margin;
+}
+
 // Half of the plane: spots with x * spot[0] + y * spot[1] <= most.
 struct HalfPlane {
   double x, y, most;
@@ -111,10 +116,10 @@ Section::Grid Section::grid_of(const std::vector<Rectangle>& boxes) const {
   };
   for (const Rectangle& box : boxes) for_each_square(box, [&](std::size_t at) { ++grid.first[at + 1]; });
   std::partial_sum(grid.first.begin(), grid.first.end(), grid.first.begin());
-  grid.ids.resize(grid.first.back());
+  grid.entries.resize(grid.first.back());
   std::vector<std::uint32_t> next(grid.first.begin(), grid.first.end() - 1);
   for (std::uint32_t i = 0; i < boxes.size(); ++i)
-    for_each_square(boxes[i], [&](std::size_t at) { grid.ids[next[at]++] = i; });
+    for_each_square(boxes[i], [&](std::size_t at) { grid.entries[next[at]++] = {boxes[i], i}; });
   return grid;
 }
 
@@ -123,7 +128,9 @@ bool Section::holds(const Spot& spot) const {
   const std::size_t at = square(spot[0], 0) * squares_ + square(spot[1], 1);
   const double clear = scale_.margin() * 0x1p-4;
   for (std::uint32_t i = polygons_at_.first[at]; i < polygons_at_.first[at + 1]; ++i) {
-    const auto& polygon = polygons_[polygons_at_.ids[i]];
+    const auto& [box, id] = polygons_at_.entries[i];
+    if (!is_within(box, spot, 0)) continue;
+    const auto& polygon = polygons_[id];
     bool inside = true;
     for (std::size_t k = 0; inside && k < polygon.size(); ++k) {
       const Spot &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
@@ -156,7 +163,7 @@ bool Section::rim_meets(const std::vector<Spot>& window, const Piece& from_piece
     for (std::size_t y = square(range.low[1], 1); y <= last_y; ++y) {
       const std::size_t at = x * squares_ + y;
       for (std::uint32_t i = rim_at_.first[at]; i < rim_at_.first[at + 1]; ++i) {
-        const auto& [a, b, side] = rim_[rim_at_.ids[i]];
+        const auto& [a, b, side] = rim_[rim_at_.entries[i].id];
         bool apart = false;
         for (std::size_t k = 0; k < 2; ++k)
           apart =
@@ -182,13 +189,13 @@ bool Section::rim_meets(const std::vector<Spot>& window, const Piece& from_piece
 }
 
 bool Section::misses(const Spot& spot) const {
-  for (std::size_t k = 0; k < 2; ++k) {
-    if (spot[k] < all_.low[k] - scale_.margin() || spot[k] > all_.high[k] + scale_.margin()) return true;
-  }
+  if (!is_within(all_, spot, scale_.margin())) return true;
   const std::size_t at = square(spot[0], 0) * squares_ + square(spot[1], 1);
   const double margin = scale_.margin();
   for (std::uint32_t i = polygons_at_.first[at]; i < polygons_at_.first[at + 1]; ++i) {
-    const auto& polygon = polygons_[polygons_at_.ids[i]];
+    const auto& [box, id] = polygons_at_.entries[i];
+    if (!is_within(box, spot, margin)) continue;
+    const auto& polygon = polygons_[id];
     bool outside = false;
     for (std::size_t k = 0; !outside && k < polygon.size(); ++k) {
       const Spot &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];

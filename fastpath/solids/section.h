@@ -45,9 +45,14 @@ class Section {
   std::size_t polygons() const { return polygons_.size(); }
 
  private:
-  // Numbers of what may be in a part of the plane, by squares of a grid.
+  // What may be in a part of the plane, by squares of a grid.
+  struct Entry {
+    Rectangle box;
+    std::uint32_t id;
+  };
   struct Grid {
-    std::vector<std::uint32_t> first, ids;
+    std::vector<std::uint32_t> first;
+    std::vector<Entry> entries;
   };
   std::size_t square(double x, std::size_t axis) const;
   Grid grid_of(const std::vector<Rectangle>& boxes) const;

@@ -74,10 +74,12 @@ Side side_through(const Point& a, const Point& b, const Point& c) {
 Side side_along(const scene::HalfSpace& inside) {
   Side side{{}, std::make_shared<const scene::HalfSpace>(inside), {}};
   Point& n = side.estimate.normal;
-  for (std::size_t i = 0; i < 3; ++i) n[i] = inside.normal[i].get_d();
+  mpq_class largest;  // of which normals are as long that no double of it is subnormal
+  for (const auto& x : inside.normal) largest = std::max<mpq_class>(largest, abs(x));
+  for (std::size_t i = 0; i < 3; ++i) n[i] = mpq_class(inside.normal[i] / largest).get_d();
   const double length = std::hypot(n[0], n[1], n[2]);
   for (double& x : n) x /= length;
-  side.estimate.distance = inside.offset.get_d() / length;
+  side.estimate.distance = mpq_class(inside.offset / largest).get_d() / length;
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     if (sgn(inside.normal[(axis + 1) % 3]) != 0 || sgn(inside.normal[(axis + 2) % 3]) != 0) continue;

@@ -223,6 +223,36 @@ TEST(Solid, OfAPolytopeIsExact) {
   EXPECT_EQ(sloped->side_of(Point{std::nextafter(near, 1.0), 0, 0.5}), 1);
 }
 
+// Its face abc is a needle, the normal of which doubles know to four digits: what is beside it was taken for what is behind it, so that its rim was passed over.
+TEST(Shafts, APlaneOfANeedleIsKnownExactly) {
+  const Point a{-0x1.8e98c18199bf7p+4, -0x1.50393ed6673e1p+4, -0x1.2d36b6074bbe2p+5},
+      b{0x1.2eb4c383083fbp+5, 0x1.6d34f769c4d1dp+4, 0x1.51a13b46827d5p+4},
+      c{0x1.2eb681c85e292p+5, 0x1.6d390ef1dfd7p+4, 0x1.51a2c543c1b84p+4},
+      d{0x1.3f38d90290f6ep+4, 0x1.80ae9b5058aap+4, -0x1.b6dace3578fa7p+5};
+  const std::array<Point, 3> seen{Point{0x1.2e792ac66f6b2p+5, 0x1.0a3191371f8dbp+5, 0x1.455eda4bb5882p+3},
+                                  {0x1.07d06fb03faecp+5, 0x1.0520781a56db8p+5, -0x1.8cbc2411d573ap+2},
+                                  {0x1.bf4ec518344e5p+4, 0x1.d223a42f8b784p+4, -0x1.5cc6d0a5e4a45p+3}};
+  scene::FlaggedMeshBuilder builder;
+  for (const auto& face : {std::array{a, b, c}, {a, b, d}, {a, c, d}, {b, c, d}}) builder.add(face, 0, {true, false});
+  builder.add(seen, 0, {false, true});
+  const Point v{0x1.1add8b05f74cap+5, 0x1.53f851eefb8p+3, 0x1.dafa5bdbf7289p+4};
+  const double e = 0x1.7268p-39;
+  const auto listed =
+      solids::not_hidden(builder.take(), scene::corners_of({{v[0] - e, v[1] - e, v[2] - e}, {v[0], v[1], v[2]}}));
+  EXPECT_EQ(listed, std::vector<std::uint32_t>{4});
+}
+
+TEST(Solid, OfSubnormalNumbersIsExact) {
+  const double s = 0x1p-1074;
+  const auto side = solids::side_along({scene::to_rational({0, 2 * s, s}), mpq_class(30 * s)});
+  for (double y = 0; y < 16; ++y) {
+    for (double z = 0; z < 31; ++z) {
+      const double above = 2 * y + z - 30;
+      EXPECT_EQ(side.side_of(Point{0, y, z}), above > 0 ? 1 : above < 0 ? -1 : 0);
+    }
+  }
+}
+
 TEST(FilledPlane, KnowsWhereAFacetIsOpen) {
   // A wall behind x = 10 with a door in it.
   const auto walls = boxes({{{{10, 0, 0}, {12, 8, 16}}}, {{{10, 12, 0}, {12, 20, 16}}}, {{{10, 8, 6}, {12, 12, 16}}}});

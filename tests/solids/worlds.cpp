@@ -74,7 +74,7 @@ void add_brushes(World& world, const scene::Bounds& box, std::mt19937_64& random
     half_space.normal[i] = part(random);
     half_space.offset += half_space.normal[i] * mpq_class(box.low[i] + (box.high[i] - box.low[i]) / 2);
   }
-  half_space.offset += mpq_class(part(random), 7);
+  half_space.offset += mpq_class(part(random)) / 7;
   const auto whole = box_of(box.low, box.high);
   const bool both = part(random) > 0;
   for (const auto& half : {half_space, half_space.opposite()}) {
