@@ -52,7 +52,7 @@ class Prover {
   }
 
  private:
-  bool finds_a_way(const Polygon& window, const Polygon& target) const {
+  bool finds_a_way(const Polygon& window, const Polygon& target) {
     const Point of_window = middle_of(window), of_target = middle_of(target);
     for (std::size_t i = 0; i < kProbes; ++i) {
       const Point &a = window[i % window.size()], &b = target[(7 * i + 3) % target.size()];
@@ -61,7 +61,7 @@ class Prover {
         from[k] = of_window[k] + kProbesWithin * (a[k] - of_window[k]);
         to[k] = of_target[k] + kProbesWithin * (b[k] - of_target[k]);
       }
-      if (!solids_.pierces_any(from, to)) return true;
+      if (!solids_.pierces_any(from, to, stops_probes_)) return true;
     }
     return false;
   }
@@ -110,6 +110,7 @@ class Prover {
   const Solids& solids_;
   std::uint32_t left_ = 0;  // shafts that may still be looked at
   bool cuts_targets_ = false;
+  std::uint32_t stops_probes_ = 0;       // the solid that the last probe met
   std::optional<std::uint32_t> recent_;  // the plane of the last proof: often that of the next one, too
   std::vector<Pierced> pierced_;
   std::vector<std::uint32_t> planes_;

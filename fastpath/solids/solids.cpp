@@ -192,11 +192,14 @@ void Solids::find_pierced(const Point& from, const Point& to, std::vector<Pierce
             [](const Pierced& a, const Pierced& b) { return a.in < b.in || (a.in == b.in && a.solid < b.solid); });
 }
 
-bool Solids::pierces_any(const Point& from, const Point& to) const {
+bool Solids::pierces_any(const Point& from, const Point& to, std::uint32_t& likely) const {
+  Pierced hit;
+  if (likely < solids_.size() && pierce(solids_[likely], from, to, hit)) return true;
   bool any = false;
   walk(from, to, [&](std::uint32_t solid) {
-    Pierced hit;
-    return any = pierce(solids_[solid], from, to, hit);
+    any = pierce(solids_[solid], from, to, hit);
+    if (any) likely = solid;
+    return any;
   });
   return any;
 }

@@ -34,7 +34,8 @@ class Solids {
 
   // Solids that the segment goes through, in the order in which it enters them: in doubles, for guesses only.
   void find_pierced(const Point& from, const Point& to, std::vector<Pierced>& out) const;
-  bool pierces_any(const Point& from, const Point& to) const;
+  // Whether there is one. `likely` is tried first, and is then the one that was found.
+  bool pierces_any(const Point& from, const Point& to, std::uint32_t& likely) const;
 
   // Numbers of solids whose box touches the one given, ascending.
   std::vector<std::uint32_t> touching(const Bounds& box) const;
