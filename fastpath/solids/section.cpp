@@ -11,7 +11,7 @@ namespace clues::fastpath::solids {
 namespace {
 
 constexpr std::size_t kMostSquares = 64;  // along each axis
-constexpr double kSquaresPerThing = 0.5;
+constexpr double kSquaresPerPolygon = 1;
 
 double turn_of(const Spot& a, const Spot& b, const Spot& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -47,6 +47,45 @@ bool is_within(const Rectangle& box, const Spot& spot, double margin) {
          spot[1] <= box.high[1] + margin;
 }
 
+Rectangle rectangle_around(std::span<const Spot> spots) {
+  Rectangle out{spots[0], spots[0]};
+  for (const Spot& s : spots) out = hull_of(out, {s, s});
+  return out;
+}
+
+// Whether all of the box is on one side of the plane, but for roundings.
+bool misses_box(const SectionPlane& plane, const Bounds& box) {
+  double middle = -plane.distance, reach = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    middle += plane.normal[i] * (box.low[i] + box.high[i]) / 2;
+    reach += std::fabs(plane.normal[i]) * (box.high[i] - box.low[i]) / 2;
+  }
+  return std::fabs(middle) > reach;
+}
+
+// The section in doubles: nobody relies on it.
+std::vector<Spot> rough_section(const Solid& solid, const SectionPlane& plane, std::size_t u, std::size_t v) {
+  static thread_local Distances at;
+  static thread_local std::vector<Spot> spots;
+  find_distances(plane, solid.corners, at);
+  spots.clear();
+  std::vector<Spot> hull;
+  if (at.least >= 0 || at.most <= 0) return hull;
+  for (std::size_t i = 0; i < solid.corners.size(); ++i) {
+    if (at.all[i] == 0) spots.push_back({solid.corners[i][u], solid.corners[i][v]});
+  }
+  for (const auto& [i, j] : solid.edges) {
+    if (at.all[i] * at.all[j] >= 0) continue;
+    const double share = at.all[i] / (at.all[i] - at.all[j]);
+    const Point &p = solid.corners[i], &q = solid.corners[j];
+    spots.push_back({p[u] + share * (q[u] - p[u]), p[v] + share * (q[v] - p[v])});
+  }
+  if (spots.size() < 3) return hull;
+  std::sort(spots.begin(), spots.end());
+  hull_of_sorted(spots, turn_of, hull);
+  return hull;
+}
+
 // Half of the plane: spots with x * spot[0] + y * spot[1] <= most.
 struct HalfPlane {
   double x, y, most;
@@ -66,35 +105,44 @@ Scale Scale::of(const Bounds& bounds) {
 
 Section::Section(const SectionPlane& plane, std::span<const Solid> solids, const Scale& scale)
     : plane_(plane), scale_(scale), dropped_(longest(plane.normal)), u_((dropped_ + 1) % 3), v_((dropped_ + 2) % 3) {
+  std::vector<Rectangle> boxes;
+  for (const Solid& solid : solids) {
+    if (misses_box(plane_, solid.bounds)) continue;
+    Polygon polygon = rough_section(solid, plane_, u_, v_);
+    if (polygon.size() < 3) continue;
+    boxes.push_back(rectangle_around(polygon));
+    all_ = of_.empty() ? boxes.back() : hull_of(all_, boxes.back());
+    polygons_.push_back(std::move(polygon));
+    of_.push_back(&solid);
+  }
+  squares_ = std::clamp<std::size_t>(
+      static_cast<std::size_t>(std::sqrt(kSquaresPerPolygon * static_cast<double>(of_.size()))), 1, kMostSquares);
+  polygons_at_ = grid_of(boxes);
+}
+
+void Section::make_exact() const {
   std::vector<ExactPolygon> exact;
   std::vector<const Solid*> of;
-  for (const Solid& solid : solids) {
-    if (auto polygon = section_of(solid, plane_, dropped_, Cutting::across)) {
-      exact.push_back(std::move(*polygon));
-      of.push_back(&solid);
-    }
+  std::vector<Rectangle> of_polygons, of_rim;
+  for (const Solid* solid : of_) {
+    auto polygon = section_of(*solid, plane_, dropped_, Cutting::across);
+    if (!polygon) continue;
+    auto& rounded = exact_.polygons.emplace_back();
+    for (const auto& spot : *polygon) rounded.push_back({spot.x, spot.y});
+    of_polygons.push_back(rectangle_around(rounded));
+    exact.push_back(std::move(*polygon));
+    of.push_back(solid);
   }
   for (const auto& [segment, polygon, edge] : rim_of_union(exact)) {
     const auto& corners = exact[polygon];
     const int side = side_with(*of[polygon], corners[edge], corners[(edge + 1) % corners.size()]);
-    rim_.push_back({{segment[0].x, segment[0].y},
-                    {segment[1].x, segment[1].y},
-                    side < 0 ? nullptr : &of[polygon]->sides[static_cast<std::size_t>(side)]});
+    exact_.rim.push_back({{segment[0].x, segment[0].y},
+                          {segment[1].x, segment[1].y},
+                          side < 0 ? nullptr : &of[polygon]->sides[static_cast<std::size_t>(side)]});
+    of_rim.push_back(rectangle_around(std::array{exact_.rim.back().a, exact_.rim.back().b}));
   }
-  std::vector<Rectangle> of_polygons, of_rim;
-  for (const auto& polygon : exact) {
-    auto& rounded = polygons_.emplace_back();
-    for (const auto& spot : polygon) rounded.push_back({spot.x, spot.y});
-    of_polygons.push_back(rectangle_around(polygon));
-  }
-  for (const Rim& rim : rim_) of_rim.push_back(hull_of({rim.a, rim.a}, {rim.b, rim.b}));
-  if (polygons_.empty()) return;
-  all_ = of_polygons[0];
-  for (const Rectangle& box : of_polygons) all_ = hull_of(all_, box);
-  const double things = static_cast<double>(polygons_.size() + rim_.size());
-  squares_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(kSquaresPerThing * things)), 1, kMostSquares);
-  polygons_at_ = grid_of(of_polygons);
-  rim_at_ = grid_of(of_rim);
+  exact_.polygons_at = grid_of(of_polygons);
+  exact_.rim_at = grid_of(of_rim);
 }
 
 // Rises with x, so that what two ranges share is in a square of both.
@@ -124,13 +172,12 @@ Section::Grid Section::grid_of(const std::vector<Rectangle>& boxes) const {
 }
 
 bool Section::holds(const Spot& spot) const {
-  if (polygons_.empty()) return false;
   const std::size_t at = square(spot[0], 0) * squares_ + square(spot[1], 1);
   const double clear = scale_.margin() * 0x1p-4;
-  for (std::uint32_t i = polygons_at_.first[at]; i < polygons_at_.first[at + 1]; ++i) {
-    const auto& [box, id] = polygons_at_.entries[i];
+  for (std::uint32_t i = exact_.polygons_at.first[at]; i < exact_.polygons_at.first[at + 1]; ++i) {
+    const auto& [box, id] = exact_.polygons_at.entries[i];
     if (!is_within(box, spot, 0)) continue;
-    const auto& polygon = polygons_[id];
+    const auto& polygon = exact_.polygons[id];
     bool inside = true;
     for (std::size_t k = 0; inside && k < polygon.size(); ++k) {
       const Spot &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
@@ -141,7 +188,7 @@ bool Section::holds(const Spot& spot) const {
   return false;
 }
 
-bool Section::rim_meets(const std::vector<Spot>& window, const Piece& from_piece, const Piece& to_piece) const {
+bool Section::rim_meets(const Polygon& window, const Piece& from_piece, const Piece& to_piece) const {
   const double margin = scale_.margin();
   Rectangle range{window[0], window[0]};
   static thread_local std::vector<HalfPlane> halves;
@@ -162,8 +209,8 @@ bool Section::rim_meets(const std::vector<Spot>& window, const Piece& from_piece
   for (std::size_t x = square(range.low[0], 0); x <= last_x; ++x) {
     for (std::size_t y = square(range.low[1], 1); y <= last_y; ++y) {
       const std::size_t at = x * squares_ + y;
-      for (std::uint32_t i = rim_at_.first[at]; i < rim_at_.first[at + 1]; ++i) {
-        const auto& [a, b, side] = rim_[rim_at_.entries[i].id];
+      for (std::uint32_t i = exact_.rim_at.first[at]; i < exact_.rim_at.first[at + 1]; ++i) {
+        const auto& [a, b, side] = exact_.rim[exact_.rim_at.entries[i].id];
         bool apart = false;
         for (std::size_t k = 0; k < 2; ++k)
           apart =
@@ -241,6 +288,7 @@ bool Section::covers(const Piece& from_piece, const Piece& to_piece) const {
       crossings.push_back(s);
     }
   }
+  std::call_once(exact_made_, [this] { make_exact(); });
   std::sort(crossings.begin(), crossings.end());
   hull_of_sorted(crossings, turn_of, window);  // what lies on an edge but for a rounding may be missing
   Spot middle{};

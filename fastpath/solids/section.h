@@ -1,12 +1,13 @@
 // T15: what solids cut out of a plane, fused. Where walls abut their sections do, too, and what crosses the plane between them is stopped as if they were one.
 //
-// The union of the sections of all solids in a plane is found exactly; what is kept of it is its rim, rounded. A set of crossing points that is connected, keeps clear of the rim and has one point in
+// The union of the sections of all solids in a plane is found exactly, once it is needed; what is kept of it is its rim, rounded. A set of crossing points that is connected, keeps clear of the rim and has one point in
 // the union lies in the union.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -36,15 +37,17 @@ struct SectionPlane {
 
 class Section {
  public:
-  // Of solids with corners on both sides of the plane; they must outlive it. With n of them O(n^2) for boxes, and as many exact steps as their sections have neighbours.
+  // Of solids with corners on both sides of the plane; they must outlive it. O(n) steps in doubles for n of them.
   Section(const SectionPlane& plane, std::span<const Solid> solids, const Scale& scale);
 
-  // Whether every segment from one piece to the other crosses the plane in the union, but for a set of measure 0. False if they are not on different sides of it, and whenever that is in doubt.
+  // Whether every segment from one piece to the other crosses the plane in the union, but for a set of measure 0. False if they are not on different sides of it, and whenever that is in doubt. The
+  // first time that this is not clear at once the sections are computed exactly: O(n^2) for boxes, and as many exact steps as they have neighbours.
   bool covers(const Piece& from, const Piece& to) const;
 
-  std::size_t polygons() const { return polygons_.size(); }
+  std::size_t polygons() const { return of_.size(); }
 
  private:
+  using Polygon = std::vector<Spot>;  // counter-clockwise
   // What may be in a part of the plane, by squares of a grid.
   struct Entry {
     Rectangle box;
@@ -54,29 +57,36 @@ class Section {
     std::vector<std::uint32_t> first;
     std::vector<Entry> entries;
   };
+  struct Rim {
+    Spot a, b;
+    const Side* side;  // in whose plane it lies; none: not known
+  };
+  struct Exact {
+    std::vector<Polygon> polygons;
+    std::vector<Rim> rim;
+    Grid polygons_at, rim_at;
+  };
   std::size_t square(double x, std::size_t axis) const;
   Grid grid_of(const std::vector<Rectangle>& boxes) const;
-  // Whether the point is in one of the sections, and not within a rounding of its border.
+  void make_exact() const;
+  // Whether the point is in one of the sections, and further from its border than crossings may be off.
   bool holds(const Spot& spot) const;
-  // Whether it is further away from all of them than the margin.
+  // Whether it seems to be further away from all of them than the margin.
   bool misses(const Spot& spot) const;
-
   // Whether some of the rim is within the margin of the window, a convex polygon, and may be inside of what crosses the plane.
-  bool rim_meets(const std::vector<Spot>& window, const Piece& from, const Piece& to) const;
+  bool rim_meets(const Polygon& window, const Piece& from, const Piece& to) const;
 
   SectionPlane plane_;
   Scale scale_;
   std::size_t dropped_ = 0, u_ = 1,
               v_ = 2;  // the axis that is left out in the plane, along which its normal is longest; the others
-  std::vector<std::vector<Spot>> polygons_;  // counter-clockwise
-  struct Rim {
-    Spot a, b;
-    const Side* side;  // in whose plane it lies; none: not known
-  };
-  std::vector<Rim> rim_;
+  std::vector<const Solid*> of_;
+  std::vector<Polygon> polygons_;  // of these, in doubles, for guesses
   Rectangle all_;
   std::size_t squares_ = 1;  // along each axis
-  Grid polygons_at_, rim_at_;
+  Grid polygons_at_;
+  mutable std::once_flag exact_made_;
+  mutable Exact exact_;  // the same, exactly but for a rounding at last
 };
 
 }  // namespace clues::fastpath::solids
