@@ -17,6 +17,7 @@
 namespace clues::tests {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 constexpr const char* grid = "grid:3x2x1:box:-0.3,-0.25,-0.25,0.3,0.25,0";
 
@@ -328,6 +329,29 @@ TEST(Bake, ALevelWithItsLeaves) {
   EXPECT_FALSE(baked.plan().cells[0].inner.empty());
   // What only blocks is in no list.
   for (const auto t : baked.cell(0).list) EXPECT_LT(t, 4U + 2 + 32 + 2);
+}
+
+// The map's scene has no sides behind the cracks of what is drawn, and so shows what is under the slab (8 and 9); the brush hides it.
+TEST(Bake, OfALevelListsNothingThatBrushesHide) {
+  const TestFolder folder;
+  folder.write("slab.bsp", cracked_slab().bytes());
+  for (const std::string kernel : {"solids", "fast"}) {
+    const auto done = run_clues({"bake", "slab.bsp", "--cells", "grid:1x1x1:box:10,10,10,250,100,60", "--kernel",
+                                 kernel, "-o", kernel + ".bake"},
+                                folder.path());
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    const scene::FinishedBake baked(folder.path() / (kernel + ".bake"));
+    EXPECT_THAT(baked.cell(0).list, ElementsAre(0U, 1U, 2U, 3U)) << kernel;
+    const auto judged =
+        run_clues({"check", "slab.bsp", "--all-cells", "--bake", kernel + ".bake", "--json"}, folder.path());
+    EXPECT_NE(judged.exit_code, 1) << judged.out;
+    EXPECT_EQ(judged.err.find("error"), std::string::npos) << judged.err;
+  }
+  EXPECT_EQ(run_clues({"bake", "slab.bsp", "--cells", "leaves", "--kernel", "solids", "--effort", "5", "-o", "no.bake"},
+                      folder.path())
+                .exit_code,
+            2)
+      << "solids give nothing up";
 }
 
 }  // namespace
