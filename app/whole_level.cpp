@@ -11,8 +11,7 @@ namespace clues::app {
 namespace {
 
 scene::RationalPoint rational_of(const exact::Point3& p) {
-  const auto coordinate = [](const exact::FT& x) { return mpq_class(exact::to_string_exact(x)); };
-  return {coordinate(p.x()), coordinate(p.y()), coordinate(p.z())};
+  return {mpq_class(p.x().exact()), mpq_class(p.y().exact()), mpq_class(p.z().exact())};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "scene/levels/bsp_flags.h"
 #include "scene/levels/bsp_hulls.h"
@@ -28,25 +29,45 @@ struct Meeting {
 
 Point to_doubles(const RationalPoint& p) { return {p[0].get_d(), p[1].get_d(), p[2].get_d()}; }
 
-// Whether the point is certainly in front of the plane. Coordinates are cut off by less than a relative 2^-52 (or by 2^-1074); products, sums and the difference round
+// How far in front of the plane the point is, and by how much that may be wrong. Coordinates are cut off by less than a relative 2^-52 (or by 2^-1074); products, sums and the difference round
 // five times more: below 2^-48 of the sum of the absolute values, and 2^-900 for what underflows: normals are floats.
-bool is_beyond(const Point& normal, double distance, const Point& at) {
+struct Height {
+  double value = 0, error = 0;
+};
+
+Height height_of(const Point& normal, double distance, const Point& at) {
   double sizes = std::fabs(distance), height = -distance;
   for (std::size_t i = 0; i < 3; ++i) {
     height += normal[i] * at[i];
     sizes += std::fabs(normal[i] * at[i]);
   }
-  return height > 0x1p-48 * sizes + 0x1p-900;
+  return {height, 0x1p-48 * sizes + 0x1p-900};
 }
 
-// Of the segment with the closed solid; none where they do not meet. The ends also in doubles.
+// Which part of the way from v to p may be in the closed solid, as a share; none where they certainly do not meet. An end whose side is in doubt may be on either.
 template <class Sides>
-std::optional<Meeting> meeting(const Sides& sides, const RationalPoint& v, const RationalPoint& p, const Point& near_v,
-                               const Point& near_p) {
+std::optional<double> rough_share_in(const Sides& sides, const Point& v, const Point& p) {
+  constexpr double kRounding = 0x1p-48;
+  double in = 0, out = 1;
   for (const auto& side : sides) {
-    if (is_beyond(side.normal, side.distance, near_v) && is_beyond(side.normal, side.distance, near_p))
-      return std::nullopt;
+    const Height at_v = height_of(side.normal, side.distance, v), at_p = height_of(side.normal, side.distance, p);
+    const bool v_is_out = at_v.value > at_v.error, p_is_out = at_p.value > at_p.error;
+    if (v_is_out && p_is_out) return std::nullopt;
+    if (v_is_out) {  // it enters no earlier than if v is nearer, and p deeper
+      const double least = at_v.value - at_v.error, deep = std::max(0.0, at_p.error - at_p.value);
+      in = std::max(in, least / (least + deep) - kRounding);
+    } else if (p_is_out) {
+      const double least = at_p.value - at_p.error, deep = std::max(0.0, at_v.error - at_v.value);
+      out = std::min(out, 1 - least / (least + deep) + kRounding);
+    }
   }
+  if (in > out) return std::nullopt;
+  return out - in;
+}
+
+// Of the segment with the closed solid; none where they do not meet.
+template <class Sides>
+std::optional<Meeting> meeting(const Sides& sides, const RationalPoint& v, const RationalPoint& p) {
   Meeting found;
   mpq_class leaves = 1;
   for (const auto& side : sides) {
@@ -97,8 +118,15 @@ SolidBrushes::SolidBrushes(const BspFile& level) {
 
 bool SolidBrushes::block(const RationalPoint& v, const RationalPoint& p, const std::array<Point, 3>& drawn) const {
   const Point near_v = to_doubles(v), near_p = to_doubles(p);
-  return std::any_of(brushes_.begin(), brushes_.end(), [&](const std::vector<Side>& sides) {
-    const auto met = meeting(sides, v, p, near_v, near_p);
+  std::vector<std::pair<double, const std::vector<Side>*>> candidates;
+  for (const auto& sides : brushes_) {
+    if (const auto share = rough_share_in(sides, near_v, near_p)) candidates.emplace_back(*share, &sides);
+  }
+  // What is likely to stop it comes first.
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  return std::any_of(candidates.begin(), candidates.end(), [&](const auto& candidate) {
+    const auto met = meeting(*candidate.second, v, p);
     if (!met || met->share == 1) return false;
     if (!met->with_p_in_it) return true;
     RationalPoint entry = v;
