@@ -1,8 +1,6 @@
 #include "fastpath/solids/shafts.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
