@@ -114,10 +114,12 @@ void add_iut_command(CLI::App& program, int& status) {
   auto* command =
       program.add_subcommand("iut", "Be an implementation under test: speak JSON lines on standard input and output");
   auto request = std::make_shared<IutRequest>();
+  std::vector<std::string> names;
+  for (const Kernel& kernel : kKernels) names.emplace_back(kernel.name);
   command
       ->add_option("--kernel", request->kernel,
                    "Answer ourselves: exact (the first-order reference), fast, or solids (what walls do not hide)")
-      ->check(CLI::IsMember({"exact", "fast", "solids"}));
+      ->check(CLI::IsMember(names));
   command->add_option("--library", request->library, "Answer with the function clues_iut_pvs of a shared library")
       ->type_name("LIB.so");
   command->footer(

@@ -97,38 +97,23 @@ mpq_class value_at(const SectionPlane& plane, const scene::RationalPoint& p) {
 
 // On which side of the plane the solid's i-th corner is.
 int side_of(const SectionPlane& plane, const Solid& solid, std::size_t corner) {
-  const Point& p = solid.corners[corner];
-  double value = -plane.distance, size = std::fabs(plane.distance);
-  for (std::size_t i = 0; i < 3; ++i) {
-    value += plane.normal[i] * p[i];
-    size += std::fabs(plane.normal[i] * p[i]);
-  }
-  const double error = 0x1p-49 * size + kUnderflow;  // of seven roundings, and those of the corner
-  if (std::fabs(value) > error) return value > 0 ? 1 : -1;
-  return sgn(value_at(plane, solid.exact_corner(corner)));
+  const int rough = rough_side_of(plane.normal, plane.distance, solid.corners[corner]);
+  return rough != 0 ? rough : sgn(value_at(plane, solid.exact_corner(corner)));
 }
 
 ExactSpot spot_of(const Solid& solid, std::uint32_t corner, std::size_t u, std::size_t v) {
-  auto out = solid.exact_corners.empty() ? exact_spot(solid.corners[corner][u], solid.corners[corner][v])
-                                         : spot(solid.exact_corners[corner][u], solid.exact_corners[corner][v]);
-  out.between = {corner, corner};
-  return out;
+  if (solid.exact_corners.empty()) return exact_spot(solid.corners[corner][u], solid.corners[corner][v]);
+  return spot(solid.exact_corners[corner][u], solid.exact_corners[corner][v]);
 }
 
 // Where an edge crosses the plane, on different sides of which its ends are.
 ExactSpot crossing(const SectionPlane& plane, const Solid& solid, const std::array<std::uint32_t, 2>& edge,
                    std::size_t u, std::size_t v) {
   const auto p = solid.exact_corner(edge[0]), q = solid.exact_corner(edge[1]);
-  if (p[u] == q[u] && p[v] == q[v]) {
-    auto out = spot_of(solid, edge[0], u, v);
-    out.between = edge;
-    return out;
-  }
+  if (p[u] == q[u] && p[v] == q[v]) return spot_of(solid, edge[0], u, v);
   const mpq_class at_p = value_at(plane, p), at_q = value_at(plane, q), share = at_p / (at_p - at_q);
   const auto along = [&](std::size_t axis) -> mpq_class { return p[axis] + share * (q[axis] - p[axis]); };
-  auto out = spot(along(u), along(v));
-  out.between = edge;
-  return out;
+  return spot(along(u), along(v));
 }
 
 // A point of an edge, by its share of the way along it: an end, or where the line cd crosses.
@@ -250,11 +235,15 @@ std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& p
   }
   if (!above || (!below && cutting == Cutting::across)) return std::nullopt;
   std::vector<ExactSpot> spots;
+  const auto add = [&](ExactSpot spot, const std::array<std::uint32_t, 2>& between) {
+    spot.between = between;
+    spots.push_back(std::move(spot));
+  };
   for (std::uint32_t i = 0; i < sides.size(); ++i) {
-    if (sides[i] == 0) spots.push_back(spot_of(solid, i, u, v));
+    if (sides[i] == 0) add(spot_of(solid, i, u, v), {i, i});
   }
   for (const auto& edge : solid.edges) {
-    if (sides[edge[0]] * sides[edge[1]] < 0) spots.push_back(crossing(plane, solid, edge, u, v));
+    if (sides[edge[0]] * sides[edge[1]] < 0) add(crossing(plane, solid, edge, u, v), edge);
   }
   if (spots.size() < 3) return std::nullopt;
   ExactPolygon hull = convex_hull(std::move(spots));

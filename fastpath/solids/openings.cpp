@@ -123,14 +123,6 @@ class Opener {
 
 }  // namespace
 
-std::optional<std::size_t> flat_axis(std::span<const Point> points) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (std::all_of(points.begin(), points.end(), [&](const Point& p) { return p[axis] == points[0][axis]; }))
-      return axis;
-  }
-  return std::nullopt;
-}
-
 FilledPlane::FilledPlane(const FacetPlane& plane, std::span<const Solid> solids)
     : plane_(plane), u_((plane.axis + 1) % 3), v_((plane.axis + 2) % 3) {
   SectionPlane section;

@@ -1,9 +1,7 @@
 // T15: what solids fill of a plane that a facet of the cell, or a triangle, lies in. For instance where a facet is open. Most facets of a level's leaves lie on walls; a sight line that meets one there is stopped at once, so that only what is left, doors for instance, is looked through.
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,17 +9,6 @@
 #include "fastpath/solids/solid.h"
 
 namespace clues::fastpath::solids {
-
-// The plane of a facet that is parallel to two axes: exactly one coordinate, and on which side of it the cell is not.
-struct FacetPlane {
-  std::size_t axis = 0;
-  double at = 0;
-  bool outside_is_above = true;
-  std::array<double, 3> key() const { return {static_cast<double>(axis), at, outside_is_above ? 1.0 : 0.0}; }
-};
-
-// The axis along which all of these have exactly the same coordinate.
-std::optional<std::size_t> flat_axis(std::span<const Point> points);
 
 // The solids that lie on the far side of the plane, or reach there through it: what they fill of it, exactly.
 class FilledPlane {

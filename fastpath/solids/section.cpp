@@ -171,21 +171,29 @@ Section::Grid Section::grid_of(const std::vector<Rectangle>& boxes) const {
   return grid;
 }
 
-bool Section::holds(const Spot& spot) const {
-  const std::size_t at = square(spot[0], 0) * squares_ + square(spot[1], 1);
-  const double clear = scale_.margin() * 0x1p-4;
-  for (std::uint32_t i = exact_.polygons_at.first[at]; i < exact_.polygons_at.first[at + 1]; ++i) {
-    const auto& [box, id] = exact_.polygons_at.entries[i];
-    if (!is_within(box, spot, 0)) continue;
-    const auto& polygon = exact_.polygons[id];
+bool Section::is_in_one(const std::vector<Polygon>& polygons, const Grid& at, const Spot& spot, double depth) const {
+  const std::size_t here = square(spot[0], 0) * squares_ + square(spot[1], 1);
+  for (std::uint32_t i = at.first[here]; i < at.first[here + 1]; ++i) {
+    const auto& [box, id] = at.entries[i];
+    if (!is_within(box, spot, std::max(0.0, -depth))) continue;
+    const Polygon& polygon = polygons[id];
     bool inside = true;
     for (std::size_t k = 0; inside && k < polygon.size(); ++k) {
       const Spot &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-      inside = turn_of(a, b, spot) > clear * (std::fabs(b[0] - a[0]) + std::fabs(b[1] - a[1]));
+      inside = turn_of(a, b, spot) > depth * (std::fabs(b[0] - a[0]) + std::fabs(b[1] - a[1]));
     }
     if (inside) return true;
   }
   return false;
+}
+
+bool Section::holds(const Spot& spot) const {
+  return is_in_one(exact_.polygons, exact_.polygons_at, spot, scale_.margin() * 0x1p-4);
+}
+
+bool Section::misses(const Spot& spot) const {
+  const double margin = scale_.margin();
+  return !is_within(all_, spot, margin) || !is_in_one(polygons_, polygons_at_, spot, -margin);
 }
 
 bool Section::rim_meets(const Polygon& window, const Piece& from_piece, const Piece& to_piece) const {
@@ -233,24 +241,6 @@ bool Section::rim_meets(const Polygon& window, const Piece& from_piece, const Pi
     }
   }
   return false;
-}
-
-bool Section::misses(const Spot& spot) const {
-  if (!is_within(all_, spot, scale_.margin())) return true;
-  const std::size_t at = square(spot[0], 0) * squares_ + square(spot[1], 1);
-  const double margin = scale_.margin();
-  for (std::uint32_t i = polygons_at_.first[at]; i < polygons_at_.first[at + 1]; ++i) {
-    const auto& [box, id] = polygons_at_.entries[i];
-    if (!is_within(box, spot, margin)) continue;
-    const auto& polygon = polygons_[id];
-    bool outside = false;
-    for (std::size_t k = 0; !outside && k < polygon.size(); ++k) {
-      const Spot &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-      outside = turn_of(a, b, spot) < -margin * (std::fabs(b[0] - a[0]) + std::fabs(b[1] - a[1]));
-    }
-    if (!outside) return false;
-  }
-  return true;
 }
 
 bool is_inside(const Side& side, const Piece& piece, const Scale& scale) {

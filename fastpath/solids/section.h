@@ -69,6 +69,8 @@ class Section {
   std::size_t square(double x, std::size_t axis) const;
   Grid grid_of(const std::vector<Rectangle>& boxes) const;
   void make_exact() const;
+  // Whether the point is in one of the polygons, as deep as that, or outside by less if it is negative.
+  bool is_in_one(const std::vector<Polygon>& polygons, const Grid& at, const Spot& spot, double depth) const;
   // Whether the point is in one of the sections, and further from its border than crossings may be off.
   bool holds(const Spot& spot) const;
   // Whether it seems to be further away from all of them than the margin.

@@ -53,26 +53,23 @@ Side side_through(const Point& a, const Point& b, const Point& c) {
     u[i] = b[i] - a[i];
     v[i] = c[i] - a[i];
   }
-  Side side{{a, b, c}, nullptr, {}};
+  Side side{{a, b, c}, nullptr, {}, {}};
   Point& n = side.estimate.normal;
   for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
   const double length = std::hypot(n[0], n[1], n[2]);
   for (double& x : n) x /= length;
   side.estimate.distance = n[0] * a[0] + n[1] * a[1] + n[2] * a[2];
-  for (int i = 0; i < 3; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     if (a[axis] != b[axis] || a[axis] != c[axis]) continue;
     Point above = a;
     above[axis] = std::nextafter(above[axis], std::numeric_limits<double>::infinity());
-    side.up = side.side_of(above) > 0;
-    side.at = a[axis];
-    side.axis = i;
+    side.flat = FacetPlane{axis, a[axis], orientation(a, b, c, above) > 0};
   }
   return side;
 }
 
 Side side_along(const scene::HalfSpace& inside) {
-  Side side{{}, std::make_shared<const scene::HalfSpace>(inside), {}};
+  Side side{{}, std::make_shared<const scene::HalfSpace>(inside), {}, {}};
   Point& n = side.estimate.normal;
   mpq_class largest;  // of which normals are as long that no double of it is subnormal
   for (const auto& x : inside.normal) largest = std::max<mpq_class>(largest, abs(x));
@@ -80,44 +77,38 @@ Side side_along(const scene::HalfSpace& inside) {
   const double length = std::hypot(n[0], n[1], n[2]);
   for (double& x : n) x /= length;
   side.estimate.distance = mpq_class(inside.offset / largest).get_d() / length;
-  for (int i = 0; i < 3; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     if (sgn(inside.normal[(axis + 1) % 3]) != 0 || sgn(inside.normal[(axis + 2) % 3]) != 0) continue;
     const mpq_class at = inside.offset / inside.normal[axis];
-    side.at = at.get_d();
-    if (at != side.at) continue;
-    side.up = sgn(inside.normal[axis]) > 0;
-    side.axis = i;
+    if (at == at.get_d()) side.flat = FacetPlane{axis, at.get_d(), sgn(inside.normal[axis]) > 0};
   }
   return side;
 }
 
-// The numbers of an estimate are off by less than 2^-51 of themselves, if all are made as long as the normal is; four products and three sums add 2^-51 of the terms.
+int rough_side_of(const Point& normal, double distance, const Point& point) {
+  double value = -distance, terms = std::fabs(distance);
+  for (std::size_t i = 0; i < 3; ++i) {
+    value += normal[i] * point[i];
+    terms += std::fabs(normal[i] * point[i]);
+  }
+  if (!(std::fabs(value) > 0x1p-49 * terms + kUnderflow)) return 0;
+  return value > 0 ? 1 : -1;
+}
+
 int Side::side_of(const Point& p) const {
-  if (axis >= 0) {
-    const double x = p[static_cast<std::size_t>(axis)];
-    return x == at ? 0 : (x > at) == up ? 1 : -1;
+  if (flat) {
+    const double x = p[flat->axis];
+    return x == flat->at ? 0 : (x > flat->at) == flat->outside_is_above ? 1 : -1;
   }
   if (!inside) return orientation(corners[0], corners[1], corners[2], p);
-  double value = -estimate.distance, terms = std::fabs(estimate.distance);
-  for (std::size_t i = 0; i < 3; ++i) {
-    value += estimate.normal[i] * p[i];
-    terms += std::fabs(estimate.normal[i] * p[i]);
-  }
-  const double error = 0x1p-49 * terms + kUnderflow;
-  if (std::fabs(value) > error) return value > 0 ? 1 : -1;
-  return side_of(scene::to_rational(p));
+  const int rough = rough_side_of(estimate.normal, estimate.distance, p);
+  return rough != 0 ? rough : side_of(scene::to_rational(p));
 }
 
 int Side::side_of(const scene::RationalPoint& p) const {
   if (inside) return sgn(inside->height(p));
-  const auto a = scene::to_rational(corners[0]), b = scene::to_rational(corners[1]), c = scene::to_rational(corners[2]);
-  mpq_class volume;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    volume += (p[i] - a[i]) * ((b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]));
-  }
-  return sgn(volume);
+  return CGAL::orientation(exact::to_exact(corners[0]), exact::to_exact(corners[1]), exact::to_exact(corners[2]),
+                           exact::Point3(exact::FT(p[0]), exact::FT(p[1]), exact::FT(p[2])));
 }
 
 bool Side::has_none_inside(const Solid& solid) const {
@@ -199,14 +190,13 @@ Solid solid_of_polytope(const scene::Polytope& polytope) {
   Solid solid;
   bool rounded = false;
   for (const auto& vertex : polytope.vertices) {
-    Point& corner = solid.corners.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) corner[i] = vertex[i].get_d();
-    rounded = rounded || vertex != scene::to_rational(corner);
+    solid.corners.push_back(scene::to_doubles(vertex));
+    rounded = rounded || vertex != scene::to_rational(solid.corners.back());
   }
   solid.bounds = scene::bounds_of(solid.corners);
   if (rounded) {
     solid.exact_corners = polytope.vertices;
-    for (std::size_t i = 0; i < 3; ++i) {  // corners are off by less than a unit in the last place
+    for (std::size_t i = 0; i < 3; ++i) {  // corners are cut off
       constexpr double infinity = std::numeric_limits<double>::infinity();
       solid.bounds.low[i] = std::nextafter(solid.bounds.low[i], -infinity);
       solid.bounds.high[i] = std::nextafter(solid.bounds.high[i], infinity);

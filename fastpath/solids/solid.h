@@ -30,6 +30,17 @@ struct HalfSpace {
   double above(const Point& x) const { return normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] - distance; }
 };
 
+// On which side of the plane normal * x = distance a point is, -1 or 1; 0 where doubles do not tell. Its coordinates, or the numbers of the plane, may be off by 2^-51 of themselves: with seven roundings that is less than 2^-49 of the terms.
+int rough_side_of(const Point& normal, double distance, const Point& point);
+
+// A plane that is parallel to two axes: exactly one coordinate, and on which side of it is the outside of what it bounds.
+struct FacetPlane {
+  std::size_t axis = 0;
+  double at = 0;
+  bool outside_is_above = true;
+  std::array<double, 3> key() const { return {static_cast<double>(axis), at, outside_is_above ? 1.0 : 0.0}; }
+};
+
 struct Solid;
 
 // A side of a convex polytope: its plane is that of three corners, exactly, or one with rational numbers.
@@ -37,9 +48,7 @@ struct Side {
   std::array<Point, 3> corners{};                  // they turn left seen from outside; of no meaning if there is
   std::shared_ptr<const scene::HalfSpace> inside;  // this: exactly what is inside
   HalfSpace estimate;                              // of the inside, with a normal of about unit length
-  int axis = -1;                                   // the plane is exactly where this coordinate is
-  double at = 0;                                   // so large, if there is such an axis and a double;
-  bool up = false;                                 // and larger ones are outside
+  std::optional<FacetPlane> flat;                  // its plane, where that is such a one
 
   int side_of(const Point& point) const;  // 1: outside, 0: in the plane, -1: inside; exactly
   int side_of(const scene::RationalPoint& point) const;

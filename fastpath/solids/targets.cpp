@@ -30,15 +30,16 @@ void Targets::find_backs(std::uint32_t triangle, const Solids& solids) {
         std::all_of(solid.sides.begin(), solid.sides.end(), [&](const Side& s) { return s.has_none_outside(corners); }))
       backs.push_back(*side);
   }
-  const auto axis = flat_axis(corners);
-  if (!axis) return;
   const Side seen_left = side_through(corners[0], corners[1], corners[2]),
              seen_right = side_through(corners[0], corners[2], corners[1]);
   for (const Side& side : {seen_left, seen_right}) {
-    const bool solids_above = !side.up;
-    const auto is_same = [&](const Side& other) { return other.up != solids_above; };
-    if (std::none_of(backs.begin(), backs.end(), is_same) &&
-        solids.filled({*axis, corners[0][*axis], solids_above}).fills(corners))
+    if (!side.flat) return;
+    FacetPlane behind = *side.flat;
+    behind.outside_is_above = !behind.outside_is_above;
+    const auto is_same = [&](const Side& other) {
+      return other.flat && other.flat->outside_is_above == side.flat->outside_is_above;
+    };
+    if (std::none_of(backs.begin(), backs.end(), is_same) && solids.filled(behind).fills(corners))
       backs.push_back(side);
   }
 }

@@ -64,8 +64,8 @@ ViewCell::ViewCell(const std::vector<Point>& points, const Solids& solids) {
       Window window;
       for (const int i : facet.corners) window.facet.push_back(corners_[static_cast<std::size_t>(i)]);
       window.side = side_through(window.facet[0], window.facet[1], window.facet[2]);
-      if (const auto axis = flat_axis(window.facet)) {
-        const FilledPlane& filled = solids.filled({*axis, window.facet[0][*axis], window.side.up});
+      if (window.side.flat) {
+        const FilledPlane& filled = solids.filled(*window.side.flat);
         window.open = filled.open_parts(window.facet, kSmallestOpening * solids.scale().largest);
       } else {
         add_open_parts(Piece(window.facet), window.side, solids, window.open);

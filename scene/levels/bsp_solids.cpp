@@ -27,8 +27,6 @@ struct Meeting {
   bool with_p_in_it = true;  // not on its boundary
 };
 
-Point to_doubles(const RationalPoint& p) { return {p[0].get_d(), p[1].get_d(), p[2].get_d()}; }
-
 // How far in front of the plane the point is, and by how much that may be wrong. Coordinates are cut off by less than a relative 2^-52 (or by 2^-1074); products, sums and the difference round
 // five times more: below 2^-48 of the sum of the absolute values, and 2^-900 for what underflows: normals are floats.
 struct Height {

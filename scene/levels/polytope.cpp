@@ -153,4 +153,6 @@ std::optional<Polytope> intersection(const Polytope& polytope, const HalfSpace& 
 
 RationalPoint to_rational(const Point& p) { return {mpq_class(p[0]), mpq_class(p[1]), mpq_class(p[2])}; }
 
+Point to_doubles(const RationalPoint& p) { return {p[0].get_d(), p[1].get_d(), p[2].get_d()}; }
+
 }  // namespace clues::scene

@@ -44,5 +44,7 @@ Polytope box_polytope(const RationalPoint& low, const RationalPoint& high);
 std::optional<Polytope> intersection(const Polytope& polytope, const HalfSpace& half_space);
 
 RationalPoint to_rational(const Point& p);
+// Coordinates are cut off towards zero, by less than a unit in the last place.
+Point to_doubles(const RationalPoint& p);
 
 }  // namespace clues::scene

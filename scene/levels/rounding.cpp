@@ -148,8 +148,6 @@ RationalPoint between(const RationalPoint& from, const RationalPoint& to, const 
 
 mpq_class power_of_half(unsigned exponent) { return {mpz_class(1), mpz_class(1) << exponent}; }
 
-Point nearest_corner(const RationalPoint& p) { return {p[0].get_d(), p[1].get_d(), p[2].get_d()}; }
-
 // The plane through three points and the sign of the others; none where they are collinear.
 std::optional<HalfSpace> plane_through(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) {
   HalfSpace plane;
@@ -209,7 +207,7 @@ std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope, std::
   for (const auto& v : polytope.vertices) {
     std::optional<Point> found;
     if (is_double(v)) {
-      found = nearest_corner(v);
+      found = to_doubles(v);
     } else if (grid) {
       found = on_grid(v, *grid, [&](const Point& p) { return polytope.holds(to_rational(p)); });
     }
@@ -217,7 +215,7 @@ std::optional<std::vector<Point>> inner_vertices(const Polytope& polytope, std::
       if (!found && polytope.holds(to_rational(corner))) found = corner;
     }
     for (unsigned exponent = finest; !found && exponent > 0; --exponent) {
-      const Point p = nearest_corner(between(v, center, power_of_half(exponent)));
+      const Point p = to_doubles(between(v, center, power_of_half(exponent)));
       if (polytope.holds(to_rational(p))) found = p;
     }
     if (!found) return std::nullopt;
@@ -230,7 +228,7 @@ std::vector<Point> outer_points(const Polytope& polytope) {
   constexpr std::size_t most_for_hull = 24;  // beyond, a box around each vertex is cheaper than a proof
   if (std::all_of(polytope.vertices.begin(), polytope.vertices.end(), is_double)) {
     std::set<Point> exact;
-    for (const auto& v : polytope.vertices) exact.insert(nearest_corner(v));
+    for (const auto& v : polytope.vertices) exact.insert(to_doubles(v));
     return {exact.begin(), exact.end()};
   }
   if (polytope.vertices.size() <= most_for_hull) {

@@ -213,10 +213,10 @@ TEST(Solid, OfAPolytopeIsExact) {
       EXPECT_LE(side, 0);
       EXPECT_EQ(side == 0, std::binary_search(solid.on_side[i].begin(), solid.on_side[i].end(), k));
     }
-    EXPECT_EQ(solid.sides[i].axis >= 0,
+    EXPECT_EQ(solid.sides[i].flat.has_value(),
               brush->faces[i].half_space.normal[0] == 0 || brush->faces[i].half_space.normal[1] == 0);
   }
-  const auto sloped = std::find_if(solid.sides.begin(), solid.sides.end(), [](const auto& s) { return s.axis < 0; });
+  const auto sloped = std::find_if(solid.sides.begin(), solid.sides.end(), [](const auto& s) { return !s.flat; });
   ASSERT_NE(sloped, solid.sides.end());
   const double near = third.get_d();  // rounded down
   EXPECT_EQ(sloped->side_of(Point{near, 0, 0.5}), -1);
