@@ -12,15 +12,23 @@ constexpr double kBriefUnit = 0x1p6, kBriefMost = 0x1p17;
 
 bool is_brief(double x) { return std::fabs(x) < kBriefMost && x * kBriefUnit == std::nearbyint(x * kBriefUnit); }
 
+ExactSpot with_rationals(double x, double y, mpq_class exact_x, mpq_class exact_y) {
+  ExactSpot spot;
+  spot.x = x;
+  spot.y = y;
+  spot.exact = std::make_shared<const std::array<mpq_class, 2>>(
+      std::array<mpq_class, 2>{std::move(exact_x), std::move(exact_y)});
+  return spot;
+}
+
 ExactSpot spot(mpq_class x, mpq_class y) {
   const double near_x = x.get_d(), near_y = y.get_d();
   if (is_brief(near_x) && is_brief(near_y) && x == near_x && y == near_y) return exact_spot(near_x, near_y);
-  return {near_x, near_y, false, std::move(x), std::move(y)};
+  return with_rationals(near_x, near_y, std::move(x), std::move(y));
 }
 
-mpq_class exact(double near, const mpq_class& value, bool brief) { return brief ? mpq_class(near) : value; }
-mpq_class x_of(const ExactSpot& s) { return exact(s.x, s.exact_x, s.brief); }
-mpq_class y_of(const ExactSpot& s) { return exact(s.y, s.exact_y, s.brief); }
+mpq_class x_of(const ExactSpot& s) { return s.exact ? (*s.exact)[0] : mpq_class(s.x); }
+mpq_class y_of(const ExactSpot& s) { return s.exact ? (*s.exact)[1] : mpq_class(s.y); }
 
 mpq_class exact_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
   const mpq_class ax = x_of(a), ay = y_of(a);
@@ -35,7 +43,7 @@ struct Turn {
 Turn turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
   const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
   Turn t{bx * cy - by * cx, 0};
-  if (a.brief && b.brief && c.brief) return t;
+  if (!a.exact && !b.exact && !c.exact) return t;
   // Each coordinate is off by less than 2^-51 of the largest, a difference by less than 2^-49 of it; products and their difference add 2^-50 of the products.
   const double largest =
       std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y), std::fabs(c.x), std::fabs(c.y)});
@@ -47,12 +55,11 @@ Turn turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
 }  // namespace
 
 ExactSpot exact_spot(double x, double y) {
-  ExactSpot s{x, y, is_brief(x) && is_brief(y), {}, {}};
-  if (!s.brief) {
-    s.exact_x = x;
-    s.exact_y = y;
-  }
-  return s;
+  if (!is_brief(x) || !is_brief(y)) return with_rationals(x, y, x, y);
+  ExactSpot spot;
+  spot.x = x;
+  spot.y = y;
+  return spot;
 }
 
 int sign_of_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
@@ -64,16 +71,19 @@ int sign_of_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
 
 namespace {
 
-int compare(double a, const mpq_class& exact_a, bool brief_a, double b, const mpq_class& exact_b, bool brief_b) {
-  if (brief_a && brief_b) return a < b ? -1 : a > b ? 1 : 0;
-  const double error = 0x1p-50 * (std::fabs(a) + std::fabs(b)) + kUnderflow;
-  if (std::fabs(a - b) > error) return a < b ? -1 : 1;
-  return cmp(exact(a, exact_a, brief_a), exact(b, exact_b, brief_b));
+// By one coordinate, the axis-th.
+int compare(const ExactSpot& a, const ExactSpot& b, std::size_t axis) {
+  const double near_a = axis == 0 ? a.x : a.y, near_b = axis == 0 ? b.x : b.y;
+  if (!a.exact && !b.exact) return near_a < near_b ? -1 : near_a > near_b ? 1 : 0;
+  const double error = 0x1p-50 * (std::fabs(near_a) + std::fabs(near_b)) + kUnderflow;
+  if (std::fabs(near_a - near_b) > error) return near_a < near_b ? -1 : 1;
+  if (a.exact && b.exact) return cmp((*a.exact)[axis], (*b.exact)[axis]);
+  return a.exact ? cmp((*a.exact)[axis], mpq_class(near_b)) : cmp(mpq_class(near_a), (*b.exact)[axis]);
 }
 
 bool before(const ExactSpot& a, const ExactSpot& b) {
-  const int by_x = compare(a.x, a.exact_x, a.brief, b.x, b.exact_x, b.brief);
-  return by_x != 0 ? by_x < 0 : compare(a.y, a.exact_y, a.brief, b.y, b.exact_y, b.brief) < 0;
+  const int by_x = compare(a, b, 0);
+  return by_x != 0 ? by_x < 0 : compare(a, b, 1) < 0;
 }
 
 }  // namespace
@@ -122,9 +132,14 @@ struct Cut {
   const ExactSpot *c = nullptr, *d = nullptr;  // none: an end
 };
 
+// An edge of a polygon, or any segment. Where it abuts others in planes that are known to be the same, numbers say so: exact turns that are 0 are the most there are, else.
 class EdgeOfUnion {
  public:
   EdgeOfUnion(const ExactSpot& a, const ExactSpot& b) : a_(a), b_(b) {}
+  EdgeOfUnion(const ExactPolygon& polygon, std::size_t edge)
+      : a_(polygon[edge]),
+        b_(polygon[(edge + 1) % polygon.size()]),
+        before_(polygon[(edge + polygon.size() - 1) % polygon.size()].plane) {}
 
   // The part of the edge whose outer side is in the polygon.
   void cover_by(const ExactPolygon& polygon) {
@@ -159,7 +174,8 @@ class EdgeOfUnion {
   bool clip(const ExactPolygon& polygon, Cut& from, Cut& to, const Allowed& on_edge) const {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const ExactSpot &c = polygon[i], &d = polygon[(i + 1) % polygon.size()];
-      const int at_a = sign_of_turn(c, d, a_), at_b = sign_of_turn(c, d, b_);
+      const int at_a = c.plane >= 0 && (c.plane == a_.plane || c.plane == before_) ? 0 : sign_of_turn(c, d, a_);
+      const int at_b = c.plane >= 0 && (c.plane == a_.plane || c.plane == b_.plane) ? 0 : sign_of_turn(c, d, b_);
       if (at_a == 0 && at_b == 0) {
         if (!on_edge(c, d)) return false;
       } else if (at_a <= 0 && at_b <= 0) {
@@ -194,7 +210,7 @@ class EdgeOfUnion {
 
   bool is_less(const Cut& x, const Cut& y) const {
     if (std::fabs(x.share - y.share) > x.error + y.error) return x.share < y.share;
-    if (x.c == nullptr && y.c == nullptr) return false;
+    if (x.c == nullptr ? y.c == nullptr : y.c != nullptr && x.c->plane >= 0 && x.c->plane == y.c->plane) return false;
     return exact_share(x) < exact_share(y);
   }
 
@@ -205,8 +221,22 @@ class EdgeOfUnion {
   }
 
   const ExactSpot &a_, &b_;
+  std::int32_t before_ = -1;  // the plane of the edge before
   std::vector<std::pair<Cut, Cut>> covered_;
 };
+
+// The number of a side in whose plane two corners of a section are, but not a third one: that side is not in the plane of the section. -1 where none is found.
+std::int32_t side_with(const Solid& solid, const ExactSpot& a, const ExactSpot& b, const ExactSpot& third) {
+  for (std::size_t i = 0; i < solid.on_side.size(); ++i) {
+    const auto& on = solid.on_side[i];
+    const auto has = [&](const ExactSpot& spot) {
+      return std::all_of(spot.between.begin(), spot.between.end(),
+                         [&](std::uint32_t corner) { return std::binary_search(on.begin(), on.end(), corner); });
+    };
+    if (has(a) && has(b) && !has(third)) return static_cast<std::int32_t>(i);
+  }
+  return -1;
+}
 
 bool touch_within(const Rectangle& a, const Rectangle& b, double slack) {
   for (std::size_t i = 0; i < 2; ++i) {
@@ -248,17 +278,11 @@ std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& p
   if (spots.size() < 3) return std::nullopt;
   ExactPolygon hull = convex_hull(std::move(spots));
   if (hull.size() < 3) return std::nullopt;
-  return hull;
-}
-
-int side_with(const Solid& solid, const ExactSpot& a, const ExactSpot& b) {
-  for (std::size_t i = 0; i < solid.on_side.size(); ++i) {
-    const auto& on = solid.on_side[i];
-    const auto has = [&](std::uint32_t corner) { return std::binary_search(on.begin(), on.end(), corner); };
-    if (std::all_of(a.between.begin(), a.between.end(), has) && std::all_of(b.between.begin(), b.between.end(), has))
-      return static_cast<int>(i);
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    hull[k].side = side_with(solid, hull[k], hull[(k + 1) % hull.size()], hull[(k + 2) % hull.size()]);
+    if (hull[k].side >= 0) hull[k].plane = solid.sides[static_cast<std::size_t>(hull[k].side)].plane;
   }
-  return -1;
+  return hull;
 }
 
 std::vector<RimPart> rim_of_union(const std::vector<ExactPolygon>& polygons) {
@@ -277,7 +301,7 @@ std::vector<RimPart> rim_of_union(const std::vector<ExactPolygon>& polygons) {
       if (j != i && touch_within(mine, other, slack)) beside.push_back(&polygons[j]);
     }
     for (std::uint32_t k = 0; k < polygons[i].size(); ++k) {
-      EdgeOfUnion edge(polygons[i][k], polygons[i][(k + 1) % polygons[i].size()]);
+      EdgeOfUnion edge(polygons[i], k);
       for (const auto* other : beside) edge.cover_by(*other);
       edge.for_rim([&](ExactSegment segment) { rim.push_back({std::move(segment), i, k}); });
     }

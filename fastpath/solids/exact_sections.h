@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,12 +14,15 @@
 
 namespace clues::fastpath::solids {
 
-// A point of the plane, and its coordinates as doubles: nearest but for one bit, or exact where `brief` says so.
+// A point of the plane. Its coordinates as doubles are nearest but for one bit; or exact, and such that determinants of them are exact in doubles: multiples of 2^-6 below 2^17.
 struct ExactSpot {
   double x = 0, y = 0;
-  bool brief = false;                      // multiples of 2^-6 below 2^17: determinants of such are exact in doubles
-  mpq_class exact_x, exact_y;              // unless it is brief
+  std::shared_ptr<const std::array<mpq_class, 2>> exact;  // none: x and y are
   std::array<std::uint32_t, 2> between{};  // of a section: the corners of the solid that it lies between, or one twice
+  std::int32_t
+      side = -1,
+      plane =
+          -1;  // of a section: the side of the solid that its edge from here to the next corner is in, and its number (Side::plane); -1: not known
 };
 
 ExactSpot exact_spot(double x, double y);
@@ -40,9 +44,6 @@ enum class Cutting : std::uint8_t { across, just_above };
 // None where there is nothing with an area. `dropped` is the axis that is left out of the coordinates.
 std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& plane, std::size_t dropped,
                                        Cutting cutting);
-
-// The number of a side of the solid in whose plane an edge of its section lies; -1 where none is found.
-int side_with(const Solid& solid, const ExactSpot& a, const ExactSpot& b);
 
 // A part of an edge of one of some polygons.
 struct RimPart {

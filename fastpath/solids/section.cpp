@@ -134,8 +134,7 @@ void Section::make_exact() const {
     of.push_back(solid);
   }
   for (const auto& [segment, polygon, edge] : rim_of_union(exact)) {
-    const auto& corners = exact[polygon];
-    const int side = side_with(*of[polygon], corners[edge], corners[(edge + 1) % corners.size()]);
+    const auto side = exact[polygon][edge].side;
     exact_.rim.push_back({{segment[0].x, segment[0].y},
                           {segment[1].x, segment[1].y},
                           side < 0 ? nullptr : &of[polygon]->sides[static_cast<std::size_t>(side)]});

@@ -69,7 +69,8 @@ Side side_through(const Point& a, const Point& b, const Point& c) {
 }
 
 Side side_along(const scene::HalfSpace& inside) {
-  Side side{{}, std::make_shared<const scene::HalfSpace>(inside), {}, {}};
+  Side side;
+  side.inside = std::make_shared<const scene::HalfSpace>(inside);
   Point& n = side.estimate.normal;
   mpq_class largest;  // of which normals are as long that no double of it is subnormal
   for (const auto& x : inside.normal) largest = std::max<mpq_class>(largest, abs(x));
@@ -109,6 +110,25 @@ int Side::side_of(const scene::RationalPoint& p) const {
   if (inside) return sgn(inside->height(p));
   return CGAL::orientation(exact::to_exact(corners[0]), exact::to_exact(corners[1]), exact::to_exact(corners[2]),
                            exact::Point3(exact::FT(p[0]), exact::FT(p[1]), exact::FT(p[2])));
+}
+
+std::array<mpq_class, 4> Side::exact_plane() const {
+  std::array<mpq_class, 4> numbers;
+  if (inside) {
+    numbers = {inside->normal[0], inside->normal[1], inside->normal[2], inside->offset};
+  } else {
+    const auto a = scene::to_rational(corners[0]), b = scene::to_rational(corners[1]),
+               c = scene::to_rational(corners[2]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t u = (i + 1) % 3, v = (i + 2) % 3;
+      numbers[i] = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
+      numbers[3] += numbers[i] * a[i];
+    }
+  }
+  const auto first = std::find_if(numbers.begin(), numbers.end() - 1, [](const mpq_class& x) { return sgn(x) != 0; });
+  const mpq_class unit = *first;
+  for (mpq_class& x : numbers) x /= unit;
+  return numbers;
 }
 
 bool Side::has_none_inside(const Solid& solid) const {

@@ -1,6 +1,8 @@
 // T15: convex solids, the surfaces of which block all over: parts of a mesh, or the brushes of a level, which have rational corners.
 #pragma once
 
+#include <gmpxx.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -49,9 +51,12 @@ struct Side {
   std::shared_ptr<const scene::HalfSpace> inside;  // this: exactly what is inside
   HalfSpace estimate;                              // of the inside, with a normal of about unit length
   std::optional<FacetPlane> flat;                  // its plane, where that is such a one
+  std::int32_t plane = -1;                         // sides in the same plane have the same number; -1: not known
 
   int side_of(const Point& point) const;  // 1: outside, 0: in the plane, -1: inside; exactly
   int side_of(const scene::RationalPoint& point) const;
+  // Coefficients of its plane a x + b y + c z = d, of which the first that is not 0 is 1: the same for sides in the same plane.
+  std::array<mpq_class, 4> exact_plane() const;
   // Of all points, or of all corners of the solid.
   bool has_none_inside(const std::vector<Point>& points) const;
   bool has_none_inside(const Solid& solid) const;

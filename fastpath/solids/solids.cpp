@@ -86,6 +86,7 @@ Solids::Solids(std::vector<Solid> solids, const Bounds& about) : solids_(std::mo
            std::any_of(solid.sides.begin(), solid.sides.end(), has_no_normal);
   });
   build();
+  number_planes();
   find_planes();
 }
 
@@ -113,6 +114,14 @@ std::uint32_t Solids::build(std::uint32_t first, std::uint32_t count) {
   nodes_[at].left = left;
   nodes_[at].right = right;
   return at;
+}
+
+void Solids::number_planes() {
+  std::map<std::array<mpq_class, 4>, std::int32_t> numbers;
+  for (Solid& solid : solids_) {
+    for (Side& side : solid.sides)
+      side.plane = numbers.try_emplace(side.exact_plane(), static_cast<std::int32_t>(numbers.size())).first->second;
+  }
 }
 
 void Solids::find_planes() {

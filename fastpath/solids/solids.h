@@ -62,6 +62,7 @@ class Solids {
   };
   void build();
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
+  void number_planes();
   void find_planes();
   template <typename Visit>
   void walk(const Point& from, const Point& to, const Visit& visit) const;
