@@ -108,11 +108,11 @@ Section::Section(const SectionPlane& plane, std::span<const Solid> solids, const
   std::vector<Rectangle> boxes;
   for (const Solid& solid : solids) {
     if (misses_box(plane_, solid.bounds)) continue;
-    Polygon polygon = rough_section(solid, plane_, u_, v_);
+    const Polygon polygon = rough_section(solid, plane_, u_, v_);
     if (polygon.size() < 3) continue;
     boxes.push_back(rectangle_around(polygon));
     all_ = of_.empty() ? boxes.back() : hull_of(all_, boxes.back());
-    polygons_.push_back(std::move(polygon));
+    polygons_.add(polygon);
     of_.push_back(&solid);
   }
   squares_ = std::clamp<std::size_t>(
@@ -127,8 +127,9 @@ void Section::make_exact() const {
   for (const Solid* solid : of_) {
     auto polygon = section_of(*solid, plane_, dropped_, Cutting::across);
     if (!polygon) continue;
-    auto& rounded = exact_.polygons.emplace_back();
+    Polygon rounded;
     for (const auto& spot : *polygon) rounded.push_back({spot.x, spot.y});
+    exact_.polygons.add(rounded);
     of_polygons.push_back(rectangle_around(rounded));
     exact.push_back(std::move(*polygon));
     of.push_back(solid);
@@ -170,15 +171,15 @@ Section::Grid Section::grid_of(const std::vector<Rectangle>& boxes) const {
   return grid;
 }
 
-bool Section::is_in_one(const std::vector<Polygon>& polygons, const Grid& at, const Spot& spot, double depth) const {
+bool Section::is_in_one(const Polygons& polygons, const Grid& at, const Spot& spot, double depth) const {
   const std::size_t here = square(spot[0], 0) * squares_ + square(spot[1], 1);
   for (std::uint32_t i = at.first[here]; i < at.first[here + 1]; ++i) {
     const auto& [box, id] = at.entries[i];
     if (!is_within(box, spot, std::max(0.0, -depth))) continue;
-    const Polygon& polygon = polygons[id];
+    const std::uint32_t first = polygons.first[id], end = polygons.first[id + 1];
     bool inside = true;
-    for (std::size_t k = 0; inside && k < polygon.size(); ++k) {
-      const Spot &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    for (std::uint32_t k = first; inside && k < end; ++k) {
+      const Spot &a = polygons.corners[k], &b = polygons.corners[k + 1 < end ? k + 1 : first];
       inside = turn_of(a, b, spot) > depth * (std::fabs(b[0] - a[0]) + std::fabs(b[1] - a[1]));
     }
     if (inside) return true;
@@ -258,7 +259,7 @@ bool is_inside(const Side& side, const Piece& piece, const Scale& scale) {
 
 bool Section::covers(const Piece& from_piece, const Piece& to_piece) const {
   const auto &from = from_piece.corners, &to = to_piece.corners;
-  if (polygons_.empty()) return false;
+  if (of_.empty()) return false;
   static thread_local Distances of_from, of_to;
   static thread_local std::vector<Spot> crossings, window;
   const double clearance = scale_.clearance();

@@ -57,12 +57,21 @@ class Section {
     std::vector<std::uint32_t> first;
     std::vector<Entry> entries;
   };
+  struct Polygons {
+    std::vector<Spot> corners;            // counter-clockwise, polygon by polygon,
+    std::vector<std::uint32_t> first{0};  // which begin here; one more at the end
+    std::size_t size() const { return first.size() - 1; }
+    void add(std::span<const Spot> polygon) {
+      corners.insert(corners.end(), polygon.begin(), polygon.end());
+      first.push_back(static_cast<std::uint32_t>(corners.size()));
+    }
+  };
   struct Rim {
     Spot a, b;
     const Side* side;  // in whose plane it lies; none: not known
   };
   struct Exact {
-    std::vector<Polygon> polygons;
+    Polygons polygons;
     std::vector<Rim> rim;
     Grid polygons_at, rim_at;
   };
@@ -70,7 +79,7 @@ class Section {
   Grid grid_of(const std::vector<Rectangle>& boxes) const;
   void make_exact() const;
   // Whether the point is in one of the polygons, as deep as that, or outside by less if it is negative.
-  bool is_in_one(const std::vector<Polygon>& polygons, const Grid& at, const Spot& spot, double depth) const;
+  bool is_in_one(const Polygons& polygons, const Grid& at, const Spot& spot, double depth) const;
   // Whether the point is in one of the sections, and further from its border than crossings may be off.
   bool holds(const Spot& spot) const;
   // Whether it seems to be further away from all of them than the margin.
@@ -83,7 +92,7 @@ class Section {
   std::size_t dropped_ = 0, u_ = 1,
               v_ = 2;  // the axis that is left out in the plane, along which its normal is longest; the others
   std::vector<const Solid*> of_;
-  std::vector<Polygon> polygons_;  // of these, in doubles, for guesses
+  Polygons polygons_;  // of these, in doubles, for guesses
   Rectangle all_;
   std::size_t squares_ = 1;  // along each axis
   Grid polygons_at_;

@@ -57,27 +57,6 @@ bool passes(const Bounds& box, const Way& way) {
   return in <= out;
 }
 
-bool pierce(const Solid& solid, const Point& from, const Point& to, Pierced& hit) {
-  hit.in = 0;
-  hit.out = 1;
-  hit.side_in = hit.side_out = -1;
-  for (std::size_t i = 0; i < solid.sides.size(); ++i) {
-    const double at_from = solid.sides[i].estimate.above(from), at_to = solid.sides[i].estimate.above(to);
-    if (at_from >= 0 && at_to >= 0) return false;
-    if (at_from <= 0 && at_to <= 0) continue;
-    const double share = at_from / (at_from - at_to);
-    if (at_from > 0 && share > hit.in) {
-      hit.in = share;
-      hit.side_in = static_cast<std::int32_t>(i);
-    } else if (at_to > 0 && share < hit.out) {
-      hit.out = share;
-      hit.side_out = static_cast<std::int32_t>(i);
-    }
-    if (hit.in >= hit.out) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Solids::Solids(std::vector<Solid> solids, const Bounds& about) : solids_(std::move(solids)), scale_(Scale::of(about)) {
@@ -85,9 +64,34 @@ Solids::Solids(std::vector<Solid> solids, const Bounds& about) : solids_(std::mo
     return !is_in_range(scale_) || reaches_too_far(solid, scale_) ||
            std::any_of(solid.sides.begin(), solid.sides.end(), has_no_normal);
   });
+  for (const Solid& solid : solids_) {
+    first_estimate_.push_back(static_cast<std::uint32_t>(estimates_.size()));
+    for (const Side& side : solid.sides) estimates_.push_back(side.estimate);
+  }
+  first_estimate_.push_back(static_cast<std::uint32_t>(estimates_.size()));
   build();
   number_planes();
   find_planes();
+}
+
+bool Solids::pierce(std::uint32_t solid, const Point& from, const Point& to, Pierced& hit) const {
+  hit = {0, 1, solid, -1, -1};
+  const std::uint32_t first = first_estimate_[solid], end = first_estimate_[solid + 1];
+  for (std::uint32_t i = first; i < end; ++i) {
+    const double at_from = estimates_[i].above(from), at_to = estimates_[i].above(to);
+    if (at_from >= 0 && at_to >= 0) return false;
+    if (at_from <= 0 && at_to <= 0) continue;
+    const double share = at_from / (at_from - at_to);
+    if (at_from > 0 && share > hit.in) {
+      hit.in = share;
+      hit.side_in = static_cast<std::int32_t>(i - first);
+    } else if (at_to > 0 && share < hit.out) {
+      hit.out = share;
+      hit.side_out = static_cast<std::int32_t>(i - first);
+    }
+    if (hit.in >= hit.out) return false;
+  }
+  return true;
 }
 
 void Solids::build() {
@@ -193,8 +197,7 @@ void Solids::find_pierced(const Point& from, const Point& to, std::vector<Pierce
   out.clear();
   walk(from, to, [&](std::uint32_t solid) {
     Pierced hit;
-    hit.solid = solid;
-    if (pierce(solids_[solid], from, to, hit)) out.push_back(hit);
+    if (pierce(solid, from, to, hit)) out.push_back(hit);
     return false;
   });
   std::sort(out.begin(), out.end(),
@@ -203,10 +206,10 @@ void Solids::find_pierced(const Point& from, const Point& to, std::vector<Pierce
 
 bool Solids::pierces_any(const Point& from, const Point& to, std::uint32_t& likely) const {
   Pierced hit;
-  if (likely < solids_.size() && pierce(solids_[likely], from, to, hit)) return true;
+  if (likely < solids_.size() && pierce(likely, from, to, hit)) return true;
   bool any = false;
   walk(from, to, [&](std::uint32_t solid) {
-    any = pierce(solids_[solid], from, to, hit);
+    any = pierce(solid, from, to, hit);
     if (any) likely = solid;
     return any;
   });

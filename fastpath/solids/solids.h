@@ -63,11 +63,14 @@ class Solids {
   void build();
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
   void number_planes();
+  bool pierce(std::uint32_t solid, const Point& from, const Point& to, Pierced& hit) const;
   void find_planes();
   template <typename Visit>
   void walk(const Point& from, const Point& to, const Visit& visit) const;
 
   std::vector<Solid> solids_;
+  std::vector<HalfSpace> estimates_;           // of all sides, solid by solid,
+  std::vector<std::uint32_t> first_estimate_;  // which begin here; one more at the end
   Scale scale_;
   std::vector<Node> nodes_;  // node 0 is the root; none without solids
   std::vector<std::uint32_t> order_;
