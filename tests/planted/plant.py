@@ -41,6 +41,9 @@ COPIES = {
     # A triangle is seen from behind if the cell reaches there.
     "behind_from_the_side": ("fastpath/view_cell.cpp", [
         ("return s.has_none_outside(corners_); });", "return !s.has_all_outside(corners_); });")]),
+    # An edge of a section lies in the side that is in the section's own plane.
+    "side_in_the_section": ("fastpath/exact_sections.cpp", [
+        ("if (has(a) && has(b) && !has(third))", "if (has(a) && has(b) && (!has(third) || true))")]),
     # What touches the cell may be hidden.
     "touched_and_hidden": ("fastpath/view_cell.cpp", [
         ("return is_apart_from(target) && is_out_of_solids_around(target);", "return is_out_of_solids_around(target);")]),

@@ -5,10 +5,8 @@
 #include <array>
 #include <cmath>
 #include <iostream>
-#include <set>
 #include <utility>
 
-#include "fastpath/solids/exact_sections.h"
 #include "fastpath/solids/find_solids.h"
 #include "fastpath/solids/shafts.h"
 #include "tests/solids/worlds.h"
@@ -255,63 +253,11 @@ TEST(Solid, OfSubnormalNumbersIsExact) {
   }
 }
 
-// Sections of all solids by a plane, where they lie just above it or across, with numbers of planes or without.
-std::vector<solids::ExactPolygon> sections_of(const solids::Solids& all, const solids::SectionPlane& plane,
-                                              std::size_t dropped, solids::Cutting cutting) {
-  std::vector<solids::ExactPolygon> polygons;
-  for (const Solid& solid : all.all()) {
-    if (auto polygon = solids::section_of(solid, plane, dropped, cutting)) polygons.push_back(std::move(*polygon));
-  }
-  return polygons;
-}
-
-// Numbers of planes only tell sooner what rationals tell: where boxes and brushes abut, overlap and have faces in the plane that cuts them.
 TEST(Rim, IsTheSameWithoutNumbersOfPlanes) {
-  std::size_t parts = 0, known = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    const World world = random_world(seed);
-    auto walls = solids::find_solids(world.scene);
-    for (const auto& brush : world.brushes) walls.push_back(solids::solid_of_polytope(brush));
-    const solids::Solids all(std::move(walls), solids::bounds_of_questions(world.scene, {world.cell}));
-    std::set<std::pair<std::size_t, double>> flat;
-    for (const Solid& solid : all.all()) {
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (const Point& corner : solid.corners) flat.insert({axis, corner[axis]});
-      }
-    }
-    for (const auto& [axis, at] : flat) {
-      for (const double up : {1.0, -1.0}) {
-        for (const auto cutting : {solids::Cutting::across, solids::Cutting::just_above}) {
-          for (const double lean : {0.0, 0.125}) {
-            solids::SectionPlane plane;
-            plane.normal[axis] = up;
-            plane.normal[(axis + 1) % 3] = lean;
-            plane.distance = up * at;
-            const auto polygons = sections_of(all, plane, axis, cutting);
-            auto without = polygons;
-            for (auto& polygon : without) {
-              for (auto& spot : polygon) {
-                known += spot.plane >= 0 ? 1 : 0;
-                spot.plane = -1;
-              }
-            }
-            const auto rim = solids::rim_of_union(polygons), expected = solids::rim_of_union(without);
-            ASSERT_EQ(rim.size(), expected.size()) << "world " << seed;
-            for (std::size_t i = 0; i < rim.size(); ++i, ++parts) {
-              ASSERT_EQ(rim[i].polygon, expected[i].polygon) << "world " << seed;
-              ASSERT_EQ(rim[i].edge, expected[i].edge) << "world " << seed;
-              for (std::size_t k = 0; k < 2; ++k) {
-                ASSERT_EQ(rim[i].segment[k].x, expected[i].segment[k].x) << "world " << seed;
-                ASSERT_EQ(rim[i].segment[k].y, expected[i].segment[k].y) << "world " << seed;
-              }
-            }
-          }
-        }
-      }
-    }
-  }
-  EXPECT_GT(parts, 10'000U);
-  EXPECT_GT(known, 10'000U);
+  const Rims rims = compare_rims(1, 60);
+  EXPECT_EQ(rims.differs, "");
+  EXPECT_GT(rims.parts, 10'000U);
+  EXPECT_GT(rims.numbered, 10'000U);
 }
 
 TEST(FilledPlane, KnowsWhereAFacetIsOpen) {

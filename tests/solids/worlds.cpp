@@ -8,11 +8,14 @@
 #include <cstddef>
 #include <memory>
 #include <random>
+#include <set>
+#include <utility>
 
 #include "exact/cell/convex_cell.h"
 #include "exact/kernel.h"
 #include "exact/sight/scene_query.h"
 #include "fastpath/queries/segment_queries.h"
+#include "fastpath/solids/exact_sections.h"
 #include "fastpath/solids/find_solids.h"
 #include "fastpath/solids/shafts.h"
 
@@ -167,15 +170,24 @@ World random_world(std::uint64_t seed) {
   return world;
 }
 
+namespace {
+
+namespace solids = fastpath::solids;
+
+solids::Solids solids_of_world(const World& world) {
+  auto all = solids::find_solids(world.scene);
+  for (auto& brush : solids::solids_of(world.brushes)) all.push_back(std::move(brush));
+  return {std::move(all), solids::bounds_of_questions(world.scene, {world.cell})};
+}
+
+}  // namespace
+
 Looked look_for_what_is_hidden(std::uint64_t first_seed, std::uint64_t worlds, int lines_for_each) {
-  namespace solids = fastpath::solids;
   Looked looked;
   for (std::uint64_t seed = first_seed; seed < first_seed + worlds && looked.seen.empty(); ++seed) {
     const World world = random_world(seed);
     const auto& mesh = world.scene.mesh;
-    auto walls_with_brushes = solids::find_solids(world.scene);
-    for (auto& brush : solids::solids_of(world.brushes)) walls_with_brushes.push_back(std::move(brush));
-    const solids::Solids found(std::move(walls_with_brushes), solids::bounds_of_questions(world.scene, {world.cell}));
+    const solids::Solids found = solids_of_world(world);
     const auto listed = solids::not_hidden(found, solids::Targets(world.scene, found), world.cell);
     const auto blocking = scene::blocking_ids(world.scene);
     const auto walls = scene::part_of(mesh, blocking);
@@ -212,6 +224,79 @@ Looked look_for_what_is_hidden(std::uint64_t first_seed, std::uint64_t worlds, i
     }
   }
   return looked;
+}
+
+namespace {
+
+struct Cut {
+  solids::SectionPlane plane;
+  std::size_t dropped = 0;
+  solids::Cutting cutting = solids::Cutting::across;
+};
+
+std::vector<Cut> cuts_of(const solids::Solids& all) {
+  std::set<std::pair<std::size_t, double>> flat;
+  for (const auto& solid : all.all()) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (const Point& corner : solid.corners) flat.insert({axis, corner[axis]});
+    }
+  }
+  std::vector<Cut> cuts;
+  for (const auto& [axis, at] : flat) {
+    for (const double up : {1.0, -1.0}) {
+      for (const auto cutting : {solids::Cutting::across, solids::Cutting::just_above}) {
+        for (const double lean : {0.0, 0.125}) {
+          Cut& cut = cuts.emplace_back();
+          cut.plane.normal[axis] = up;
+          cut.plane.normal[(axis + 1) % 3] = lean;
+          cut.plane.distance = up * at;
+          cut.dropped = axis;
+          cut.cutting = cutting;
+        }
+      }
+    }
+  }
+  return cuts;
+}
+
+bool are_same(const solids::RimPart& a, const solids::RimPart& b) {
+  const auto ends = [](const solids::RimPart& part) {
+    const auto& [from, to] = part.segment;
+    return std::array{from.x, from.y, to.x, to.y};
+  };
+  return a.polygon == b.polygon && a.edge == b.edge && ends(a) == ends(b);
+}
+
+}  // namespace
+
+Rims compare_rims(std::uint64_t first_seed, std::uint64_t worlds) {
+  Rims rims;
+  for (std::uint64_t seed = first_seed; seed < first_seed + worlds; ++seed) {
+    const World world = random_world(seed);
+    const solids::Solids all = solids_of_world(world);
+    for (const Cut& cut : cuts_of(all)) {
+      std::vector<solids::ExactPolygon> polygons;
+      for (const auto& solid : all.all()) {
+        if (auto polygon = solids::section_of(solid, cut.plane, cut.dropped, cut.cutting))
+          polygons.push_back(std::move(*polygon));
+      }
+      auto without = polygons;
+      for (auto& polygon : without) {
+        for (auto& spot : polygon) {
+          rims.numbered += spot.plane >= 0 ? 1 : 0;
+          spot.plane = -1;
+        }
+      }
+      const auto rim = solids::rim_of_union(polygons), expected = solids::rim_of_union(without);
+      rims.parts += rim.size();
+      if (std::equal(rim.begin(), rim.end(), expected.begin(), expected.end(), are_same)) continue;
+      const auto& n = cut.plane.normal;
+      rims.differs = fmt::format("seed {}: {} parts for {} in the plane {} {} {} at {}", seed, rim.size(),
+                                 expected.size(), n[0], n[1], n[2], cut.plane.distance);
+      return rims;
+    }
+  }
+  return rims;
 }
 
 }  // namespace clues::tests

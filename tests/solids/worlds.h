@@ -34,4 +34,13 @@ struct Looked {
 // each triangle, also such that are close to its corners and edges.
 Looked look_for_what_is_hidden(std::uint64_t first_seed, std::uint64_t worlds, int lines_for_each);
 
+struct Rims {
+  std::string differs;                    // the first that is not the same; empty: none
+  std::uint64_t parts = 0, numbered = 0;  // of the rims, and edges whose plane has a number
+};
+
+// Compares the rims of sections with what they are where no plane has a number, so that rationals decide what numbers do: in each world by planes with faces of its solids, and by
+// such that lean.
+Rims compare_rims(std::uint64_t first_seed, std::uint64_t worlds);
+
 }  // namespace clues::tests
