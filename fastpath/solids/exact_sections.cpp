@@ -13,12 +13,9 @@ constexpr double kBriefUnit = 0x1p6, kBriefMost = 0x1p17;
 bool is_brief(double x) { return std::fabs(x) < kBriefMost && x * kBriefUnit == std::nearbyint(x * kBriefUnit); }
 
 ExactSpot with_rationals(double x, double y, mpq_class exact_x, mpq_class exact_y) {
-  ExactSpot spot;
-  spot.x = x;
-  spot.y = y;
-  spot.exact = std::make_shared<const std::array<mpq_class, 2>>(
-      std::array<mpq_class, 2>{std::move(exact_x), std::move(exact_y)});
-  return spot;
+  return {x, y,
+          std::make_shared<const std::array<mpq_class, 2>>(
+              std::array<mpq_class, 2>{std::move(exact_x), std::move(exact_y)})};
 }
 
 ExactSpot spot(mpq_class x, mpq_class y) {
@@ -55,11 +52,8 @@ Turn turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
 }  // namespace
 
 ExactSpot exact_spot(double x, double y) {
-  if (!is_brief(x) || !is_brief(y)) return with_rationals(x, y, x, y);
-  ExactSpot spot;
-  spot.x = x;
-  spot.y = y;
-  return spot;
+  if (is_brief(x) && is_brief(y)) return {x, y, nullptr};
+  return with_rationals(x, y, x, y);
 }
 
 int sign_of_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
@@ -132,7 +126,7 @@ struct Cut {
   const ExactSpot *c = nullptr, *d = nullptr;  // none: an end
 };
 
-// An edge of a polygon, or any segment. Where it abuts others in planes that are known to be the same, numbers say so: exact turns that are 0 are the most there are, else.
+// An edge of a polygon, or any segment. That it is on the line of another edge is told by numbers of planes, where they are known: else nearly all turns that doubles leave open would be such.
 class EdgeOfUnion {
  public:
   EdgeOfUnion(const ExactSpot& a, const ExactSpot& b) : a_(a), b_(b) {}
@@ -174,8 +168,11 @@ class EdgeOfUnion {
   bool clip(const ExactPolygon& polygon, Cut& from, Cut& to, const Allowed& on_edge) const {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const ExactSpot &c = polygon[i], &d = polygon[(i + 1) % polygon.size()];
-      const int at_a = c.plane >= 0 && (c.plane == a_.plane || c.plane == before_) ? 0 : sign_of_turn(c, d, a_);
-      const int at_b = c.plane >= 0 && (c.plane == a_.plane || c.plane == b_.plane) ? 0 : sign_of_turn(c, d, b_);
+      const auto side_of = [&](const ExactSpot& spot, std::int32_t plane_before) {
+        const bool on_line = c.plane >= 0 && (c.plane == plane_before || c.plane == spot.plane);
+        return on_line ? 0 : sign_of_turn(c, d, spot);
+      };
+      const int at_a = side_of(a_, before_), at_b = side_of(b_, a_.plane);
       if (at_a == 0 && at_b == 0) {
         if (!on_edge(c, d)) return false;
       } else if (at_a <= 0 && at_b <= 0) {

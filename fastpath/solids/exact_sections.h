@@ -19,10 +19,9 @@ struct ExactSpot {
   double x = 0, y = 0;
   std::shared_ptr<const std::array<mpq_class, 2>> exact;  // none: x and y are
   std::array<std::uint32_t, 2> between{};  // of a section: the corners of the solid that it lies between, or one twice
-  std::int32_t
-      side = -1,
-      plane =
-          -1;  // of a section: the side of the solid that its edge from here to the next corner is in, and its number (Side::plane); -1: not known
+  // Of the edge of a section from here to the next corner; -1: not known.
+  std::int32_t side = -1;   // of the solid, in whose plane it lies,
+  std::int32_t plane = -1;  // and Side::plane of that
 };
 
 ExactSpot exact_spot(double x, double y);

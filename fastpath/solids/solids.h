@@ -63,8 +63,8 @@ class Solids {
   void build();
   std::uint32_t build(std::uint32_t first, std::uint32_t count);
   void number_planes();
-  bool pierce(std::uint32_t solid, const Point& from, const Point& to, Pierced& hit) const;
   void find_planes();
+  bool pierce(std::uint32_t solid, const Point& from, const Point& to, Pierced& hit) const;
   template <typename Visit>
   void walk(const Point& from, const Point& to, const Visit& visit) const;
 
