@@ -113,18 +113,12 @@ int Side::side_of(const scene::RationalPoint& p) const {
 }
 
 std::array<mpq_class, 4> Side::exact_plane() const {
-  std::array<mpq_class, 4> numbers;
-  if (inside) {
-    numbers = {inside->normal[0], inside->normal[1], inside->normal[2], inside->offset};
-  } else {
-    const auto a = scene::to_rational(corners[0]), b = scene::to_rational(corners[1]),
-               c = scene::to_rational(corners[2]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t u = (i + 1) % 3, v = (i + 2) % 3;
-      numbers[i] = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
-      numbers[3] += numbers[i] * a[i];
-    }
-  }
+  const auto [normal, offset] =
+      inside ? *inside
+             : scene::plane_through(scene::to_rational(corners[0]), scene::to_rational(corners[1]),
+                                    scene::to_rational(corners[2]))
+                   .value();
+  std::array<mpq_class, 4> numbers{normal[0], normal[1], normal[2], offset};
   const auto first = std::find_if(numbers.begin(), numbers.end() - 1, [](const mpq_class& x) { return sgn(x) != 0; });
   const mpq_class unit = *first;
   for (mpq_class& x : numbers) x /= unit;

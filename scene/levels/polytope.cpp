@@ -120,6 +120,17 @@ HalfSpace HalfSpace::opposite() const {
   return {{mpq_class(-normal[0]), mpq_class(-normal[1]), mpq_class(-normal[2])}, mpq_class(-offset)};
 }
 
+std::optional<HalfSpace> plane_through(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) {
+  HalfSpace plane;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
+    plane.normal[axis] = (b[y] - a[y]) * (c[z] - a[z]) - (b[z] - a[z]) * (c[y] - a[y]);
+    plane.offset += plane.normal[axis] * a[axis];
+  }
+  if (sgn(plane.normal[0]) == 0 && sgn(plane.normal[1]) == 0 && sgn(plane.normal[2]) == 0) return std::nullopt;
+  return plane;
+}
+
 bool Polytope::holds(const RationalPoint& p) const {
   return std::all_of(faces.begin(), faces.end(), [&](const Face& face) { return face.half_space.holds(p); });
 }

@@ -26,6 +26,9 @@ struct HalfSpace {
   HalfSpace opposite() const;
 };
 
+// The plane through three points, as the border of a half space whose normal points to where they turn left; none where they are collinear.
+std::optional<HalfSpace> plane_through(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c);
+
 struct Polytope {
   struct Face {
     HalfSpace half_space;                 // the polytope lies in it

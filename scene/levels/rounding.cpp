@@ -148,18 +148,6 @@ RationalPoint between(const RationalPoint& from, const RationalPoint& to, const 
 
 mpq_class power_of_half(unsigned exponent) { return {mpz_class(1), mpz_class(1) << exponent}; }
 
-// The plane through three points and the sign of the others; none where they are collinear.
-std::optional<HalfSpace> plane_through(const RationalPoint& a, const RationalPoint& b, const RationalPoint& c) {
-  HalfSpace plane;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t y = (axis + 1) % 3, z = (axis + 2) % 3;
-    plane.normal[axis] = (b[y] - a[y]) * (c[z] - a[z]) - (b[z] - a[z]) * (c[y] - a[y]);
-    plane.offset += plane.normal[axis] * a[axis];
-  }
-  if (sgn(plane.normal[0]) == 0 && sgn(plane.normal[1]) == 0 && sgn(plane.normal[2]) == 0) return std::nullopt;
-  return plane;
-}
-
 // Every half space that is bounded by three of the points and holds all of them holds the polytope's vertices. For points that are
 // not all in one plane: their hull holds the polytope. O(n^4), for the few corners of a cell.
 bool hull_holds(const std::vector<Point>& points, const Polytope& polytope) {
