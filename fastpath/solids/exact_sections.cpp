@@ -12,24 +12,44 @@ constexpr double kBriefUnit = 0x1p6, kBriefMost = 0x1p17;
 
 bool is_brief(double x) { return std::fabs(x) < kBriefMost && x * kBriefUnit == std::nearbyint(x * kBriefUnit); }
 
-ExactSpot with_rationals(double x, double y, mpq_class exact_x, mpq_class exact_y) {
-  return {x, y,
-          std::make_shared<const std::array<mpq_class, 2>>(
-              std::array<mpq_class, 2>{std::move(exact_x), std::move(exact_y)})};
+// More than this share of how large coordinates are, and doubles are of no use: rationals are made at once, and rounded.
+constexpr double kMostOff = 0x1p-46;
+
+double off_of_rounded(const mpq_class& exact, double rounded) {
+  return exact == rounded ? 0 : 0x1p-51 * std::fabs(rounded) + kUnderflow;
 }
 
-ExactSpot spot(mpq_class x, mpq_class y) {
-  const double near_x = x.get_d(), near_y = y.get_d();
-  if (is_brief(near_x) && is_brief(near_y) && x == near_x && y == near_y) return exact_spot(near_x, near_y);
-  return with_rationals(near_x, near_y, std::move(x), std::move(y));
+ExactSpot rounded_spot(LazyRationals::Pair exact) {
+  ExactSpot s;
+  s.x = exact[0].get_d();
+  s.y = exact[1].get_d();
+  s.off = {off_of_rounded(exact[0], s.x), off_of_rounded(exact[1], s.y)};
+  if (s.off[0] == 0 && s.off[1] == 0) return exact_spot(s.x, s.y);
+  s.is_brief = false;
+  s.exact = std::make_shared<const LazyRationals>([exact = std::move(exact)] { return exact; });
+  return s;
 }
 
-mpq_class x_of(const ExactSpot& s) { return s.exact ? (*s.exact)[0] : mpq_class(s.x); }
-mpq_class y_of(const ExactSpot& s) { return s.exact ? (*s.exact)[1] : mpq_class(s.y); }
+// A number, as a double that is wrong by no more than `off`.
+struct Estimate {
+  double value = 0, off = 0;
+  bool may_be_brief() const {
+    const double nearest = std::nearbyint(value * kBriefUnit) / kBriefUnit;
+    return std::fabs(nearest) < kBriefMost && std::fabs(value - nearest) <= off;
+  }
+};
+
+// A spot that is near estimates with few enough errors, else rounded. Where it may be brief, so that all turns there are told in doubles, it is worth while to see if it is.
+ExactSpot lazy_spot(const Estimate& x, const Estimate& y, double most_off, std::function<LazyRationals::Pair()> make) {
+  if (!(x.off <= most_off && y.off <= most_off) || (x.may_be_brief() && y.may_be_brief())) return rounded_spot(make());
+  ExactSpot s{x.value, y.value, {x.off, y.off}, false, nullptr};
+  s.exact = std::make_shared<const LazyRationals>(std::move(make));
+  return s;
+}
 
 mpq_class exact_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
-  const mpq_class ax = x_of(a), ay = y_of(a);
-  return (x_of(b) - ax) * (y_of(c) - ay) - (y_of(b) - ay) * (x_of(c) - ax);
+  const auto p = a.rationals(), q = b.rationals(), r = c.rationals();
+  return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
 // Twice the area of abc, and how wrong that may be.
@@ -40,21 +60,31 @@ struct Turn {
 Turn turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
   const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
   Turn t{bx * cy - by * cx, 0};
-  if (!a.exact && !b.exact && !c.exact) return t;
-  // Each coordinate is off by less than 2^-51 of the largest, a difference by less than 2^-49 of it; products and their difference add 2^-50 of the products.
-  const double largest =
-      std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(b.x), std::fabs(b.y), std::fabs(c.x), std::fabs(c.y)});
+  if (a.is_brief && b.is_brief && c.is_brief) return t;
+  // A difference is off by what its two spots are and a rounding of 2^-53 of it; products by that times the other factor, and with their difference they add three roundings.
   const double lengths = std::fabs(bx) + std::fabs(by) + std::fabs(cx) + std::fabs(cy);
-  t.error = 0x1p-47 * largest * (lengths + 0x1p-47 * largest) + kUnderflow;
+  const auto of = [](const ExactSpot& s) { return std::max(s.off[0], s.off[1]); };
+  const double off = 2 * (of(a) + of(b) + of(c)) + 0x1p-51 * lengths;
+  t.error = off * (lengths + off) + kUnderflow;
   return t;
 }
 
 }  // namespace
 
-ExactSpot exact_spot(double x, double y) {
-  if (is_brief(x) && is_brief(y)) return {x, y, nullptr};
-  return with_rationals(x, y, x, y);
+const LazyRationals::Pair& LazyRationals::get() const {
+  std::call_once(made_, [this] {
+    pair_ = make_();
+    make_ = nullptr;
+  });
+  return pair_;
 }
+
+LazyRationals::Pair ExactSpot::rationals() const {
+  if (exact) return exact->get();
+  return {mpq_class(x), mpq_class(y)};
+}
+
+ExactSpot exact_spot(double x, double y) { return {x, y, {0, 0}, is_brief(x) && is_brief(y), nullptr}; }
 
 int sign_of_turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
   const Turn t = turn(a, b, c);
@@ -68,11 +98,9 @@ namespace {
 // By one coordinate, the axis-th.
 int compare(const ExactSpot& a, const ExactSpot& b, std::size_t axis) {
   const double near_a = axis == 0 ? a.x : a.y, near_b = axis == 0 ? b.x : b.y;
-  if (!a.exact && !b.exact) return near_a < near_b ? -1 : near_a > near_b ? 1 : 0;
-  const double error = 0x1p-50 * (std::fabs(near_a) + std::fabs(near_b)) + kUnderflow;
-  if (std::fabs(near_a - near_b) > error) return near_a < near_b ? -1 : 1;
-  if (a.exact && b.exact) return cmp((*a.exact)[axis], (*b.exact)[axis]);
-  return a.exact ? cmp((*a.exact)[axis], mpq_class(near_b)) : cmp(mpq_class(near_a), (*b.exact)[axis]);
+  const double off = a.off[axis] + b.off[axis];
+  if (off == 0 || std::fabs(near_a - near_b) > 2 * off) return near_a < near_b ? -1 : near_a > near_b ? 1 : 0;
+  return cmp(a.rationals()[axis], b.rationals()[axis]);
 }
 
 bool before(const ExactSpot& a, const ExactSpot& b) {
@@ -81,6 +109,8 @@ bool before(const ExactSpot& a, const ExactSpot& b) {
 }
 
 }  // namespace
+
+bool are_equal(const ExactSpot& a, const ExactSpot& b) { return compare(a, b, 0) == 0 && compare(a, b, 1) == 0; }
 
 ExactPolygon convex_hull(std::vector<ExactSpot> points) {
   std::sort(points.begin(), points.end(), before);
@@ -107,17 +137,45 @@ int side_of(const SectionPlane& plane, const Solid& solid, std::size_t corner) {
 
 ExactSpot spot_of(const Solid& solid, std::uint32_t corner, std::size_t u, std::size_t v) {
   if (solid.exact_corners.empty()) return exact_spot(solid.corners[corner][u], solid.corners[corner][v]);
-  return spot(solid.exact_corners[corner][u], solid.exact_corners[corner][v]);
+  return rounded_spot({solid.exact_corners[corner][u], solid.exact_corners[corner][v]});
+}
+
+// Of a corner's coordinate: rational ones are rounded.
+double off_of(const Solid& solid, double x) { return solid.exact_corners.empty() ? 0 : 0x1p-51 * std::fabs(x); }
+
+bool is_same_along(const Solid& solid, const std::array<std::uint32_t, 2>& edge, std::size_t axis) {
+  if (solid.corners[edge[0]][axis] != solid.corners[edge[1]][axis]) return false;
+  return solid.exact_corners.empty() || solid.exact_corners[edge[0]][axis] == solid.exact_corners[edge[1]][axis];
+}
+
+LazyRationals::Pair exact_crossing(const SectionPlane& plane, const Solid& solid,
+                                   const std::array<std::uint32_t, 2>& edge, std::size_t u, std::size_t v) {
+  const auto p = solid.exact_corner(edge[0]), q = solid.exact_corner(edge[1]);
+  const mpq_class at_p = value_at(plane, p), at_q = value_at(plane, q), share = at_p / (at_p - at_q);
+  return {p[u] + share * (q[u] - p[u]), p[v] + share * (q[v] - p[v])};
 }
 
 // Where an edge crosses the plane, on different sides of which its ends are.
 ExactSpot crossing(const SectionPlane& plane, const Solid& solid, const std::array<std::uint32_t, 2>& edge,
                    std::size_t u, std::size_t v) {
-  const auto p = solid.exact_corner(edge[0]), q = solid.exact_corner(edge[1]);
-  if (p[u] == q[u] && p[v] == q[v]) return spot_of(solid, edge[0], u, v);
-  const mpq_class at_p = value_at(plane, p), at_q = value_at(plane, q), share = at_p / (at_p - at_q);
-  const auto along = [&](std::size_t axis) -> mpq_class { return p[axis] + share * (q[axis] - p[axis]); };
-  return spot(along(u), along(v));
+  const bool same_u = is_same_along(solid, edge, u), same_v = is_same_along(solid, edge, v);
+  if (same_u && same_v) return spot_of(solid, edge[0], u, v);
+  const Point &p = solid.corners[edge[0]], &q = solid.corners[edge[1]];
+  const RoughHeight at_p = rough_height(plane.normal, plane.distance, p),
+                    at_q = rough_height(plane.normal, plane.distance, q);
+  const double span = std::fabs(at_p.value - at_q.value), errors = at_p.error + at_q.error;
+  if (!(span > 8 * errors)) return rounded_spot(exact_crossing(plane, solid, edge, u, v));
+  // The share s of the way is (at_p + d) / (span + e), with d and e no larger than the errors, so the quotient of the rounded ones is off by (s * e - d) / span.
+  const double share = std::clamp(std::fabs(at_p.value) / span, 0.0, 1.0), off_share = 2 * errors / span + 0x1p-50;
+  const auto along = [&](std::size_t axis, bool same) -> Estimate {
+    if (same) return {p[axis], off_of(solid, p[axis])};
+    const double length = q[axis] - p[axis];
+    return {p[axis] + share * length,
+            2 * off_share * std::fabs(length) + 0x1p-49 * (std::fabs(p[axis]) + std::fabs(q[axis])) + kUnderflow};
+  };
+  const double largest = std::max({std::fabs(p[u]), std::fabs(p[v]), std::fabs(q[u]), std::fabs(q[v])});
+  return lazy_spot(along(u, same_u), along(v, same_v), kMostOff * largest,
+                   [plane, &solid, edge, u, v] { return exact_crossing(plane, solid, edge, u, v); });
 }
 
 // A point of an edge, by its share of the way along it: an end, or where the line cd crosses.
@@ -125,6 +183,12 @@ struct Cut {
   double share = 0, error = 0;
   const ExactSpot *c = nullptr, *d = nullptr;  // none: an end
 };
+
+// Of the way from a to b, where the line cd crosses it.
+mpq_class exact_share_of(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c, const ExactSpot& d) {
+  const mpq_class at_a = exact_turn(c, d, a);
+  return at_a / (at_a - exact_turn(c, d, b));
+}
 
 // An edge of a polygon, or any segment. That it is on the line of another edge is told by numbers of planes, where they are known: else nearly all turns that doubles leave open would be such.
 class EdgeOfUnion {
@@ -201,8 +265,7 @@ class EdgeOfUnion {
 
   mpq_class exact_share(const Cut& cut) const {
     if (cut.c == nullptr) return cut.share;
-    const mpq_class at_a = exact_turn(*cut.c, *cut.d, a_);
-    return at_a / (at_a - exact_turn(*cut.c, *cut.d, b_));
+    return exact_share_of(a_, b_, *cut.c, *cut.d);
   }
 
   bool is_less(const Cut& x, const Cut& y) const {
@@ -213,8 +276,20 @@ class EdgeOfUnion {
 
   ExactSpot spot_at(const Cut& cut) const {
     if (cut.c == nullptr) return cut.share == 0 ? a_ : b_;
-    const mpq_class share = exact_share(cut), ax = x_of(a_), ay = y_of(a_);
-    return spot(ax + share * (x_of(b_) - ax), ay + share * (y_of(b_) - ay));
+    const auto along = [&](double from, double to, std::size_t axis) -> Estimate {
+      const double off = a_.off[axis] + b_.off[axis];
+      if (off == 0 && from == to) return {from, 0};
+      const double length = std::fabs(to - from) + off;
+      return {from + cut.share * (to - from),
+              2 * (cut.error * length + off) + 0x1p-50 * (std::fabs(from) + std::fabs(to)) + kUnderflow};
+    };
+    const double largest = std::max({std::fabs(a_.x), std::fabs(a_.y), std::fabs(b_.x), std::fabs(b_.y)});
+    return lazy_spot(along(a_.x, b_.x, 0), along(a_.y, b_.y, 1), kMostOff * largest,
+                     [a = a_, b = b_, c = *cut.c, d = *cut.d]() -> LazyRationals::Pair {
+                       const auto p = a.rationals(), q = b.rationals();
+                       const mpq_class share = exact_share_of(a, b, c, d);
+                       return {p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1])};
+                     });
   }
 
   const ExactSpot &a_, &b_;
@@ -235,18 +310,16 @@ std::int32_t side_with(const Solid& solid, const ExactSpot& a, const ExactSpot& 
   return -1;
 }
 
-bool touch_within(const Rectangle& a, const Rectangle& b, double slack) {
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (b.low[i] > a.high[i] + slack || a.low[i] > b.high[i] + slack) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 Rectangle rectangle_around(std::span<const ExactSpot> spots) {
-  Rectangle out{{spots[0].x, spots[0].y}, {spots[0].x, spots[0].y}};
-  for (const ExactSpot& s : spots) out = hull_of(out, {{s.x, s.y}, {s.x, s.y}});
+  // Errors are no less than 2^-51 of what they are of, so twice as much is more than is lost by rounding.
+  const auto around = [](const ExactSpot& s) -> Rectangle {
+    const double x = 2 * s.off[0], y = 2 * s.off[1];
+    return {{s.x - x, s.y - y}, {s.x + x, s.y + y}};
+  };
+  Rectangle out = around(spots[0]);
+  for (const ExactSpot& s : spots) out = hull_of(out, around(s));
   return out;
 }
 
@@ -288,14 +361,9 @@ std::vector<RimPart> rim_of_union(const std::vector<ExactPolygon>& polygons) {
   std::vector<RimPart> rim;
   std::vector<const ExactPolygon*> beside;
   for (std::uint32_t i = 0; i < polygons.size(); ++i) {
-    // Coordinates are rounded, so boxes may seem to miss each other by two roundings where they touch.
-    const Rectangle& mine = boxes[i];
-    const double slack = 0x1p-50 * std::max({std::fabs(mine.low[0]), std::fabs(mine.low[1]), std::fabs(mine.high[0]),
-                                             std::fabs(mine.high[1])});
     beside.clear();
     for (std::uint32_t j = 0; j < polygons.size(); ++j) {
-      const Rectangle& other = boxes[j];
-      if (j != i && touch_within(mine, other, slack)) beside.push_back(&polygons[j]);
+      if (j != i && touch(boxes[i], boxes[j])) beside.push_back(&polygons[j]);
     }
     for (std::uint32_t k = 0; k < polygons[i].size(); ++k) {
       EdgeOfUnion edge(polygons[i], k);

@@ -53,10 +53,10 @@ class Opener {
       : facet_(std::move(facet)), around_(rectangle_around(facet_)), smallest_(smallest) {
     for (const auto& s : facet_) rounded_.push_back({s.x, s.y});
     for (const auto& polygon : polygons) {
-      if (!misses(rectangle_around(polygon))) polygons_.push_back(&polygon);
+      if (touch(around_, rectangle_around(polygon))) polygons_.push_back(&polygon);
     }
     for (const auto& part : rim) {
-      if (!misses(rectangle_around(part.segment)) && enters_interior(part.segment, {facet_}))
+      if (touch(around_, rectangle_around(part.segment)) && enters_interior(part.segment, {facet_}))
         rim_.push_back(&part.segment);
     }
   }
@@ -66,15 +66,6 @@ class Opener {
   std::vector<Spot> part(const Rectangle& r) const { return clipped_to(rounded_, r); }
 
  private:
-  // By its rounded corners; some that touch may seem to miss.
-  bool misses(const Rectangle& r) const {
-    for (std::size_t i = 0; i < 2; ++i) {
-      const double slack = 0x1p-40 * (std::fabs(around_.low[i]) + std::fabs(around_.high[i]));
-      if (r.low[i] > around_.high[i] + slack || r.high[i] < around_.low[i] - slack) return true;
-    }
-    return false;
-  }
-
   bool is_filled(const Rectangle& r) const {
     const std::vector<ExactPolygon> both{facet_, exactly(r)};
     const auto rounded = clipped_to(rounded_, r);

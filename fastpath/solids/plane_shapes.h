@@ -27,6 +27,13 @@ inline Rectangle hull_of(const Rectangle& a, const Rectangle& b) {
   return out;
 }
 
+inline bool touch(const Rectangle& a, const Rectangle& b) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (b.low[i] > a.high[i] || a.low[i] > b.high[i]) return false;
+  }
+  return true;
+}
+
 // A convex polygon, or the corners of a box, cut out of a whole. Its corners are rounded where it was cut.
 struct Piece {
   Piece() = default;

@@ -39,6 +39,17 @@ std::vector<std::vector<Point>> without_repetitions(const std::vector<std::vecto
   return out;
 }
 
+// Whether sides in different planes, which have different corners, have both corners. Else it is the border between two parts of a face.
+bool is_in_two_planes(const std::array<std::uint32_t, 2>& border,
+                      const std::vector<std::vector<std::uint32_t>>& on_side) {
+  const std::vector<std::uint32_t>* first = nullptr;
+  return std::any_of(on_side.begin(), on_side.end(), [&](const auto& on) {
+    if (!std::includes(on.begin(), on.end(), border.begin(), border.end())) return false;
+    if (first == nullptr) first = &on;
+    return on != *first;
+  });
+}
+
 }  // namespace
 
 int orientation(const Point& a, const Point& b, const Point& c, const Point& d) {
@@ -86,13 +97,18 @@ Side side_along(const scene::HalfSpace& inside) {
   return side;
 }
 
-int rough_side_of(const Point& normal, double distance, const Point& point) {
+RoughHeight rough_height(const Point& normal, double distance, const Point& point) {
   double value = -distance, terms = std::fabs(distance);
   for (std::size_t i = 0; i < 3; ++i) {
     value += normal[i] * point[i];
     terms += std::fabs(normal[i] * point[i]);
   }
-  if (!(std::fabs(value) > 0x1p-49 * terms + kUnderflow)) return 0;
+  return {value, 0x1p-49 * terms + kUnderflow};
+}
+
+int rough_side_of(const Point& normal, double distance, const Point& point) {
+  const auto [value, error] = rough_height(normal, distance, point);
+  if (!(std::fabs(value) > error)) return 0;
   return value > 0 ? 1 : -1;
 }
 
@@ -181,16 +197,16 @@ std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {
       borders[{std::min(a, b), std::max(a, b)}] += a < b ? outside : -outside;
     }
   }
-  for (const auto& [edge, count] : borders) {
-    if (count != 0) return std::nullopt;
-    solid.edges.push_back(edge);
-  }
   if (solid.sides.empty()) return std::nullopt;
   for (const Side& side : solid.sides) {
     auto& on = solid.on_side.emplace_back();
     for (std::uint32_t i = 0; i < solid.corners.size(); ++i) {
       if (side.side_of(solid.corners[i]) == 0) on.push_back(i);
     }
+  }
+  for (const auto& [border, count] : borders) {
+    if (count != 0) return std::nullopt;
+    if (is_in_two_planes(border, solid.on_side)) solid.edges.push_back(border);
   }
   solid.bounds = scene::bounds_of(solid.corners);
   return solid;

@@ -32,7 +32,13 @@ struct HalfSpace {
   double above(const Point& x) const { return normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] - distance; }
 };
 
-// On which side of the plane normal * x = distance a point is, -1 or 1; 0 where doubles do not tell. Its coordinates, or the numbers of the plane, may be off by 2^-51 of themselves: with seven roundings that is less than 2^-49 of the terms.
+// normal * point - distance, and how wrong that may be. Coordinates, or the numbers of the plane, may be off by 2^-51 of themselves: with seven roundings that is less than 2^-49 of the terms.
+struct RoughHeight {
+  double value = 0, error = 0;
+};
+RoughHeight rough_height(const Point& normal, double distance, const Point& point);
+
+// On which side of the plane normal * x = distance a point is, -1 or 1; 0 where doubles do not tell.
 int rough_side_of(const Point& normal, double distance, const Point& point);
 
 // A plane that is parallel to two axes: exactly one coordinate, and on which side of it is the outside of what it bounds.
@@ -71,7 +77,7 @@ Side side_along(const scene::HalfSpace& inside);
 struct Solid {
   std::vector<Point> corners;                       // distinct
   std::vector<scene::RationalPoint> exact_corners;  // of these, where they are rounded; else empty
-  std::vector<std::array<std::uint32_t, 2>> edges;  // of its faces, each once
+  std::vector<std::array<std::uint32_t, 2>> edges;  // each once; none where parts of one face meet
   std::vector<Side> sides;                          // of the planes of all faces, some several times
   std::vector<std::vector<std::uint32_t>> on_side;  // per side: numbers of the corners in its plane, ascending
   Bounds bounds;                                    // all of it is in there

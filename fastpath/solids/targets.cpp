@@ -18,10 +18,25 @@ Targets::Targets(const scene::FlaggedMesh& scene, const Solids& solids)
   if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()));
 }
 
+namespace {
+
+// Whether the point, which is in the plane, may be in a solid that reaches beyond it: but for roundings.
+bool may_be_in(const Solid& solid, const FacetPlane& plane, const scene::Point& point, double slack) {
+  const bool reaches =
+      plane.outside_is_above ? solid.bounds.high[plane.axis] > plane.at : solid.bounds.low[plane.axis] < plane.at;
+  return reaches && std::all_of(solid.sides.begin(), solid.sides.end(),
+                                [&](const Side& s) { return s.estimate.above(point) <= slack; });
+}
+
+}  // namespace
+
 void Targets::find_backs(std::uint32_t triangle, const Solids& solids) {
   const auto corners = corners_of({{}, 0, 0, triangle});
+  scene::Point middle{};
+  for (std::size_t i = 0; i < 3; ++i) middle[i] = (corners[0][i] + corners[1][i] + corners[2][i]) / 3;
   auto& backs = backs_[triangle];
-  for (const auto i : solids.touching(bounds_of(triangle))) {
+  const auto touching = solids.touching(bounds_of(triangle));
+  for (const auto i : touching) {
     const Solid& solid = solids.all()[i];
     const auto side = std::find_if(solid.sides.begin(), solid.sides.end(), [&](const Side& s) {
       return s.has_none_outside(corners) && s.has_none_inside(corners);
@@ -39,7 +54,11 @@ void Targets::find_backs(std::uint32_t triangle, const Solids& solids) {
     const auto is_same = [&](const Side& other) {
       return other.flat && other.flat->outside_is_above == side.flat->outside_is_above;
     };
-    if (std::none_of(backs.begin(), backs.end(), is_same) && solids.filled(behind).fills(corners))
+    const auto may_have_middle = [&](std::uint32_t i) {
+      return may_be_in(solids.all()[i], behind, middle, solids.scale().margin());
+    };
+    if (std::none_of(backs.begin(), backs.end(), is_same) &&
+        std::any_of(touching.begin(), touching.end(), may_have_middle) && solids.filled(behind).fills(corners))
       backs.push_back(side);
   }
 }

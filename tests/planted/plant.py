@@ -44,6 +44,13 @@ COPIES = {
     # An edge of a section lies in the side that is in the section's own plane.
     "side_in_the_section": ("fastpath/exact_sections.cpp", [
         ("if (has(a) && has(b) && !has(third))", "if (has(a) && has(b) && (!has(third) || true))")]),
+    # A corner of a section is where doubles say.
+    "spots_without_errors": ("fastpath/exact_sections.cpp", [
+        ("  ExactSpot s{x.value, y.value, {x.off, y.off}, false, nullptr};",
+         "  ExactSpot s{x.value, y.value, {0, 0}, false, nullptr};")]),
+    # Crossings are no further off than what they are of is rounded.
+    "flat_crossings": ("fastpath/exact_sections.cpp", [
+        ("off_share = 2 * errors / span + 0x1p-50;", "off_share = 0x1p-50;")]),
     # What touches the cell may be hidden.
     "touched_and_hidden": ("fastpath/view_cell.cpp", [
         ("return is_apart_from(target) && is_out_of_solids_around(target);", "return is_out_of_solids_around(target);")]),

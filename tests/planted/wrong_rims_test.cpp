@@ -1,4 +1,4 @@
-// Linked with a copy of a source of fastpath/solids/ that takes edges of sections for such of one line that are not (plant.py): rationals tell.
+// Linked with a copy of a source of fastpath/solids/ that takes edges of sections for such of one line that are not, or estimates of their corners for better than they are (plant.py): rationals tell.
 #include <gtest/gtest.h>
 
 #include <iostream>

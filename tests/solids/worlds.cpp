@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <random>
 #include <set>
@@ -234,6 +235,34 @@ struct Cut {
   solids::Cutting cutting = solids::Cutting::across;
 };
 
+// Boxes that are turned about the third axis, some of which share a face with the one before.
+std::vector<solids::Solid> turned_boxes(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> place(0, 12), size(0.5, 3), angle(0, 6.3);
+  std::vector<solids::Solid> boxes;
+  std::array<solids::Spot, 4> base{};
+  for (int i = 0; i < 10; ++i) {
+    const double x = place(random), y = place(random), turn = angle(random), length = size(random),
+                 width = size(random);
+    const solids::Spot along{length * std::cos(turn), length * std::sin(turn)},
+        across{-width * std::sin(turn), width * std::cos(turn)};
+    const bool abuts = i > 0 && i % 3 == 0;
+    const solids::Spot a = abuts ? base[2] : solids::Spot{x, y},
+                       b = abuts ? base[1] : solids::Spot{x + along[0], y + along[1]};
+    base = {a, b, {b[0] + across[0], b[1] + across[1]}, {a[0] + across[0], a[1] + across[1]}};
+    const double low = i % 2 == 0 ? 0 : place(random), high = low + size(random);
+    std::vector<Face> faces(2);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const auto &p = base[k], &q = base[(k + 1) % 4];
+      faces[0].push_back({p[0], p[1], low});
+      faces[1].push_back({p[0], p[1], high});
+      faces.push_back({{p[0], p[1], low}, {q[0], q[1], low}, {q[0], q[1], high}, {p[0], p[1], high}});
+    }
+    if (auto box = solids::solid_of(faces)) boxes.push_back(std::move(*box));
+  }
+  return boxes;
+}
+
 std::vector<Cut> cuts_of(const solids::Solids& all) {
   std::set<std::pair<std::size_t, double>> flat;
   for (const auto& solid : all.all()) {
@@ -260,41 +289,69 @@ std::vector<Cut> cuts_of(const solids::Solids& all) {
 }
 
 bool are_same(const solids::RimPart& a, const solids::RimPart& b) {
-  const auto ends = [](const solids::RimPart& part) {
-    const auto& [from, to] = part.segment;
-    return std::array{from.x, from.y, to.x, to.y};
-  };
-  return a.polygon == b.polygon && a.edge == b.edge && ends(a) == ends(b);
+  return a.polygon == b.polygon && a.edge == b.edge && are_equal(a.segment[0], b.segment[0]) &&
+         are_equal(a.segment[1], b.segment[1]);
+}
+
+bool is_as_near_as_it_says(const solids::ExactSpot& spot) {
+  const auto exact = spot.rationals();
+  return abs(exact[0] - mpq_class(spot.x)) <= mpq_class(spot.off[0]) &&
+         abs(exact[1] - mpq_class(spot.y)) <= mpq_class(spot.off[1]);
+}
+
+// Nothing is known of it but its rationals.
+solids::ExactSpot without_estimate(solids::ExactSpot spot) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  spot.off = {infinity, infinity};
+  spot.is_brief = false;
+  spot.plane = -1;
+  return spot;
+}
+
+// What is wrong with the rims in the planes, if anything.
+std::string compare_rims(const solids::Solids& all, Rims& rims) {
+  for (const Cut& cut : cuts_of(all)) {
+    std::vector<solids::ExactPolygon> polygons, without;
+    for (const auto& solid : all.all()) {
+      auto polygon = solids::section_of(solid, cut.plane, cut.dropped, cut.cutting);
+      if (!polygon) continue;
+      auto& bare = without.emplace_back();
+      for (const auto& spot : *polygon) {
+        rims.numbered += spot.plane >= 0 ? 1 : 0;
+        rims.estimated += spot.off[0] > 0 || spot.off[1] > 0 ? 1 : 0;
+        bare.push_back(without_estimate(spot));
+      }
+      polygons.push_back(std::move(*polygon));
+    }
+    const auto rim = solids::rim_of_union(polygons);
+    for (const auto& polygon : polygons) {
+      if (!std::all_of(polygon.begin(), polygon.end(), is_as_near_as_it_says)) return "a corner is not where it says";
+    }
+    for (const auto& part : rim) {
+      if (!std::all_of(part.segment.begin(), part.segment.end(), is_as_near_as_it_says))
+        return "an end of a part is not where it says";
+    }
+    const auto expected = solids::rim_of_union(without);
+    rims.parts += rim.size();
+    if (std::equal(rim.begin(), rim.end(), expected.begin(), expected.end(), are_same)) continue;
+    const auto& n = cut.plane.normal;
+    return fmt::format("{} parts for {} in the plane {} {} {} at {}", rim.size(), expected.size(), n[0], n[1], n[2],
+                       cut.plane.distance);
+  }
+  return "";
 }
 
 }  // namespace
 
 Rims compare_rims(std::uint64_t first_seed, std::uint64_t worlds) {
   Rims rims;
-  for (std::uint64_t seed = first_seed; seed < first_seed + worlds; ++seed) {
-    const World world = random_world(seed);
-    const solids::Solids all = solids_of_world(world);
-    for (const Cut& cut : cuts_of(all)) {
-      std::vector<solids::ExactPolygon> polygons;
-      for (const auto& solid : all.all()) {
-        if (auto polygon = solids::section_of(solid, cut.plane, cut.dropped, cut.cutting))
-          polygons.push_back(std::move(*polygon));
-      }
-      auto without = polygons;
-      for (auto& polygon : without) {
-        for (auto& spot : polygon) {
-          rims.numbered += spot.plane >= 0 ? 1 : 0;
-          spot.plane = -1;
-        }
-      }
-      const auto rim = solids::rim_of_union(polygons), expected = solids::rim_of_union(without);
-      rims.parts += rim.size();
-      if (std::equal(rim.begin(), rim.end(), expected.begin(), expected.end(), are_same)) continue;
-      const auto& n = cut.plane.normal;
-      rims.differs = fmt::format("seed {}: {} parts for {} in the plane {} {} {} at {}", seed, rim.size(),
-                                 expected.size(), n[0], n[1], n[2], cut.plane.distance);
-      return rims;
-    }
+  for (std::uint64_t seed = first_seed; seed < first_seed + worlds && rims.differs.empty(); ++seed) {
+    const auto compare = [&](const solids::Solids& all, const char* kind) {
+      const std::string wrong = compare_rims(all, rims);
+      if (!wrong.empty()) rims.differs = fmt::format("seed {}, {}: {}", seed, kind, wrong);
+    };
+    compare(solids_of_world(random_world(seed)), "world");
+    if (rims.differs.empty()) compare(solids::Solids(turned_boxes(seed), {{0, 0, 0}, {16, 16, 16}}), "turned boxes");
   }
   return rims;
 }
