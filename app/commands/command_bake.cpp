@@ -42,7 +42,7 @@ using scene::ErrorCode;
 
 // In levels less is lost where a map is given up: what solids do not hide is listed.
 constexpr std::uint64_t kEffort = 500, kEffortInLevels = 50;
-constexpr int kTries = 5;  // what these kernels do: raised when that changes, so that no store has lists of two kinds
+constexpr int kTries = 6;  // what these kernels do: raised when that changes, so that no store has lists of two kinds
 
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;
@@ -167,12 +167,11 @@ fastpath::bakes::ListerMaker lister_for(const BakeRequest& request, std::uint64_
                                         const scene::BakePlan& plan) {
   namespace solids = fastpath::solids;
   if (request.kernel == "exact") return validate::exact_lister();
-  if (request.kernel == "fast" && brushes.empty()) return fastpath::bakes::fast_lister(effort);
+  auto found = brushes.empty() ? solids::find_solids(scene) : solids::solids_of(brushes);
+  if (request.kernel == "fast" && found.empty()) return fastpath::bakes::fast_lister(effort);
   std::vector<std::vector<scene::Point>> cells;
   for (const auto& cell : plan.cells) cells.push_back(cell.points);
-  auto all =
-      std::make_shared<const solids::Solids>(brushes.empty() ? solids::find_solids(scene) : solids::solids_of(brushes),
-                                             solids::bounds_of_questions(scene, cells));
+  auto all = std::make_shared<const solids::Solids>(std::move(found), solids::bounds_of_questions(scene, cells));
   if (request.kernel == "solids") return fastpath::bakes::solid_lister(std::move(all));
   return fastpath::bakes::fast_lister(effort, std::move(all));
 }
@@ -312,8 +311,8 @@ void add_bake_command(CLI::App& program, int& status) {
           "  listed without a proof counts as a fallback.\n"
           "  --kernel solids asks only what walls hide: closed convex parts of the scene, or the brushes of a level "
           "(docs/solids.md).\n"
-          "  That takes a fraction of the time, and its lists are longer. In levels the fast kernel asks only about "
-          "what it lists.\n\n") +
+          "  That takes a fraction of the time, and its lists are longer. The fast kernel asks only about what it "
+          "lists.\n\n") +
       bake_cells_help +
       "\n\nEXAMPLES\n"
       "  clues bake town.obj --cells grid:2x2x1:box:0,0,1,8,8,2 -o town.bake\n"

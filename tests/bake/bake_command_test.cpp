@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -45,6 +46,51 @@ TEST(Bake, ListsAreThoseOfMap) {
       EXPECT_EQ(json["visible"].get<std::vector<std::uint32_t>>(), baked.cell(c).list);
     }
   }
+}
+
+// Boxes on a grid, one of which is missing: the cell is in its place.
+std::string town_of_boxes(int along) {
+  std::string points, triangles;
+  int first = 1;
+  for (int i = 0; i < along; ++i) {
+    for (int k = 0; k < along; ++k) {
+      if (i == along / 2 && k == along / 2) continue;
+      for (int corner = 0; corner < 8; ++corner) {
+        points += fmt::format("v {} {} {}\n", 3 * i + (corner % 4 == 1 || corner % 4 == 2 ? 2 : 0),
+                              3 * k + (corner % 4 < 2 ? 0 : 2), corner < 4 ? 0 : 2 + (i * 7 + k * 5) % 6);
+      }
+      for (const auto& [a, b, c, d] : {std::array{0, 3, 2, 1}, std::array{4, 5, 6, 7}, std::array{0, 1, 5, 4},
+                                       std::array{1, 2, 6, 5}, std::array{2, 3, 7, 6}, std::array{3, 0, 4, 7}})
+        triangles +=
+            fmt::format("f {} {} {}\nf {} {} {}\n", first + a, first + b, first + c, first + a, first + c, first + d);
+      first += 8;
+    }
+  }
+  return points + triangles;
+}
+
+TEST(Bake, AsksOnlyAboutWhatSolidsOfASceneDoNotHide) {
+  const TestFolder folder;
+  folder.write("town.obj", town_of_boxes(10));
+  const std::string cell = "box:15,15,1,17,17,2";
+  const auto baked_by = [&](const std::string& kernel) {
+    const auto done =
+        run_clues({"bake", "town.obj", "--cells", "grid:1x1x1:" + cell, "--kernel", kernel, "-o", kernel + ".bake"},
+                  folder.path());
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    return scene::FinishedBake(folder.path() / (kernel + ".bake")).cell(0).list;
+  };
+  const auto by_solids = baked_by("solids"), baked = baked_by("fast");
+  ASSERT_EQ(
+      run_clues({"map", "town.obj", "--cell", cell, "--kernel", "fast", "-o", "town.json"}, folder.path()).exit_code,
+      0);
+  const auto mapped =
+      nlohmann::json::parse(read_all(folder.path() / "town.json"))["visible"].get<std::vector<std::uint32_t>>();
+  EXPECT_TRUE(std::includes(by_solids.begin(), by_solids.end(), baked.begin(), baked.end()));
+  EXPECT_TRUE(std::includes(mapped.begin(), mapped.end(), baked.begin(), baked.end()));
+  EXPECT_LT(baked.size(), mapped.size()) << "some of what solids hide has first-order light";
+  const auto judged = run_clues({"check", "town.obj", "--all-cells", "--bake", "fast.bake"}, folder.path());
+  EXPECT_NE(judged.exit_code, 1) << judged.out;
 }
 
 TEST(Bake, DeltasLeadFromCellToCell) {
