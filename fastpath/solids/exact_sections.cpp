@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 namespace clues::fastpath::solids {
@@ -15,22 +17,7 @@ bool is_brief(double x) { return std::fabs(x) < kBriefMost && x * kBriefUnit == 
 // More than this share of how large coordinates are, and doubles are of no use: rationals are made at once, and rounded.
 constexpr double kMostOff = 0x1p-46;
 
-double off_of_rounded(const mpq_class& exact, double rounded) {
-  return exact == rounded ? 0 : 0x1p-51 * std::fabs(rounded) + kUnderflow;
-}
-
-ExactSpot rounded_spot(LazyRationals::Pair exact) {
-  ExactSpot s;
-  s.x = exact[0].get_d();
-  s.y = exact[1].get_d();
-  s.off = {off_of_rounded(exact[0], s.x), off_of_rounded(exact[1], s.y)};
-  if (s.off[0] == 0 && s.off[1] == 0) return exact_spot(s.x, s.y);
-  s.is_brief = false;
-  s.exact = std::make_shared<const LazyRationals>([exact = std::move(exact)] { return exact; });
-  return s;
-}
-
-// A number, as a double that is wrong by no more than `off`.
+// A number, as a double that is wrong by no more than `off`; 0: it is the number.
 struct Estimate {
   double value = 0, off = 0;
   bool may_be_brief() const {
@@ -38,6 +25,31 @@ struct Estimate {
     return std::fabs(nearest) < kBriefMost && std::fabs(value - nearest) <= off;
   }
 };
+
+Estimate rounded(const mpq_class& exact) {
+  const double value = exact.get_d();  // cut off
+  return {value, exact == value ? 0 : 0x1p-51 * std::fabs(value) + kUnderflow};
+}
+
+// At a share of the way, which is wrong by no more than that. Half of each bound would do.
+Estimate between(const Estimate& from, const Estimate& to, double share, double off_share) {
+  if (from.value == to.value && from.off == 0 && to.off == 0) return from;
+  const double length = std::fabs(to.value - from.value), off = from.off + to.off;
+  return {
+      from.value + share * (to.value - from.value),
+      2 * (off_share * (length + off) + off) + 0x1p-50 * (std::fabs(from.value) + std::fabs(to.value)) + kUnderflow};
+}
+
+LazyRationals::Pair exactly_between(const LazyRationals::Pair& from, const LazyRationals::Pair& to,
+                                    const mpq_class& share) {
+  return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
+}
+
+ExactSpot rounded_spot(LazyRationals::Pair exact) {
+  const Estimate x = rounded(exact[0]), y = rounded(exact[1]);
+  if (x.off == 0 && y.off == 0) return exact_spot(x.value, y.value);
+  return {x.value, y.value, {x.off, y.off}, false, std::make_shared<const LazyRationals>(std::move(exact))};
+}
 
 // A spot that is near estimates with few enough errors, else rounded. Where it may be brief, so that all turns there are told in doubles, it is worth while to see if it is.
 ExactSpot lazy_spot(const Estimate& x, const Estimate& y, double most_off, std::function<LazyRationals::Pair()> make) {
@@ -66,6 +78,7 @@ Turn turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
   const auto of = [](const ExactSpot& s) { return std::max(s.off[0], s.off[1]); };
   const double off = 2 * (of(a) + of(b) + of(c)) + 0x1p-51 * lengths;
   t.error = off * (lengths + off) + kUnderflow;
+  if (!std::isfinite(t.value)) return {0, std::numeric_limits<double>::infinity()};
   return t;
 }
 
@@ -73,6 +86,7 @@ Turn turn(const ExactSpot& a, const ExactSpot& b, const ExactSpot& c) {
 
 const LazyRationals::Pair& LazyRationals::get() const {
   std::call_once(made_, [this] {
+    if (!make_) return;
     pair_ = make_();
     make_ = nullptr;
   });
@@ -140,8 +154,11 @@ ExactSpot spot_of(const Solid& solid, std::uint32_t corner, std::size_t u, std::
   return rounded_spot({solid.exact_corners[corner][u], solid.exact_corners[corner][v]});
 }
 
-// Of a corner's coordinate: rational ones are rounded.
-double off_of(const Solid& solid, double x) { return solid.exact_corners.empty() ? 0 : 0x1p-51 * std::fabs(x); }
+// A coordinate of a corner.
+Estimate estimate_of(const Solid& solid, std::uint32_t corner, std::size_t axis) {
+  return solid.exact_corners.empty() ? Estimate{solid.corners[corner][axis], 0}
+                                     : rounded(solid.exact_corners[corner][axis]);
+}
 
 bool is_same_along(const Solid& solid, const std::array<std::uint32_t, 2>& edge, std::size_t axis) {
   if (solid.corners[edge[0]][axis] != solid.corners[edge[1]][axis]) return false;
@@ -152,7 +169,7 @@ LazyRationals::Pair exact_crossing(const SectionPlane& plane, const Solid& solid
                                    const std::array<std::uint32_t, 2>& edge, std::size_t u, std::size_t v) {
   const auto p = solid.exact_corner(edge[0]), q = solid.exact_corner(edge[1]);
   const mpq_class at_p = value_at(plane, p), at_q = value_at(plane, q), share = at_p / (at_p - at_q);
-  return {p[u] + share * (q[u] - p[u]), p[v] + share * (q[v] - p[v])};
+  return exactly_between({p[u], p[v]}, {q[u], q[v]}, share);
 }
 
 // Where an edge crosses the plane, on different sides of which its ends are.
@@ -167,11 +184,9 @@ ExactSpot crossing(const SectionPlane& plane, const Solid& solid, const std::arr
   if (!(span > 8 * errors)) return rounded_spot(exact_crossing(plane, solid, edge, u, v));
   // The share s of the way is (at_p + d) / (span + e), with d and e no larger than the errors, so the quotient of the rounded ones is off by (s * e - d) / span.
   const double share = std::clamp(std::fabs(at_p.value) / span, 0.0, 1.0), off_share = 2 * errors / span + 0x1p-50;
-  const auto along = [&](std::size_t axis, bool same) -> Estimate {
-    if (same) return {p[axis], off_of(solid, p[axis])};
-    const double length = q[axis] - p[axis];
-    return {p[axis] + share * length,
-            2 * off_share * std::fabs(length) + 0x1p-49 * (std::fabs(p[axis]) + std::fabs(q[axis])) + kUnderflow};
+  const auto along = [&](std::size_t axis, bool same) {
+    const Estimate from = estimate_of(solid, edge[0], axis);
+    return same ? from : between(from, estimate_of(solid, edge[1], axis), share, off_share);
   };
   const double largest = std::max({std::fabs(p[u]), std::fabs(p[v]), std::fabs(q[u]), std::fabs(q[v])});
   return lazy_spot(along(u, same_u), along(v, same_v), kMostOff * largest,
@@ -276,19 +291,11 @@ class EdgeOfUnion {
 
   ExactSpot spot_at(const Cut& cut) const {
     if (cut.c == nullptr) return cut.share == 0 ? a_ : b_;
-    const auto along = [&](double from, double to, std::size_t axis) -> Estimate {
-      const double off = a_.off[axis] + b_.off[axis];
-      if (off == 0 && from == to) return {from, 0};
-      const double length = std::fabs(to - from) + off;
-      return {from + cut.share * (to - from),
-              2 * (cut.error * length + off) + 0x1p-50 * (std::fabs(from) + std::fabs(to)) + kUnderflow};
-    };
     const double largest = std::max({std::fabs(a_.x), std::fabs(a_.y), std::fabs(b_.x), std::fabs(b_.y)});
-    return lazy_spot(along(a_.x, b_.x, 0), along(a_.y, b_.y, 1), kMostOff * largest,
-                     [a = a_, b = b_, c = *cut.c, d = *cut.d]() -> LazyRationals::Pair {
-                       const auto p = a.rationals(), q = b.rationals();
-                       const mpq_class share = exact_share_of(a, b, c, d);
-                       return {p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1])};
+    return lazy_spot(between({a_.x, a_.off[0]}, {b_.x, b_.off[0]}, cut.share, cut.error),
+                     between({a_.y, a_.off[1]}, {b_.y, b_.off[1]}, cut.share, cut.error), kMostOff * largest,
+                     [a = a_, b = b_, c = *cut.c, d = *cut.d] {
+                       return exactly_between(a.rationals(), b.rationals(), exact_share_of(a, b, c, d));
                      });
   }
 
@@ -308,6 +315,24 @@ std::int32_t side_with(const Solid& solid, const ExactSpot& a, const ExactSpot& 
     if (has(a) && has(b) && !has(third)) return static_cast<std::int32_t>(i);
   }
   return -1;
+}
+
+// For each of the boxes the others that touch it, ascending: found where they begin one after the other along the first axis.
+std::vector<std::vector<std::uint32_t>> touching_pairs(const std::vector<Rectangle>& boxes) {
+  std::vector<std::uint32_t> order(boxes.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return boxes[a].low[0] < boxes[b].low[0]; });
+  std::vector<std::vector<std::uint32_t>> beside(boxes.size());
+  for (auto at = order.begin(); at != order.end(); ++at) {
+    for (auto next = at + 1; next != order.end() && boxes[*next].low[0] <= boxes[*at].high[0]; ++next) {
+      if (!touch(boxes[*at], boxes[*next])) continue;
+      beside[*at].push_back(*next);
+      beside[*next].push_back(*at);
+    }
+  }
+  for (auto& others : beside) std::sort(others.begin(), others.end());
+  return beside;
 }
 
 }  // namespace
@@ -358,16 +383,12 @@ std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& p
 std::vector<RimPart> rim_of_union(const std::vector<ExactPolygon>& polygons) {
   std::vector<Rectangle> boxes;
   for (const auto& polygon : polygons) boxes.push_back(rectangle_around(polygon));
+  const auto beside = touching_pairs(boxes);
   std::vector<RimPart> rim;
-  std::vector<const ExactPolygon*> beside;
   for (std::uint32_t i = 0; i < polygons.size(); ++i) {
-    beside.clear();
-    for (std::uint32_t j = 0; j < polygons.size(); ++j) {
-      if (j != i && touch(boxes[i], boxes[j])) beside.push_back(&polygons[j]);
-    }
     for (std::uint32_t k = 0; k < polygons[i].size(); ++k) {
       EdgeOfUnion edge(polygons[i], k);
-      for (const auto* other : beside) edge.cover_by(*other);
+      for (const auto other : beside[i]) edge.cover_by(polygons[other]);
       edge.for_rim([&](ExactSegment segment) { rim.push_back({std::move(segment), i, k}); });
     }
   }

@@ -22,11 +22,12 @@ class LazyRationals {
  public:
   using Pair = std::array<mpq_class, 2>;
   explicit LazyRationals(std::function<Pair()> make) : make_(std::move(make)) {}
+  explicit LazyRationals(Pair pair) : pair_(std::move(pair)) {}
   const Pair& get() const;
 
  private:
   mutable std::once_flag made_;
-  mutable std::function<Pair()> make_;  // none once it has been asked
+  mutable std::function<Pair()> make_;  // none once they are there
   mutable Pair pair_;
 };
 
@@ -63,7 +64,7 @@ ExactPolygon convex_hull(std::vector<ExactSpot> points);
 // Which of a solid is cut out of a plane: what is in its interior, or what has its interior just above, where the plane's normal points.
 enum class Cutting : std::uint8_t { across, just_above };
 
-// None where there is nothing with an area. `dropped` is the axis that is left out of the coordinates. The solid has to outlive the polygon.
+// None where there is nothing with an area. `dropped` is the axis that is left out of the coordinates. The solid has to outlive the polygon, and what is made of that: its rationals are not made yet.
 std::optional<ExactPolygon> section_of(const Solid& solid, const SectionPlane& plane, std::size_t dropped,
                                        Cutting cutting);
 

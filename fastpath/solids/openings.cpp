@@ -1,9 +1,7 @@
 #include "fastpath/solids/openings.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <optional>
 #include <utility>
 
 namespace clues::fastpath::solids {

@@ -10,7 +10,7 @@
 
 namespace clues::fastpath::solids {
 
-// The solids that lie on the far side of the plane, or reach there through it: what they fill of it, exactly.
+// The solids that lie on the far side of the plane, or reach there through it: what they fill of it, exactly. They have to outlive it.
 class FilledPlane {
  public:
   FilledPlane(const FacetPlane& plane, std::span<const Solid> solids);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -39,15 +40,24 @@ std::vector<std::vector<Point>> without_repetitions(const std::vector<std::vecto
   return out;
 }
 
-// Whether sides in different planes, which have different corners, have both corners. Else it is the border between two parts of a face.
-bool is_in_two_planes(const std::array<std::uint32_t, 2>& border,
-                      const std::vector<std::vector<std::uint32_t>>& on_side) {
-  const std::vector<std::uint32_t>* first = nullptr;
-  return std::any_of(on_side.begin(), on_side.end(), [&](const auto& on) {
-    if (!std::includes(on.begin(), on.end(), border.begin(), border.end())) return false;
-    if (first == nullptr) first = &on;
-    return on != *first;
-  });
+// What of the borders between triangles of a solid are its edges: both corners are in two planes of sides. `on_side`: the corners in the plane of each side, which differ where planes do.
+std::vector<std::array<std::uint32_t, 2>> edges_among(const std::map<std::array<std::uint32_t, 2>, int>& borders,
+                                                      std::vector<std::vector<std::uint32_t>> on_side) {
+  std::sort(on_side.begin(), on_side.end());
+  on_side.erase(std::unique(on_side.begin(), on_side.end()), on_side.end());
+  std::map<std::uint32_t, std::vector<std::size_t>> planes_at;  // of a corner, ascending
+  for (std::size_t plane = 0; plane < on_side.size(); ++plane) {
+    for (const auto corner : on_side[plane]) planes_at[corner].push_back(plane);
+  }
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  std::vector<std::size_t> both;
+  for (const auto& [border, count] : borders) {
+    const auto &a = planes_at[border[0]], &b = planes_at[border[1]];
+    both.clear();
+    std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+    if (both.size() >= 2) edges.push_back(border);
+  }
+  return edges;
 }
 
 }  // namespace
@@ -197,6 +207,9 @@ std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {
       borders[{std::min(a, b), std::max(a, b)}] += a < b ? outside : -outside;
     }
   }
+  for (const auto& [border, count] : borders) {
+    if (count != 0) return std::nullopt;
+  }
   if (solid.sides.empty()) return std::nullopt;
   for (const Side& side : solid.sides) {
     auto& on = solid.on_side.emplace_back();
@@ -204,10 +217,7 @@ std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {
       if (side.side_of(solid.corners[i]) == 0) on.push_back(i);
     }
   }
-  for (const auto& [border, count] : borders) {
-    if (count != 0) return std::nullopt;
-    if (is_in_two_planes(border, solid.on_side)) solid.edges.push_back(border);
-  }
+  solid.edges = edges_among(borders, solid.on_side);
   solid.bounds = scene::bounds_of(solid.corners);
   return solid;
 }

@@ -48,6 +48,9 @@ COPIES = {
     "spots_without_errors": ("fastpath/exact_sections.cpp", [
         ("  ExactSpot s{x.value, y.value, {x.off, y.off}, false, nullptr};",
          "  ExactSpot s{x.value, y.value, {0, 0}, false, nullptr};")]),
+    # A coordinate that is the same at both ends of an edge is a double.
+    "rounded_edges": ("fastpath/exact_sections.cpp", [
+        ("return same ? from : between(", "return same ? Estimate{from.value, 0} : between(")]),
     # Crossings are no further off than what they are of is rounded.
     "flat_crossings": ("fastpath/exact_sections.cpp", [
         ("off_share = 2 * errors / span + 0x1p-50;", "off_share = 0x1p-50;")]),

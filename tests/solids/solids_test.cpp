@@ -267,6 +267,46 @@ TEST(Rim, IsThatOfRationals) {
   EXPECT_GT(rims.estimated, 10'000U);
 }
 
+TEST(Rim, OfTurnsBeyondTheRangeOfDoublesIsExact) {
+  const auto a = solids::exact_spot(-0x1.40d1d6cf7ebcp+451, -0x1.2b3b5d92f6p+460),
+             b = solids::exact_spot(0x1.28b574dc43221p+510, 0x1.ea12c0772a938p+518),
+             c = solids::exact_spot(0x1.0b74328c6f229p+505, 0x1.b9c0c2a525a7cp+513);
+  EXPECT_EQ(solids::sign_of_turn(a, b, c), -1) << "a product is infinite, and what is subtracted from it is not";
+}
+
+// Over a quadrangle, counter-clockwise; the third coordinate is from -1 to 1, and the second one is that of the quadrangle and so many times the third.
+Solid sheared_prism(const std::array<std::array<mpq_class, 2>, 4>& base, const mpq_class& lean) {
+  scene::Polytope prism;
+  for (const int z : {-1, 1}) {
+    for (const auto& p : base) prism.vertices.push_back({p[0], mpq_class(p[1] + z * lean), mpq_class(z)});
+  }
+  const auto add = [&](const std::vector<std::uint32_t>& ids) {
+    auto plane = scene::plane_through(prism.vertices[ids[0]], prism.vertices[ids[1]], prism.vertices[ids[2]]).value();
+    if (!std::all_of(prism.vertices.begin(), prism.vertices.end(),
+                     [&](const auto& v) { return sgn(plane.height(v)) <= 0; }))
+      plane = plane.opposite();
+    prism.faces.push_back({plane, ids});
+  };
+  add({0, 1, 2, 3});
+  add({4, 5, 6, 7});
+  for (std::uint32_t i = 0; i < 4; ++i) add({i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i});
+  return solids::solid_of_polytope(prism);
+}
+
+// Two prisms on one side of a line that is not upright by less than doubles know: neither is beyond it, where the other one is.
+TEST(FilledPlane, KnowsCoordinatesThatAreTooSmallForDoubles) {
+  for (const int power : {100, 1060, 1080}) {
+    mpq_class e;
+    mpq_div_2exp(e.get_mpq_t(), mpq_class(1).get_mpq_t(), static_cast<mp_bitcnt_t>(power));
+    const mpq_class third(1, 3), half(1, 2), low(13, 30), high(37, 30);
+    const std::vector<Solid> walls{sheared_prism({{{e, third}, {1, third}, {1, 4 * third}, {0, 4 * third}}}, third),
+                                   sheared_prism({{{e * 9 / 10, low}, {half, low}, {half, high}, {e / 10, high}}}, 0)};
+    const solids::FilledPlane plane({2, 0, true}, walls);
+    EXPECT_FALSE(plane.fills({{-0.375, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 1, 0}, {-0.375, 1, 0}})) << power;
+    EXPECT_TRUE(plane.fills({{0x1p-20, 0.5, 0}, {0.5, 0.5, 0}, {0.5, 1, 0}, {0x1p-20, 1, 0}})) << power;
+  }
+}
+
 TEST(FilledPlane, KnowsWhereAFacetIsOpen) {
   // A wall behind x = 10 with a door in it.
   const auto walls = boxes({{{{10, 0, 0}, {12, 8, 16}}}, {{{10, 12, 0}, {12, 20, 16}}}, {{{10, 8, 6}, {12, 12, 16}}}});

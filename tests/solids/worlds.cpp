@@ -263,6 +263,29 @@ std::vector<solids::Solid> turned_boxes(std::uint64_t seed) {
   return boxes;
 }
 
+// Boxes with corners in sevenths, cut along one axis: edges of the cut have one coordinate in common that is no double.
+std::vector<solids::Solid> boxes_in_sevenths(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  const auto number = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
+  std::vector<solids::Solid> boxes;
+  for (int i = 0; i < 8; ++i) {
+    scene::RationalPoint low, high;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = mpq_class(number(0, 40)) / 7;
+      high[axis] = low[axis] + mpq_class(number(1, 14)) / 7;
+    }
+    scene::HalfSpace beyond;
+    const auto along = static_cast<std::size_t>(number(0, 2));
+    for (const std::size_t axis : {(along + 1) % 3, (along + 2) % 3}) {
+      beyond.normal[axis] = number(0, 1) == 0 ? 1 : -2;
+      beyond.offset += beyond.normal[axis] * (low[axis] + (high[axis] - low[axis]) * number(1, 2) / 3);
+    }
+    if (auto part = scene::intersection(scene::box_polytope(low, high), beyond))
+      boxes.push_back(solids::solid_of_polytope(*part));
+  }
+  return boxes;
+}
+
 std::vector<Cut> cuts_of(const solids::Solids& all) {
   std::set<std::pair<std::size_t, double>> flat;
   for (const auto& solid : all.all()) {
@@ -299,6 +322,14 @@ bool is_as_near_as_it_says(const solids::ExactSpot& spot) {
          abs(exact[1] - mpq_class(spot.y)) <= mpq_class(spot.off[1]);
 }
 
+bool are_in_their_rectangle(const solids::ExactPolygon& polygon) {
+  const auto box = solids::rectangle_around(polygon);
+  return std::all_of(polygon.begin(), polygon.end(), [&](const solids::ExactSpot& spot) {
+    const auto exact = spot.rationals();
+    return exact[0] >= box.low[0] && exact[0] <= box.high[0] && exact[1] >= box.low[1] && exact[1] <= box.high[1];
+  });
+}
+
 // Nothing is known of it but its rationals.
 solids::ExactSpot without_estimate(solids::ExactSpot spot) {
   const double infinity = std::numeric_limits<double>::infinity();
@@ -326,6 +357,7 @@ std::string compare_rims(const solids::Solids& all, Rims& rims) {
     const auto rim = solids::rim_of_union(polygons);
     for (const auto& polygon : polygons) {
       if (!std::all_of(polygon.begin(), polygon.end(), is_as_near_as_it_says)) return "a corner is not where it says";
+      if (!are_in_their_rectangle(polygon)) return "a corner is not in the rectangle";
     }
     for (const auto& part : rim) {
       if (!std::all_of(part.segment.begin(), part.segment.end(), is_as_near_as_it_says))
@@ -351,7 +383,9 @@ Rims compare_rims(std::uint64_t first_seed, std::uint64_t worlds) {
       if (!wrong.empty()) rims.differs = fmt::format("seed {}, {}: {}", seed, kind, wrong);
     };
     compare(solids_of_world(random_world(seed)), "world");
-    if (rims.differs.empty()) compare(solids::Solids(turned_boxes(seed), {{0, 0, 0}, {16, 16, 16}}), "turned boxes");
+    const scene::Bounds about{{0, 0, 0}, {16, 16, 16}};
+    if (rims.differs.empty()) compare(solids::Solids(turned_boxes(seed), about), "turned boxes");
+    if (rims.differs.empty()) compare(solids::Solids(boxes_in_sevenths(seed), about), "boxes in sevenths");
   }
   return rims;
 }

@@ -35,14 +35,14 @@ struct Looked {
 Looked look_for_what_is_hidden(std::uint64_t first_seed, std::uint64_t worlds, int lines_for_each);
 
 struct Rims {
-  std::string differs;  // the first that is not the same; empty: none
-  std::uint64_t parts = 0, numbered = 0,
-                estimated =
-                    0;  // of the rims; edges whose plane has a number; corners that are known in doubles with an error
+  std::string differs;          // the first that is not the same; empty: none
+  std::uint64_t parts = 0;      // of the rims
+  std::uint64_t numbered = 0;   // edges whose plane has a number
+  std::uint64_t estimated = 0;  // corners that are known in doubles with an error
 };
 
-// Compares the rims of sections with what they are where all is decided in rationals, without numbers of planes or estimates of corners: in each world, and among as many boxes that are turned and have full
-// coordinates, by planes with faces of the solids, and by such that lean. And all corners with what their estimates say.
+// Compares the rims of sections with what they are where all is decided in rationals, without numbers of planes or estimates of corners: in each world, and among boxes that are turned and have full
+// coordinates, and among such in sevenths, by planes with faces of the solids, and by such that lean. And all corners with what their estimates say.
 Rims compare_rims(std::uint64_t first_seed, std::uint64_t worlds);
 
 }  // namespace clues::tests
