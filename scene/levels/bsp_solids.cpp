@@ -97,6 +97,16 @@ bool is_over(const std::array<Point, 3>& drawn, const RationalPoint& q) {
   return true;
 }
 
+// Whether the triangle is a drawing of one of the sides, before which v is. Behind such a side solids are held (bsp_hulls.h), so that v sees the triangle past them.
+template <class Sides>
+bool is_drawing_before(const Sides& sides, const std::array<Point, 3>& drawn, const RationalPoint& v) {
+  return std::any_of(sides.begin(), sides.end(), [&](const auto& side) {
+    return sgn(side.exact.height(v)) > 0 && std::all_of(drawn.begin(), drawn.end(), [&](const Point& corner) {
+             return abs(side.exact.height(to_rational(corner))) <= mpq_class(side_thickness);
+           });
+  });
+}
+
 }  // namespace
 
 HalfSpace half_space_of(const BspFile::Plane& plane) { return {to_rational(plane.normal), mpq_class(plane.distance)}; }
@@ -126,7 +136,7 @@ bool SolidBrushes::block(const RationalPoint& v, const RationalPoint& p, const s
   return std::any_of(candidates.begin(), candidates.end(), [&](const auto& candidate) {
     const auto met = meeting(*candidate.second, v, p);
     if (!met || met->share == 1) return false;
-    if (!met->with_p_in_it) return true;
+    if (!met->with_p_in_it || !is_drawing_before(*candidate.second, drawn, v)) return true;
     RationalPoint entry = v;
     for (std::size_t axis = 0; axis < 3; ++axis) entry[axis] += met->share * (p[axis] - v[axis]);
     return !is_over(drawn, entry);

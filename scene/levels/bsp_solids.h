@@ -19,7 +19,8 @@ class SolidBrushes {
 
   // Whether the segment from v to p, a point of the drawn triangle, meets a brush of the world before p; to touch it is enough, since two
   // brushes may touch there. Compilers move drawn triangles a little into their brushes: a brush with p inside is passed over where
-  // the segment enters it over the triangle, at most side_thickness away from its plane.
+  // the triangle is within side_thickness of a side that v is in front of, and the segment enters the brush over the triangle, at most side_thickness away from its plane. Who looks at a drawing from
+  // behind looks through the brush.
   bool block(const RationalPoint& v, const RationalPoint& p, const std::array<Point, 3>& drawn) const;
 
  private:

@@ -107,6 +107,17 @@ TEST(SolidBrushes, PassOverDrawingsALittleWithin) {
   EXPECT_TRUE(blocks(brushes, {4, -8, 4}, {4, 0.625, 4}, deep));
 }
 
+// The drawing of a side, which is an ulp of a float in front of it, looked at from behind: past the edge at its foot the line is in the brush for a hundredth of a unit only, and over the triangle. (`oa_koth1`: three
+// holes of a list that had none, cells 293, 1084 and 3581.)
+TEST(SolidBrushes, StopWhatComesFromBehindADrawing) {
+  const auto brushes = brushes_of(two_boxes());
+  const double y = 16 - 0x1p-20;
+  const std::array<Point, 3> drawn{{{4, y, 0}, {8, y, 12}, {12, y, 0}}};
+  EXPECT_TRUE(blocks(brushes, {8, -8, -8}, {8, y, 0x1p-8}, drawn));
+  EXPECT_FALSE(blocks(brushes, {8, 32, -8}, {8, y, 0x1p-8}, drawn)) << "from before it";
+  EXPECT_FALSE(blocks(brushes, {8, 32, 8}, {8, y, 8}, drawn));
+}
+
 // Doubles near the corners of the two brushes leave a crack between their hulls, through which the wall behind is seen.
 TEST(SolidBrushes, DoNotLetALevelBeAccusedThroughACrack) {
   const TestFolder folder;
