@@ -69,16 +69,10 @@ std::vector<mpq_class> depths_of_drawings(const BspFile& level, const BspFile::B
       const auto& plane = level.planes[level.sides[brush.sides.first + i].plane];
       if (!std::all_of(triangle->begin(), triangle->end(), [&](const Point& p) { return may_be_near(plane, p); }))
         continue;
-      mpq_class lowest;
-      bool near = true;
-      for (const Point& p : *triangle) {
-        const mpq_class height = sides[i].height(to_rational(p));
-        near = near && abs(height) <= mpq_class(side_thickness);
-        lowest = std::min(lowest, height);
-      }
-      if (!near || -lowest <= depths[i]) continue;
+      const auto depth = depth_of_drawing(sides[i], *triangle);
+      if (!depth || *depth <= depths[i]) continue;
       if (!is_in) is_in = enters(*triangle, sides);
-      if (*is_in) depths[i] = -lowest;
+      if (*is_in) depths[i] = *depth;
     }
   }
   return depths;
@@ -113,6 +107,16 @@ bool meets_box(const std::array<Point, 3>& t, const std::array<Point, 2>& box) {
 }
 
 }  // namespace
+
+std::optional<mpq_class> depth_of_drawing(const HalfSpace& side, const std::array<Point, 3>& drawn) {
+  mpq_class lowest;
+  for (const Point& p : drawn) {
+    const mpq_class height = side.height(to_rational(p));
+    if (abs(height) > mpq_class(side_thickness)) return std::nullopt;
+    lowest = std::min(lowest, height);
+  }
+  return -lowest;
+}
 
 std::optional<Polytope> solid_of_brush(const BspFile& level, const BspFile::Brush& brush, const Polytope& bounds,
                                        const std::vector<std::array<Point, 3>>& drawn) {

@@ -15,6 +15,9 @@ namespace clues::scene {
 // side. Compilers move drawn vertices to a grid and stitch faces; a quarter of a unit is the most that was met.
 inline constexpr double side_thickness = 0.5;
 
+// How deep behind the plane of the side the triangle reaches, in units of its normal, if it lies within side_thickness of it as a whole; else none: it is no drawing of the side.
+std::optional<mpq_class> depth_of_drawing(const HalfSpace& side, const std::array<Point, 3>& drawn);
+
 // The faces of a convex solid, each a polygon that is nearly flat; the corners are doubles.
 using Hull = std::vector<std::vector<Point>>;
 

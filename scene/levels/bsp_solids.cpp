@@ -101,9 +101,7 @@ bool is_over(const std::array<Point, 3>& drawn, const RationalPoint& q) {
 template <class Sides>
 bool is_drawing_before(const Sides& sides, const std::array<Point, 3>& drawn, const RationalPoint& v) {
   return std::any_of(sides.begin(), sides.end(), [&](const auto& side) {
-    return sgn(side.exact.height(v)) > 0 && std::all_of(drawn.begin(), drawn.end(), [&](const Point& corner) {
-             return abs(side.exact.height(to_rational(corner))) <= mpq_class(side_thickness);
-           });
+    return sgn(side.exact.height(v)) > 0 && depth_of_drawing(side.exact, drawn);
   });
 }
 
