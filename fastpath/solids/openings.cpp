@@ -68,10 +68,7 @@ class Opener {
     const std::vector<ExactPolygon> both{facet_, exactly(r)};
     const auto rounded = clipped_to(rounded_, r);
     if (rounded.size() < 3) return are_apart(both[0], both[1]);
-    Spot middle{};
-    for (const Spot& s : rounded) {
-      for (std::size_t i = 0; i < 2; ++i) middle[i] += s[i] / static_cast<double>(rounded.size());
-    }
+    const Spot middle = middle_of(rounded);
     const ExactSpot inner = exact_spot(middle[0], middle[1]);
     if (!is_inside(inner, both[0], 1) || !is_inside(inner, both[1], 1)) return are_apart(both[0], both[1]);
     return std::any_of(polygons_.begin(), polygons_.end(),

@@ -34,6 +34,15 @@ inline bool touch(const Rectangle& a, const Rectangle& b) {
   return true;
 }
 
+template <std::size_t N>
+std::array<double, N> middle_of(const std::vector<std::array<double, N>>& points) {
+  std::array<double, N> middle{};
+  for (const auto& p : points) {
+    for (std::size_t i = 0; i < N; ++i) middle[i] += p[i] / static_cast<double>(points.size());
+  }
+  return middle;
+}
+
 // A convex polygon, or the corners of a box, cut out of a whole. Its corners are rounded where it was cut.
 struct Piece {
   Piece() = default;

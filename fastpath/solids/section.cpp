@@ -281,10 +281,7 @@ bool Section::covers(const Piece& from_piece, const Piece& to_piece) const {
   std::call_once(exact_made_, [this] { make_exact(); });
   std::sort(crossings.begin(), crossings.end());
   hull_of_sorted(crossings, turn_of, window);  // what lies on an edge but for a rounding may be missing
-  Spot middle{};
-  for (const Spot& s : window) {
-    for (std::size_t k = 0; k < 2; ++k) middle[k] += s[k] / static_cast<double>(window.size());
-  }
+  const Spot middle = middle_of(window);
   bool held = holds(middle);
   for (std::size_t i = 0; !held && i < window.size(); ++i)
     held = holds({(middle[0] + window[i][0]) / 2, (middle[1] + window[i][1]) / 2});

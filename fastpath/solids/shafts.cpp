@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "fastpath/solids/view_cell.h"
@@ -20,14 +19,6 @@ constexpr std::size_t kMostPlanes = 24;  // that are tried for one shaft
 constexpr std::size_t kProbes = 6;       // segments that look for a way that is free, before a proof is tried
 constexpr double kProbesWithin = 0.9;    // of the way from the middle to the corners
 constexpr double kSmallest = 0x1p-14;    // of the scale: what is no longer cut
-
-Point middle_of(std::span<const Point> points) {
-  Point middle{};
-  for (const Point& p : points) {
-    for (std::size_t i = 0; i < 3; ++i) middle[i] += p[i] / static_cast<double>(points.size());
-  }
-  return middle;
-}
 
 double length_along(const Bounds& box, std::size_t axis) { return box.high[axis] - box.low[axis]; }
 

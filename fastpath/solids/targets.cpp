@@ -32,8 +32,7 @@ bool may_be_in(const Solid& solid, const FacetPlane& plane, const scene::Point& 
 
 void Targets::find_backs(std::uint32_t triangle, const Solids& solids) {
   const auto corners = corners_of({{}, 0, 0, triangle});
-  scene::Point middle{};
-  for (std::size_t i = 0; i < 3; ++i) middle[i] = (corners[0][i] + corners[1][i] + corners[2][i]) / 3;
+  const scene::Point middle = middle_of(corners);
   auto& backs = backs_[triangle];
   const auto touching = solids.touching(bounds_of(triangle));
   for (const auto i : touching) {
