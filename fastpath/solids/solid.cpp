@@ -207,9 +207,8 @@ std::optional<Solid> solid_of(const std::vector<std::vector<Point>>& given) {
       borders[{std::min(a, b), std::max(a, b)}] += a < b ? outside : -outside;
     }
   }
-  for (const auto& [border, count] : borders) {
-    if (count != 0) return std::nullopt;
-  }
+  if (std::any_of(borders.begin(), borders.end(), [](const auto& border) { return border.second != 0; }))
+    return std::nullopt;
   if (solid.sides.empty()) return std::nullopt;
   for (const Side& side : solid.sides) {
     auto& on = solid.on_side.emplace_back();

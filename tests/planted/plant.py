@@ -31,7 +31,7 @@ COPIES = {
          "      return is_inside(side, Piece(std::span(&corner, 1)), solids.scale())")]),
     # A box without a lid is a solid.
     "open_solids": ("fastpath/solid.cpp", [
-        ("    if (count != 0) return std::nullopt;\n", "")]),
+        ("return border.second != 0;", "return border.second > 1'000'000;")]),
     # Solids that the viewer may be in hide as all others do.
     "viewer_in_a_wall": ("fastpath/view_cell.cpp", [
         ("if (!is_outside(solids.all()[i])) around_", "if (i == ~0U) around_")]),
