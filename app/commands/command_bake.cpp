@@ -44,7 +44,7 @@ using scene::ErrorCode;
 constexpr std::uint64_t kEffort = 500, kEffortInLevels = 50;
 // Of solids that are found in a scene. With more of them sections take longer than maps (10,000 boxes: 7 s for a cell, and 1.3 GB).
 constexpr std::size_t kMostSolidsForMaps = 4096;
-constexpr int kTries = 6;  // what these kernels do: raised when that changes, so that no store has lists of two kinds
+constexpr int kTries = 7;  // what these kernels do: raised when that changes, so that no store has lists of two kinds
 
 struct BakeRequest {
   std::string scene, cells, out, kernel = "fast", up, exported;

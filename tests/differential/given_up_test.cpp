@@ -179,6 +179,37 @@ TEST(Closure, MapsTheSamePartAgainWhereNothingIsMissing) {
   }
 }
 
+// Where rays see half of what counts there is hardly anything to be found out about the rest: all of it is mapped at once, with the effort that is for that; and where this is given up what they saw.
+TEST(Closure, BeginsWithAllThatCountsWhereRaysSeeHalf) {
+  const SmallCity city;
+  std::vector<std::uint8_t> counting(city.mesh.triangles.size(), 0);
+  for (const std::uint32_t t : city.whole) counting[t] = 1;
+  counting[0] = 1;
+  for (const std::size_t given_up : {0, 1}) {
+    SCOPED_TRACE(given_up);
+    using enum fastpath::PartStage;
+    std::vector<fastpath::PartStage> stages;
+    std::vector<std::uint32_t> first;
+    const auto some = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids,
+                          fastpath::PartStage stage) {
+      stages.push_back(stage);
+      if (stages.size() == 1) first = ids;
+      if (stages.size() == 2) {
+        EXPECT_LT(ids.size(), first.size());
+        EXPECT_TRUE(std::includes(first.begin(), first.end(), ids.begin(), ids.end()));
+      }
+      return stages.size() <= given_up ? nullptr : city.make_map(part, ids, stage);
+    };
+    const auto closure = fastpath::close_over_visible(city.bvh, fastpath::Cell(city.cell), some, 1, {}, {}, counting);
+    EXPECT_EQ(stages.front(), all);
+    for (std::uint32_t t = 0; t < counting.size(); ++t)
+      EXPECT_TRUE(counting[t] == 0 || std::binary_search(first.begin(), first.end(), t)) << t;
+    EXPECT_EQ(stages.back(), given_up == 0 ? all : least);
+    EXPECT_TRUE(closure.unproved.empty());
+    EXPECT_TRUE(std::includes(closure.visible.begin(), closure.visible.end(), city.whole.begin(), city.whole.end()));
+  }
+}
+
 TEST(Closure, TheFirstTriesGetLittleEffort) {
   EXPECT_EQ(fastpath::effort_of_first_try(500), 31U);
   EXPECT_EQ(fastpath::effort_of_first_try(15), 1U) << "not 0, which is without end";

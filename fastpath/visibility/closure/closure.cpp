@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fastpath/visibility/closure/darkness.h"
+#include "fastpath/visibility/closure/neighbours.h"
 #include "fastpath/visibility/closure/sight_rays.h"
 
 namespace clues::fastpath {
@@ -17,9 +18,11 @@ constexpr std::size_t kFailures = 512, kFailuresPerMapped = 2;
 
 class Closer {
  public:
-  Closer(const Bvh& bvh, const Cell& cell, const exact::Dials& dials, std::span<const std::uint8_t> counting)
+  Closer(const Bvh& bvh, const Cell& cell, std::size_t whole, const exact::Dials& dials,
+         std::span<const std::uint8_t> counting)
       : bvh_(bvh),
         cell_(cell),
+        takes_halves_(whole > 0),
         failures_(dials.batch),
         counting_(counting),
         rays_(bvh, cell, dials.sight_rays),
@@ -45,6 +48,9 @@ class Closer {
   void add_all();
   void add_triangles_by_the_cell();
   void add_seen_by_rays();
+  void add_neighbours_in_sight();
+  // A part that holds half of what counts becomes all of that, and its map is made in the stage that follows the first.
+  void begin_with_all_if_half();
 
   // The scene of the part, ids ascending.
   scene::TriangleMesh part_mesh();
@@ -62,6 +68,10 @@ class Closer {
   bool counts_in_list(std::uint32_t triangle) const { return counting_.empty() || counting_[triangle] != 0; }
   void set_part(std::vector<std::uint32_t> part);
   bool take_all_that_counts(const Closure& closure);
+  std::size_t count_missing() const;  // of those that count
+  void add_all_that_count();
+  void add_all_if_half();
+  void add_those_that_count(const std::vector<std::uint32_t>& triangles);
   bool add_seen(std::uint32_t triangle);  // which a ray has met; as add()
   void add_seen_beside(std::vector<std::uint32_t> triangles);
   // Adds what sight lines to the triangles meet first; else the triangles themselves.
@@ -70,12 +80,14 @@ class Closer {
 
   const Bvh& bvh_;
   const Cell& cell_;
+  bool takes_halves_;
   std::size_t failures_;                    // a dial; 0: our own number
   std::span<const std::uint8_t> counting_;  // none: all do
   SightRays rays_;
   ProvedDark proved_;
   std::vector<std::uint8_t> in_part_, seen_, looked_into_;  // seen by a ray; as a listed triangle that none has seen
-  std::vector<std::uint32_t> part_, given_up_;              // the latter: the first whose map was
+  std::vector<std::uint32_t> part_;
+  std::vector<std::uint32_t> given_up_;  // the first whose map was, or that became all that counts before it was made
   PartStage stage_ = PartStage::grown;
 };
 
@@ -117,6 +129,29 @@ void Closer::add_seen_beside(std::vector<std::uint32_t> triangles) {
 bool Closer::add_seen(std::uint32_t triangle) {
   seen_[triangle] = 1;
   return add(triangle);
+}
+
+// They are seen as well, unless something is in front. Rays miss many of them where little can be seen of each.
+void Closer::add_neighbours_in_sight() {
+  add_those_that_count(neighbours_in_sight(bvh_.mesh(), part_, middle_of(scene::bounds_of(cell_.vertices()))));
+}
+
+void Closer::add_those_that_count(const std::vector<std::uint32_t>& triangles) {
+  for (const std::uint32_t t : triangles) {
+    if (counts_in_list(t)) add(t);
+  }
+}
+
+void Closer::add_all_if_half() {
+  if (takes_halves_ && count_missing() <= part_.size()) add_all_that_count();
+}
+
+void Closer::begin_with_all_if_half() {
+  const std::vector<std::uint32_t> guess = part_;
+  add_all_if_half();
+  if (part_.size() == guess.size()) return;
+  given_up_ = guess;
+  stage_ = PartStage::all;
 }
 
 scene::TriangleMesh Closer::part_mesh() {
@@ -192,6 +227,10 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   }
   if (failures_ > 0) open.resize(std::min(open.size(), failures_));
   add_front_of(open);
+  if (failures_ > 0) return true;
+  // Most of what wedges end at is next to what is seen. In the part it costs little, as no light spreads from it; a proof that fails for it costs a pass.
+  add_those_that_count(neighbours_of(bvh_.mesh(), part_));
+  add_all_if_half();
   return true;
 }
 
@@ -218,14 +257,23 @@ bool Closer::begin_again(const Closure& closure) {
 
 // The part of the map before, or, if there is none, this one, and all that counts. False: that is too much, or it is this part.
 bool Closer::take_all_that_counts(const Closure& closure) {
-  std::size_t missing = 0;
-  for (std::uint32_t t = 0; t < in_part_.size(); ++t) missing += counts_in_list(t) && is_new(t) ? 1 : 0;
+  const std::size_t missing = count_missing();
   if (missing == 0 || missing > kAllForPart * std::max(part_.size(), kLeastAll)) return false;
   if (closure.map) set_part(closure.part);
+  add_all_that_count();
+  return true;
+}
+
+std::size_t Closer::count_missing() const {
+  std::size_t missing = 0;
+  for (std::uint32_t t = 0; t < in_part_.size(); ++t) missing += counts_in_list(t) && is_new(t) ? 1 : 0;
+  return missing;
+}
+
+void Closer::add_all_that_count() {
   for (std::uint32_t t = 0; t < in_part_.size(); ++t) {
     if (counts_in_list(t)) add(t);
   }
-  return true;
 }
 
 // Triangles of the tree for which the closure's map gives no proof, but for those that are skipped or proved before; all, if it has no map. Ascending.
@@ -266,14 +314,18 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
                            const exact::Dials& dials, std::span<const std::uint32_t> guess,
                            std::span<const std::uint8_t> counting) {
   using FirstGuess = exact::Dials::FirstGuess;
-  Closer closer(bvh, cell, dials, counting);
+  Closer closer(bvh, cell, whole, dials, counting);
   const bool small = dials.first_guess == FirstGuess::seen && bvh.mesh().triangles.size() <= whole;
   if (small || dials.first_guess == FirstGuess::everything) {
     closer.add_all();
   } else if (!bvh.nodes().empty()) {
     closer.add_triangles_by_the_cell();
     for (const auto t : guess) closer.add(t);
-    if (dials.first_guess == FirstGuess::seen) closer.add_seen_by_rays();
+    if (dials.first_guess == FirstGuess::seen) {
+      closer.add_seen_by_rays();
+      closer.add_neighbours_in_sight();
+      closer.begin_with_all_if_half();
+    }
   }
   Closure result;
   for (bool grown = true; grown;) {
