@@ -76,5 +76,34 @@ TEST(LocalBoxTree, ASegmentIsNeverSaidToMissABoxThatHoldsAPointOfIt) {
   EXPECT_GT(missed, 10000);  // it is of some use
 }
 
+// Through a corner of a box and away from it, along axes, too: exactly, so that any error that is not bounded would show.
+TEST(LocalBoxTree, ASegmentIsNeverSaidToMissABoxOfWhichItMeetsACorner) {
+  const RoundedUp rounded_up;
+  std::mt19937_64 random(kScenesSeed);
+  int missed = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double far = random() % 2 == 0 ? 0 : 0x1p40, unit = std::ldexp(1.0, static_cast<int>(random() % 12));
+    const auto number = [&](int most) {
+      return static_cast<double>(static_cast<int>(random() % (2 * most + 1)) - most);
+    };
+    Point corner, a, b, other;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double along = number(3);
+      corner[k] = far + number(1000);
+      a[k] = corner[k] - unit * along;
+      b[k] = corner[k] + unit * along;
+      other[k] = corner[k] + number(100);
+    }
+    const auto box_between = [](const Point& p, const Point& q) {
+      return hull(ExactPoint(p).approximate(), ExactPoint(q).approximate());
+    };
+    const SegmentTest test{ExactPoint(a), ExactPoint(b)};
+    EXPECT_TRUE(test(box_between(corner, other)));
+    const Point beside{other[0] + 1, other[1], other[2]};
+    missed += test(box_between(other, beside)) ? 0 : 1;
+  }
+  EXPECT_GT(missed, 10000);
+}
+
 }  // namespace
 }  // namespace clues::fastpath
