@@ -15,6 +15,8 @@ namespace {
 // How many triangles whose proof failed are looked at before the map is made anew: as many as this, or as the map has, times two. (Of a scene behind a hole in K all proofs
 // may fail.)
 constexpr std::size_t kFailures = 512, kFailuresPerMapped = 2;
+// How many triangles may come to a part that already has as many: the map of a large level takes much longer than that of its half.
+constexpr std::size_t kMostMissing = 2048;
 
 class Closer {
  public:
@@ -143,7 +145,8 @@ void Closer::add_those_that_count(const std::vector<std::uint32_t>& triangles) {
 }
 
 void Closer::add_all_if_half() {
-  if (takes_halves_ && count_missing() <= part_.size()) add_all_that_count();
+  const std::size_t missing = count_missing();
+  if (takes_halves_ && missing <= std::min(part_.size(), kMostMissing)) add_all_that_count();
 }
 
 void Closer::begin_with_all_if_half() {
