@@ -15,6 +15,7 @@
 #include "exact/cell/convex_cell.h"
 #include "fastpath/visibility/first_order.h"
 #include "fuzz/generators/city.h"
+#include "fuzz/generators/parts.h"
 #include "reference/visibility/first_order.h"
 
 namespace {
@@ -101,21 +102,7 @@ clues::scene::TriangleMesh town_beside_hidden_city(std::uint32_t hidden) {
       high[i] = std::max(high[i], p[i] + 8);
     }
   }
-  clues::scene::TriangleMesh roof;
-  for (unsigned i = 0; i < 8; ++i) {
-    roof.points.push_back(
-        {(i & 1U) != 0 ? high[0] : low[0], (i & 2U) != 0 ? high[1] : low[1], (i & 4U) != 0 ? high[2] : low[2]});
-  }
-  for (const auto& q : {std::array{0U, 1U, 3U, 2U},
-                        {4U, 5U, 7U, 6U},
-                        {0U, 1U, 5U, 4U},
-                        {2U, 3U, 7U, 6U},
-                        {0U, 2U, 6U, 4U},
-                        {1U, 3U, 7U, 5U}}) {
-    roof.triangles.push_back({q[0], q[1], q[2]});
-    roof.triangles.push_back({q[0], q[2], q[3]});
-  }
-  append(roof, 0);
+  append(clues::fuzz::closed_box(low, high), 0);
   append(clues::fuzz::make_city(hidden, kSeed), 2 * (high[0] - low[0]));
   mesh.face_of.resize(mesh.triangles.size());
   return mesh;

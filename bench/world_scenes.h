@@ -45,9 +45,7 @@ class SceneMaker {
   void closed_box(const std::vector<scene::Point>& corners) {
     std::array<std::uint32_t, 8> p{};
     for (std::size_t i = 0; i < 8; ++i) p[i] = point(corners[i]);
-    for (const auto& q : {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
-      quad(p[static_cast<std::size_t>(q[0])], p[static_cast<std::size_t>(q[1])], p[static_cast<std::size_t>(q[2])],
-           p[static_cast<std::size_t>(q[3])]);
+    for (const auto& [a, b, c, d] : fuzz::box_sides) quad(p[a], p[b], p[c], p[d]);
   }
   void ground(double half) {
     quad(point({-half, -half, 0}), point({half, -half, 0}), point({half, half, 0}), point({-half, half, 0}));

@@ -50,6 +50,16 @@ std::vector<Point> box_of(const Point& lo, const Point& hi) {
   return corners;
 }
 
+scene::TriangleMesh closed_box(const Point& lo, const Point& hi) {
+  scene::TriangleMesh mesh;
+  mesh.points = box_of(lo, hi);
+  for (const auto& [a, b, c, d] : box_sides) {
+    mesh.triangles.push_back({a, b, c});
+    mesh.triangles.push_back({a, c, d});
+  }
+  return mesh;
+}
+
 std::vector<Point> distinct_corners(const Point& lo, const Point& hi) {
   auto corners = box_of(lo, hi);
   std::sort(corners.begin(), corners.end());

@@ -37,7 +37,12 @@ void add_quad(scene::TriangleMesh& mesh, const scene::Point& a, const scene::Poi
 void add_receiver(scene::TriangleMesh& mesh, double x);
 
 std::vector<scene::Point> box_of(const scene::Point& lo, const scene::Point& hi);  // its corners, x fastest
-// The same in order and each once, for boxes that are flat, segments or points.
+// Its sides as corners of box_of, counter-clockwise seen from outside.
+inline constexpr std::array<std::array<std::uint32_t, 4>, 6> box_sides{
+    {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+// The closed box: two triangles for each of these sides, in their order; face_of is empty.
+scene::TriangleMesh closed_box(const scene::Point& lo, const scene::Point& hi);
+// The corners in order and each once, for boxes that are flat, segments or points.
 std::vector<scene::Point> distinct_corners(const scene::Point& lo, const scene::Point& hi);
 
 std::array<std::size_t, 3> shuffled_axes(Random& random);

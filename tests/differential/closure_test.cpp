@@ -140,9 +140,9 @@ struct Blocks {
 Blocks blocks(std::uint64_t seed, int rows) {
   fuzz::Random random(seed);
   Blocks out;
-  const auto quad = [&](const std::vector<scene::Point>& p, std::array<std::size_t, 4> corner) {
+  const auto quad = [&](const std::vector<scene::Point>& p, std::array<std::uint32_t, 4> corner) {
     const auto first = static_cast<std::uint32_t>(out.mesh.points.size());
-    for (const std::size_t i : corner) out.mesh.points.push_back(p[i]);
+    for (const std::uint32_t i : corner) out.mesh.points.push_back(p[i]);
     out.mesh.triangles.push_back({first, first + 1, first + 2});
     out.mesh.triangles.push_back({first, first + 2, first + 3});
   };
@@ -153,13 +153,7 @@ Blocks blocks(std::uint64_t seed, int rows) {
       if (x == 0 && y == 0) continue;  // the cell's place
       const double height = 1 + static_cast<double>(random.next() % 4);
       const auto p = fuzz::box_of({3.0 * x, 3.0 * y, 0}, {3.0 * x + 2, 3.0 * y + 2, height});
-      for (const auto& q : {std::array<std::size_t, 4>{0, 2, 3, 1},
-                            {4, 5, 7, 6},
-                            {0, 1, 5, 4},
-                            {2, 6, 7, 3},
-                            {0, 4, 6, 2},
-                            {1, 3, 7, 5}})
-        quad(p, q);
+      for (const auto& q : fuzz::box_sides) quad(p, q);
     }
   }
   out.mesh.face_of.resize(out.mesh.triangles.size());

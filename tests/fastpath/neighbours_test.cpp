@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "fuzz/generators/parts.h"
@@ -16,20 +15,7 @@ namespace {
 using Ids = std::vector<std::uint32_t>;
 
 // A cube from -1 to 1, two triangles a side: 0 and 1 at the bottom, 2 and 3 on top, then y = -1, y = 1, x = -1, x = 1.
-scene::TriangleMesh cube() {
-  scene::TriangleMesh mesh;
-  mesh.points = fuzz::box_of({-1, -1, -1}, {1, 1, 1});
-  for (const auto& q : {std::array{0U, 2U, 3U, 1U},
-                        {4U, 5U, 7U, 6U},
-                        {0U, 1U, 5U, 4U},
-                        {2U, 6U, 7U, 3U},
-                        {0U, 4U, 6U, 2U},
-                        {1U, 3U, 7U, 5U}}) {
-    mesh.triangles.push_back({q[0], q[1], q[2]});
-    mesh.triangles.push_back({q[0], q[2], q[3]});
-  }
-  return mesh;
-}
+scene::TriangleMesh cube() { return fuzz::closed_box({-1, -1, -1}, {1, 1, 1}); }
 
 TEST(Neighbours, HaveTwoCornersInCommon) {
   const Ids bottom{0, 1};

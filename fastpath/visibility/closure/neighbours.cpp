@@ -21,7 +21,7 @@ std::array<Side, 3> sides_of(const scene::TriangleMesh& mesh, std::uint32_t tria
   for (std::size_t i = 0; i < 3; ++i) {
     const auto [a, b] = std::minmax(c[i], c[(i + 1) % 3]);
     const FilteredSign side = orient3d_filtered(mesh.points[a], mesh.points[b], eye, mesh.points[c[(i + 2) % 3]]);
-    sides[i] = {{a, b}, !side.certain || side.sign == Sign::zero ? 0 : side.sign == Sign::positive ? 1 : -1};
+    sides[i] = {{a, b}, side.certain ? static_cast<int>(side.sign) : 0};
   }
   return sides;
 }
