@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 
 namespace clues {
@@ -59,6 +60,51 @@ TEST(AroundMultiple, OneMultipleIsInAllThreeIntervals) {
       take(v.z, about.z);
       EXPECT_TRUE(least <= most && most > 0) << shift;
     }
+  }
+}
+
+mpq_class to_rational(const Integer& x) { return mpq_class(x.str()); }
+
+mpq_class power_of_two(int e) {
+  mpq_class q = 1;
+  (e < 0 ? mpq_div_2exp : mpq_mul_2exp)(q.get_mpq_t(), q.get_mpq_t(), static_cast<mp_bitcnt_t>(std::abs(e)));
+  return q;
+}
+
+// Points on a way and beyond its end, of points of all kinds, of one another too.
+TEST(Homogeneous, IsThePointThatRationalsGive) {
+  const fastpath::RoundedUp rounded_up;
+  using fastpath::ExactPoint;
+  std::deque<ExactPoint> points;
+  for (const fastpath::Point& p : {fastpath::Point{0, 0, 0}, {0.1, -0.3, 1e17}, {-7, 0x1p-60, 3}, {0x1p-300, 5, -0.7}})
+    points.emplace_back(p);
+  const fastpath::Plane plane(points[0], points[1], points[3]);
+  const std::size_t given = points.size();
+  for (std::size_t i = 0; i < given; ++i) {
+    for (std::size_t j = 0; j < given; ++j) {
+      if (plane.side(points[i]) * plane.side(points[j]) < 0)
+        points.push_back(ExactPoint::on_plane(points[i], points[j], plane));
+      points.push_back(ExactPoint::reflected(points[i], points[j]));
+      for (const double t : {0.0, 1.0, 0.4716796875, 0x1.8p-29, 1 - 0x1p-53, 3.0, -0.1, 0x1p-200, 1e-300})
+        points.push_back(ExactPoint::between(points[i], points[j], t));
+    }
+  }
+  const std::size_t simple = points.size();
+  ASSERT_GT(simple, 120U);
+  for (std::size_t i = 0; i < simple; ++i) {
+    const ExactPoint &a = points[i], &b = points[(i * 7 + 3) % simple];
+    points.push_back(ExactPoint::reflected(a, b));
+    points.push_back(ExactPoint::between(a, b, 0.4716796875));
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto whole = points[i].homogeneous();
+    const fastpath::Exact3& exact = points[i].exact();
+    const mpq_class below = to_rational(whole.w) * power_of_two(whole.e);
+    EXPECT_GT(whole.w.sign(), 0) << i;
+    EXPECT_EQ(whole.whole, whole.w == 1) << i;
+    EXPECT_EQ(to_rational(whole.v.x), mpq_class(exact.x * below)) << i;
+    EXPECT_EQ(to_rational(whole.v.y), mpq_class(exact.y * below)) << i;
+    EXPECT_EQ(to_rational(whole.v.z), mpq_class(exact.z * below)) << i;
   }
 }
 

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "exact/cell/convex_cell.h"
 #include "exact/dials.h"
 #include "fastpath/visibility/wedges/contour.h"
 #include "fuzz/campaign/generators.h"
+#include "fuzz/generators/parts.h"
 
 namespace clues::tests {
 namespace {
@@ -100,6 +102,48 @@ TEST(LitSectors, AreTheSameWhateverWasAskedBeforeAndInWholeNumbers) {
   EXPECT_GT(judged.sectors, 500U);
   EXPECT_GT(judged.left_out, 500U);
   EXPECT_GT(judged.reached, judged.sectors);
+}
+
+// Boxes that stand askew: a side's two triangles are in one plane but for roundings, and intervals do not tell on which side of the one the other is.
+fuzz::Case askew_boxes() {
+  fuzz::Case c;
+  c.generator = "askew boxes";
+  c.cell = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
+  for (const double turn : {0.3, 0.7, 1.1, 1.3}) {
+    const scene::TriangleMesh box =
+        fuzz::closed_box({3 + 4 * turn, -1 - turn, -0.5}, {4.1 + 4 * turn, 1.2, 1.7 + turn});
+    const auto first = static_cast<std::uint32_t>(c.mesh.points.size());
+    for (const scene::Point& p : box.points)
+      c.mesh.points.push_back(
+          {p[0] * std::cos(turn) - p[1] * std::sin(turn), p[0] * std::sin(turn) + p[1] * std::cos(turn), p[2]});
+    for (const scene::Triangle& t : box.triangles)
+      c.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  return c;
+}
+
+TEST(LitSectors, OfAskewBoxesAreHardlyEverLeftToWholeNumbers) {
+  Judged judged;
+  const fuzz::Case c = askew_boxes();
+  judge(c, judged);
+  EXPECT_GT(judged.sectors, 50U);
+  EXPECT_GT(judged.left_out, 50U);
+
+  const fastpath::RoundedUp rounded_up;
+  const fastpath::LocalScene scene(c.mesh, exact::ConvexCell::from_doubles(c.cell));
+  fastpath::Pool pool;
+  const std::vector<double> equal(scene.cell.vertices.size(), 1);
+  const fastpath::ExactPoint middle = scene.cell.interior_point(equal);
+  std::uint64_t asked = 0, left_to_whole_numbers = 0;
+  for (std::uint32_t v = 0; v < scene.points.size(); ++v) {
+    const fastpath::Apex apex(scene, pool, false, v, &scene.points[v]);
+    const std::uint64_t before = fastpath::exact_decisions();
+    fastpath::LitSectors(scene, apex, {}).existing({{Probe::Kind::sight, &middle, {}, nullptr, 0, nullptr, false}});
+    left_to_whole_numbers += fastpath::exact_decisions() - before;
+    asked += apex.sectors().size();
+  }
+  EXPECT_GT(asked, 100U);
+  EXPECT_LT(4 * left_to_whole_numbers, asked);
 }
 
 }  // namespace

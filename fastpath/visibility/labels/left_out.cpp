@@ -15,21 +15,42 @@ LeftOut::Around LeftOut::around(const Apex& apex) {
   return facets;
 }
 
-void LeftOut::add(Around around) {
+void LeftOut::clear() {
+  anticones_.clear();
+  added_.clear();
+  batches_.clear();
+}
+
+void LeftOut::add(Around around, const IntervalBox& at) {
   Anticone& anticone = anticones_.emplace_back();
   for (const Side& s : around) {
     const IntervalBox& n = s.plane->normal_approximate();
     anticone.sides.push_back({s.sign > 0 ? n : IntervalBox{-n.x, -n.y, -n.z}, s.base->approximate()});
   }
   anticone.around = std::move(around);
+  added_.push_back(at);
+}
+
+void LeftOut::index() {
+  if (added_.empty()) return;
+  const std::size_t begin = size() - added_.size();
+  batches_.push_back({begin, BoxTree(std::move(added_))});
+  added_.clear();
 }
 
 bool LeftOut::surely_misses(std::span<const IntervalBox> hull) const {
-  return std::all_of(anticones_.begin(), anticones_.end(), [&](const Anticone& anticone) {
-    return std::any_of(anticone.sides.begin(), anticone.sides.end(), [&](const HalfSpace& side) {
+  IntervalBox all = hull.front();
+  for (const IntervalBox& x : hull) all = fastpath::hull(all, x);
+  return !any_near(all, 0, [&](std::size_t i) {
+    const std::vector<HalfSpace>& sides = anticones_[i].sides;
+    return std::none_of(sides.begin(), sides.end(), [&](const HalfSpace& side) {
       return std::all_of(hull.begin(), hull.end(), [&](const IntervalBox& x) { return side.at(x).sup() < 0; });
     });
   });
+}
+
+bool LeftOut::surely_misses(const IntervalBox& a, const IntervalBox& b) const {
+  return !any_near(hull(a, b), 0, [&](std::size_t i) { return !surely_misses(i, a, b); });
 }
 
 // It leaves one side before it enters another.

@@ -20,6 +20,13 @@ constexpr auto kNothing = [](const Plane&) { return false; };
 
 }  // namespace
 
+bool keeps_out(const Walk& walk, const LeftOut& left_out) {
+  return std::all_of(walk.legs.begin(), walk.legs.end(), [&](const Leg& leg) {
+    const ExactPoint* from = leg.aside_from();
+    return !from || left_out.surely_misses(from->approximate(), leg.p->approximate());
+  });
+}
+
 bool keeps_out(const Walk& walk, const LeftOut& left_out, std::size_t i) {
   return std::all_of(walk.legs.begin(), walk.legs.end(), [&](const Leg& leg) {
     const ExactPoint* from = leg.aside_from();
@@ -231,9 +238,7 @@ Walker::Label Walker::label(const ExactPoint* p, const LeftOut& left_out, Pool& 
     const Crossing last = visible_by_last_leg(made, 0);  // no other leg is crossed: the walk went on
     if (last == Crossing::yes && !last_leg_is_in_doubt(made)) return Label::visible;
     if (last != Crossing::no) continue;
-    bool counts = true;
-    for (std::size_t i = 0; counts && i < left_out.size(); ++i) counts = keeps_out(made, left_out, i);
-    if (counts) return Label::hidden;
+    if (keeps_out(made, left_out)) return Label::hidden;
   }
   return Label::unresolved;
 }

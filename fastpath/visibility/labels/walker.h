@@ -44,7 +44,8 @@ struct Walk {
   bool ends_in_the_dark() const { return !legs.empty() && !legs.back().is_sight_line(); }
 };
 
-// Whether a walk surely keeps out of number `i` of what was left out, where it follows no sight line. Needs RoundedUp in scope.
+// Whether a walk surely keeps out of what was left out, of number `i` of that, where it follows no sight line. Needs RoundedUp in scope.
+bool keeps_out(const Walk& walk, const LeftOut& left_out);
 bool keeps_out(const Walk& walk, const LeftOut& left_out, std::size_t i);
 
 class Walker {

@@ -10,6 +10,8 @@ namespace clues::fastpath {
 
 namespace {
 
+constexpr unsigned kLongest = 448;  // bits of numbers that points keep, without an allocation
+
 Integer imported(const mpz_class& z) {
   Integer out;
   const mpz_srcptr raw = z.get_mpz_t();
@@ -105,7 +107,6 @@ double size_of(const Vec3<Interval>& v) {
 
 // With h(x) = n . (x - c), for points x = v / (w 2^e), let H(x) = h(x) w 2^e times what is the same for all x. Then (H(a) v(b) - H(b) v(a)) / (H(a) w(b) 2^e(b) - H(b) w(a) 2^e(a)).
 std::optional<Homogeneous> ExactPoint::crossing_in_whole_numbers() const {
-  constexpr unsigned kLongest = 448;
   const Integer3& n = plane_->normal_direction();
   const Homogeneous &a = a_->homogeneous(), &b = b_->homogeneous(), &c = plane_->base().homogeneous();
   if (std::max({bits(a.v), bits(b.v), bits(c.v), bits(n)}) > kLongest) return std::nullopt;
@@ -130,11 +131,33 @@ std::optional<Homogeneous> ExactPoint::crossing_in_whole_numbers() const {
   return out;
 }
 
+// (1 - t) a + t b; t is m 2^e, or -1 for the point that is reflected.
+std::optional<Homogeneous> ExactPoint::combination_in_whole_numbers() const {
+  constexpr int kFinest = 128;
+  auto [m, e] = parts(kind_ == Kind::reflected ? -1 : t_);
+  for (; m != 0 && m % 2 == 0; ++e) m /= 2;
+  if (m == 0) e = 0;
+  const Homogeneous &a = a_->homogeneous(), &b = b_->homogeneous();
+  const unsigned longest = std::max({bits(a.v), bits(b.v), bits({a.w, b.w, 0})});
+  if (e < -kFinest || e > kFinest || longest > kLongest) return std::nullopt;
+  // 2^below (1 - t) and 2^below t
+  const int below = std::max(-e, 0), least = std::min(a.e, b.e);
+  const Integer of_b = shifted(Integer(m), std::max(e, 0)), of_a = shifted(Integer(1), below) - of_b;
+  Homogeneous out;
+  out.v = shifted(of_a * b.w, b.e - least) * a.v + shifted(of_b * a.w, a.e - least) * b.v;
+  out.w = a.w * b.w;
+  out.e = a.e + b.e - least + below;
+  out.whole = out.w == 1;
+  if (std::max(bits(out.v), static_cast<unsigned>(msb(out.w)) + 1) > kLongest) return std::nullopt;
+  return out;
+}
+
 const Homogeneous& ExactPoint::homogeneous() const {
   if (const Homogeneous* known = homogeneous_.load(std::memory_order_acquire)) return *known;
   // Whether or not another thread has already asked for the fractions: directions are multiples that depend on these numbers, and what is chosen by their sizes must not hang on that.
-  if (kind_ == Kind::on_plane && !is_double()) {
-    if (auto crossing = crossing_in_whole_numbers()) return keep_first(homogeneous_, *std::move(crossing));
+  if (kind_ != Kind::given && !is_double()) {
+    if (auto whole = kind_ == Kind::on_plane ? crossing_in_whole_numbers() : combination_in_whole_numbers())
+      return keep_first(homogeneous_, *std::move(whole));
   }
   return keep_first(homogeneous_, homogeneous_of(*this));
 }

@@ -64,7 +64,9 @@ class ExactPoint {
 
  private:
   enum class Kind : std::uint8_t { given, on_plane, between, reflected };
-  std::optional<Homogeneous> crossing_in_whole_numbers() const;  // nothing reduced; none if the numbers get long
+  // Nothing reduced; none if the numbers get long.
+  std::optional<Homogeneous> crossing_in_whole_numbers() const;
+  std::optional<Homogeneous> combination_in_whole_numbers() const;
   Kind kind_ = Kind::given;
   Vec3<Interval> near_{};
   const ExactPoint *a_ = nullptr, *b_ = nullptr;

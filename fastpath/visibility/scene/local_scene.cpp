@@ -84,6 +84,12 @@ bool LocalCell::interior_contains(const ExactPoint& p) const {
   return true;
 }
 
+IntervalBox LocalCell::bounds() const {
+  IntervalBox box = vertices.front().approximate();
+  for (const ExactPoint& v : vertices) box = hull(box, v.approximate());
+  return box;
+}
+
 bool LocalCell::lies_in(const Plane& plane) const {
   return dimension < 3 &&
          std::all_of(vertices.begin(), vertices.end(), [&](const ExactPoint& s) { return plane.side(s) == 0; });

@@ -29,9 +29,10 @@ struct LocalCell {
   int dimension = 0;
   std::deque<ExactPoint> vertices;
   std::vector<std::array<int, 2>> edges;
-  std::vector<std::vector<int>> facets;    // dimension 3: counter-clockwise seen from outside; 2: the polygon
-  std::deque<Plane> facet_planes;          // outward; of a polygon either
-  bool lies_in(const Plane& plane) const;  // all of V, which is not solid
+  std::vector<std::vector<int>> facets;  // dimension 3: counter-clockwise seen from outside; 2: the polygon
+  std::deque<Plane> facet_planes;        // outward; of a polygon either
+  IntervalBox bounds() const;
+  bool lies_in(const Plane& plane) const;             // all of V, which is not solid
   bool interior_contains(const ExactPoint& p) const;  // dimension 3
   bool contains(const ExactPoint& p) const;           // any dimension
   // A point of int V near the combination of the vertices with these positive weights. Doubles if the cell has dimension 3 and rounding

@@ -14,8 +14,7 @@ class Waiting {
  public:
   Waiting(const LocalScene& scene, const std::vector<ContourEdge>& contours, const std::vector<Sources::OfEdge>& parts)
       : contours_(contours), parts_(parts) {
-    IntervalBox cell = scene.cell.vertices.front().approximate();
-    for (const ExactPoint& v : scene.cell.vertices) cell = hull(cell, v.approximate());
+    const IntervalBox cell = scene.cell.bounds();
     std::vector<IntervalBox> boxes_of_runs;
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
       const IntervalBox box = hull(parts[i].part.lo->approximate(), parts[i].part.hi->approximate());
@@ -36,22 +35,19 @@ class Waiting {
   std::vector<std::vector<exact::NodeRange>> arcs(Workers& workers) const {
     std::vector<std::vector<exact::NodeRange>> arcs(parts_.size());
     workers.for_each(runs_.size(), [&](std::size_t r, Workers::Worker&) {
-      const std::uint32_t edge = edge_of(runs_[r]);
+      const std::vector<std::uint32_t> others = in_front_of(runs_[r]);
       Answers behind(parts_.size());  // what the parts of this edge cannot wait for
       for (std::uint32_t i = runs_[r].begin; i < runs_[r].end; ++i) {
         const auto may_wait_for = [&](std::uint32_t k) {
           return overlap(boxes_[k], ways_[i]) && !behind.of(k, [&] { return lies_on(1, parts_[i], parts_[k].part); });
         };
-        tree_.any([&](const IntervalBox& box) { return overlap(box, ways_[i]); },
-                  [&](std::uint32_t other) {
-                    exact::NodeRange range = runs_[other];
-                    // Ways to one point of an edge come through no other point of it.
-                    if (edge_of(range) == edge || lies_on(-1, parts_[range.begin], parts_[i].part)) return false;
-                    while (range.begin < range.end && !may_wait_for(range.begin)) ++range.begin;
-                    while (range.begin < range.end && !may_wait_for(range.end - 1)) --range.end;
-                    if (range.begin < range.end) arcs[i].push_back(range);
-                    return false;
-                  });
+        for (const std::uint32_t other : others) {
+          exact::NodeRange range = runs_[other];
+          if (lies_on(-1, parts_[range.begin], parts_[i].part)) continue;
+          while (range.begin < range.end && !may_wait_for(range.begin)) ++range.begin;
+          while (range.begin < range.end && !may_wait_for(range.end - 1)) --range.end;
+          if (range.begin < range.end) arcs[i].push_back(range);
+        }
       }
     });
     return arcs;
@@ -72,6 +68,26 @@ class Waiting {
     enum class Known : std::uint8_t { nothing, yes, no };
     std::vector<Known> known_;
   };
+
+  // Other edges of which parts of this one may wait for some, as far as that is known of both as a whole.
+  std::vector<std::uint32_t> in_front_of(const exact::NodeRange& run) const {
+    const auto all_of = [&](const exact::NodeRange& r) {
+      return EdgePart{parts_[r.begin].part.lo, parts_[r.end - 1].part.hi, nullptr};
+    };
+    IntervalBox ways = ways_[run.begin];
+    for (std::uint32_t i = run.begin + 1; i < run.end; ++i) ways = hull(ways, ways_[i]);
+    std::vector<std::uint32_t> others;
+    tree_.any([&](const IntervalBox& box) { return overlap(box, ways); },
+              [&](std::uint32_t other) {
+                const exact::NodeRange& them = runs_[other];
+                // Ways to one point of an edge come through no other point of it.
+                if (edge_of(them) != edge_of(run) && !lies_on(-1, parts_[them.begin], all_of(run)) &&
+                    !lies_on(1, parts_[run.begin], all_of(them)))
+                  others.push_back(other);
+                return false;
+              });
+    return others;
+  }
 
   // On that side of one of the planes of the edge that `s` is of, but for an end upon it.
   bool lies_on(int side, const Sources::OfEdge& s, const EdgePart& part) const {

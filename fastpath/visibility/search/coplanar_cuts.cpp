@@ -68,9 +68,12 @@ std::vector<std::pair<std::uint32_t, const ExactPoint*>> CoplanarCuts::of(const 
     const LocalEdge& e = scene_.edges[c.edge];
     *c.at = worker.pool.keep(crossing_in_plane(*c.piece->on, *c.ray, scene_.points[e.a], scene_.points[e.b]));
   });
+  std::vector<char> is_reached(all.size());
+  workers_.for_each(
+      all.size(), [&](std::size_t i, Workers::Worker&) { is_reached[i] = reaches(*all[i].piece, *all[i].at) ? 1 : 0; });
   std::vector<std::pair<std::uint32_t, const ExactPoint*>> cuts;
-  for (const Cut& c : all) {
-    if (reaches(*c.piece, *c.at)) cuts.emplace_back(c.edge, *c.at);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (is_reached[i] != 0) cuts.emplace_back(all[i].edge, *all[i].at);
   }
   return cuts;
 }

@@ -9,11 +9,18 @@ std::vector<DoubtfulSources::Placed> DoubtfulSources::placed() const {
   std::vector<Placed> found;
   for (const Sources::OfEdge& s : sources_.of_edges()) {
     if (s.beside)
-      found.push_back({s.part.lo, s.part.hi, s.part.y, s.beside, &s.walk, &contours_[s.contour], 0, 0, false});
+      found.push_back({s.part.lo, s.part.hi, s.part.y, s.beside, &s.walk, &contours_[s.contour], 0, {}, false});
   }
   for (const Sources::OfVertex& s : sources_.of_vertices()) {
     const ExactPoint* x = &scene_.points[s.point];
-    if (s.walk.end != Walk::End::unresolved) found.push_back({x, x, x, s.beside, &s.walk, nullptr, s.point, 0, false});
+    if (s.walk.end != Walk::End::unresolved) found.push_back({x, x, x, s.beside, &s.walk, nullptr, s.point, {}, false});
+  }
+  for (Placed& s : found) {
+    s.around = hull(hull(s.lo->approximate(), s.hi->approximate()), hull(s.y->approximate(), s.beside->approximate()));
+    for (const Leg& leg : s.walk->legs) {
+      if (const ExactPoint* from = leg.aside_from())
+        s.around = hull(s.around, hull(from->approximate(), leg.p->approximate()));
+    }
   }
   return found;
 }
@@ -56,19 +63,28 @@ LeftOut::Around DoubtfulSources::around(const Placed& s) {
   return around;
 }
 
+DoubtfulSources::Doubt DoubtfulSources::doubt_from(const Placed& s, std::size_t first) const {
+  Doubt doubt = Doubt::none;
+  left_out_.any_near(s.around, first, [&](std::size_t i) {
+    doubt = doubt_of(s, i);
+    return doubt != Doubt::none;
+  });
+  return doubt;
+}
+
 void DoubtfulSources::leave_out() {
   if (left_out_.empty()) return;
   std::vector<Placed> all = placed();
-  for (bool more = true; more;) {
-    more = false;
-    for (Placed& s : all) {
-      for (; !s.settled && s.looked_at < left_out_.size(); ++s.looked_at) {
-        const Doubt doubt = doubt_of(s, s.looked_at);
-        s.settled = doubt != Doubt::none;
-        if (doubt != Doubt::left_out) continue;
-        left_out_.add(around(s));
-        more = true;
-      }
+  std::vector<Doubt> doubts(all.size());
+  for (std::size_t first = 0, end = left_out_.size(); first < end; first = std::exchange(end, left_out_.size())) {
+    left_out_.index();
+    workers_.for_each(all.size(), [&](std::size_t k, Workers::Worker&) {
+      doubts[k] = all[k].settled ? Doubt::none : doubt_from(all[k], first);
+    });
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      Placed& s = all[k];
+      s.settled = s.settled || doubts[k] != Doubt::none;
+      if (doubts[k] == Doubt::left_out) left_out_.add(around(s), hull(s.lo->approximate(), s.hi->approximate()));
     }
   }
 }

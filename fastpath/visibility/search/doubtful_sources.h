@@ -14,10 +14,15 @@ class DoubtfulSources {
  public:
   // Keeps references. What it adds to `left_out` lives as long as this.
   DoubtfulSources(const LocalScene& scene, const std::vector<ContourEdge>& contours, const Sources& sources,
-                  Contacts& contacts, LeftOut& left_out)
-      : scene_(scene), contours_(contours), sources_(sources), contacts_(contacts), left_out_(left_out) {}
+                  Contacts& contacts, LeftOut& left_out, Workers& workers)
+      : scene_(scene),
+        contours_(contours),
+        sources_(sources),
+        contacts_(contacts),
+        left_out_(left_out),
+        workers_(workers) {}
 
-  // Until there is none that what was added last concerns. O(sources * what is left out in the end). Needs RoundedUp in scope.
+  // Until there is none that what was added last concerns. O(sources * what is left out near them in the end). Needs RoundedUp in scope.
   void leave_out();
 
  private:
@@ -27,13 +32,14 @@ class DoubtfulSources {
     const Walk* walk = nullptr;
     const ContourEdge* contour = nullptr;  // none: a vertex
     std::uint32_t vertex = 0;
-    std::size_t looked_at = 0;  // how many of what is left out
-    bool settled = false;       // no matter what else is left out
+    IntervalBox around{};  // of it, its place and its walk
+    bool settled = false;  // no matter what else is left out
   };
   enum class Doubt { none, settled, left_out };
 
   std::vector<Placed> placed() const;
   Doubt doubt_of(const Placed& s, std::size_t i) const;
+  Doubt doubt_from(const Placed& s, std::size_t first) const;  // by what was left out from this number on
   const Apex& apex_at(const ContourEdge& c, const ExactPoint* x);
   LeftOut::Around around(const Placed& s);
 
@@ -42,6 +48,7 @@ class DoubtfulSources {
   const Sources& sources_;
   Contacts& contacts_;
   LeftOut& left_out_;
+  Workers& workers_;
   Pool pool_;
   std::vector<std::unique_ptr<Apex>> apexes_;
 };

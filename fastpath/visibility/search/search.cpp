@@ -35,7 +35,17 @@ class Search::Work {
         is_contour(s.edges.size(), false),
         cuts(s.edges.size()),
         coplanar_cuts(s, is_contour, w),
-        doubtful_sources(s, contours, sources, contacts, left_out) {}
+        left_out(s.cell.bounds()),
+        doubtful_sources(s, contours, sources, contacts, left_out, w) {}
+
+  // A search is made of very many small things, which all threads give back.
+  ~Work() {
+    workers.for_each(edge_wedges.size(), [this](std::size_t i, Workers::Worker&) { edge_wedges[i].clear(); });
+    contacts.clear();
+    sources.clear();
+  }
+  Work(const Work&) = delete;
+  Work& operator=(const Work&) = delete;
 
   void run() {
     for (std::size_t i = 0; i < contours.size(); ++i) {
@@ -62,7 +72,7 @@ class Search::Work {
 
   // Whether another one is needed. If not, the set holds what is valid.
   bool round() {
-    left_out = {};
+    left_out.clear();
     left_out_contacts.clear();
     start_light();
     sources.start_round(cuts);
@@ -77,16 +87,19 @@ class Search::Work {
     spend_effort_on(others, 1);
     for (const auto& [e, p] : coplanar_cuts.of(merged)) new_cuts[e].push_back(p);
 
-    bool changed = false;
-    for (std::uint32_t e = 0; e < cuts.size(); ++e) {
-      if (!is_contour[e]) continue;
-      for (const ExactPoint* p : new_cuts[e]) changed |= insert_cut(e, p);
-    }
+    std::vector<char> is_cut(cuts.size(), 0);
+    workers.for_each(cuts.size(), [&](std::size_t e, Workers::Worker&) {
+      if (!is_contour[e]) return;
+      for (const ExactPoint* p : new_cuts[e]) {
+        if (insert_cut(static_cast<std::uint32_t>(e), p)) is_cut[e] = 1;
+      }
+    });
+    bool changed = std::find(is_cut.begin(), is_cut.end(), 1) != is_cut.end();
     fresh.clear();
-    fresh.add(std::move(others));
+    fresh.add(std::move(others), workers);
     const bool all_still_there = pieces_before.replace(merged);
     set.clear();
-    set.add(std::move(merged));
+    set.add(std::move(merged), workers);
     if (sources.ask_nearer(fresh_walker, all_still_there)) changed = true;
     if (!changed) {
       for (const auto& [e, p] : cuts_of_circles(scene, contours, sources.of_edges(), workers))
@@ -120,8 +133,8 @@ class Search::Work {
       const std::size_t first = set.pieces().size();
       auto [batch, others] = build_within_effort(next_batch(waiting));
       first_fresh = fresh.pieces().size();
-      fresh.add(std::move(others));
-      set.add(std::move(batch));
+      fresh.add(std::move(others), workers);
+      set.add(std::move(batch), workers);
       meet_edges(first);
       const std::vector<Job> jobs = light(first);
       waiting.insert(waiting.end(), jobs.begin(), jobs.end());
@@ -195,7 +208,7 @@ class Search::Work {
     std::erase_if(lit, [&](const Contact* c) {
       const bool out = c->generation > dials.generation_limit || (too_many && c->on_edge);
       if (out && light_of != Sources::Light::known && left_out_contacts.insert(c).second)
-        left_out.add(LeftOut::around(*c->apex));
+        left_out.add(LeftOut::around(*c->apex), c->x->approximate());
       return out;
     });
     contacts.find_sectors(lit);

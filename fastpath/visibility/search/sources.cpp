@@ -130,6 +130,13 @@ void Sources::walk_from_place(OfEdge& s, Pool& pool) {
 
 void Sources::walk_from_place(OfVertex& s, Pool& pool) { set_walk(s, walker_.walk(s.beside, pool, s.manner)); }
 
+void Sources::clear() {
+  const std::size_t all = of_edges_.size() + of_vertices_.size();
+  workers_.for_each(all, [this](std::size_t i, Workers::Worker&) { place_of(i).walk = {}; });
+  of_edges_.clear();
+  of_vertices_.clear();
+}
+
 void Sources::start_round(const std::vector<std::vector<const ExactPoint*>>& cuts) {
   std::map<std::tuple<std::size_t, const ExactPoint*, const ExactPoint*>, OfEdge> known;
   for (OfEdge& s : of_edges_) known.emplace(std::tuple(s.contour, s.part.lo, s.part.hi), std::move(s));
@@ -295,12 +302,6 @@ bool Sources::ask_nearer(const Walker& fresh, bool all_still_there) {
 }
 
 void Sources::start_known(const LeftOut& left_out) {
-  const auto keeps_out_of_all = [&](const Walk& walk, const auto& figure_keeps_out_of) {
-    for (std::size_t i = 0; i < left_out.size(); ++i) {
-      if (!keeps_out(walk, left_out, i) || !figure_keeps_out_of(i)) return false;
-    }
-    return true;
-  };
   const auto nothing = [](const Plane&) { return false; };
   const auto is_divided = [&](const Leg& leg) { return leg.next && pieces_.may_meet(*leg.next, *leg.p, 0, nothing); };
   const auto may_be_known = [&](const Place& s) {
@@ -308,14 +309,13 @@ void Sources::start_known(const LeftOut& left_out) {
            std::none_of(s.walk.legs.begin(), s.walk.legs.end(), is_divided);
   };
   for (OfEdge& s : of_edges_) {
-    s.known = may_be_known(s) && keeps_out_of_all(s.walk, [&](std::size_t i) {
-                return left_out.surely_misses(i, s.part.lo->approximate(), s.part.hi->approximate()) &&
-                       left_out.surely_misses(i, s.part.y->approximate(), s.beside->approximate());
-              });
+    s.known = may_be_known(s) && keeps_out(s.walk, left_out) &&
+              left_out.surely_misses(s.part.lo->approximate(), s.part.hi->approximate()) &&
+              left_out.surely_misses(s.part.y->approximate(), s.beside->approximate());
     s.lit = false;
   }
   for (OfVertex& s : of_vertices_) {  // where its place is visible it is: the place's sight lines go on to it
-    s.known = may_be_known(s) && keeps_out_of_all(s.walk, [](std::size_t) { return true; });
+    s.known = may_be_known(s) && keeps_out(s.walk, left_out);
     s.lit = false;
   }
 }

@@ -64,6 +64,8 @@ class Sources {
   Sources(const LocalScene& scene, const std::vector<bool>& is_vertex, const std::vector<ContourEdge>& contours,
           const PieceSet& pieces, const Walker& walker, Contacts& contacts, Workers& workers);
 
+  // None is left. With all threads.
+  void clear();
   // With the cuts of each edge, ascending from its first end. Nothing is lit; `pieces` must be empty.
   void start_round(const std::vector<std::vector<const ExactPoint*>>& cuts);
 
@@ -92,7 +94,7 @@ class Sources {
   bool ask_nearer(const Walker& fresh, bool all_still_there);
 
   // When the rounds are over and all pieces there (D17b): nothing is lit. From here on only that can be which was, which keeps out of all that was left out, with its place and where its walk goes
-  // beside a sight line, which no piece divides, and which sight lines show. Needs RoundedUp in scope. O(sources * what is left out).
+  // beside a sight line, which no piece divides, and which sight lines show. Needs RoundedUp in scope. O(sources * what is left out near them).
   void start_known(const LeftOut& left_out);
 
   std::uint64_t walks() const { return walks_; }

@@ -74,6 +74,13 @@ void Contacts::make_csvs(const std::vector<std::pair<std::uint32_t, const ExactP
   });
 }
 
+void Contacts::clear() {
+  csv_at_.clear();
+  touched_.clear();
+  workers_.for_each(corners_.size(), [this](std::size_t i, Workers::Worker&) { corners_[i].reset(); });
+  workers_.for_each(on_edge_.size(), [this](std::size_t i, Workers::Worker&) { on_edge_[i].clear(); });
+}
+
 void Contacts::start_round() {
   for_all([](Contact& c) {
     c.probes.clear();

@@ -53,6 +53,9 @@ class Contacts {
     }
   }
 
+  // None is left. With all threads.
+  void clear();
+
   void start_round();
   void add(Contact* contact, const Probe& probe);
   // Contacts that have got probes since the last call, in this order, but those without sectors.

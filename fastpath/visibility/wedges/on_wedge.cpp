@@ -192,6 +192,7 @@ struct OnWedgeMaker::Work {
   }
 
   void add_piece(std::uint32_t t);
+  int turn_of_trace(std::uint32_t t, int down, int up) const;
   void add_radial(std::uint32_t t, int u, int w);
   void add_trace(std::uint32_t t, int u, int w);
   bool beyond_near(int u, int w) const;
@@ -216,27 +217,38 @@ void OnWedgeMaker::Work::add_piece(std::uint32_t t) {
     }
   }
   if (above == 0) return;
-  int ends[3] = {0, 0, 0};
-  int count = 0;
-  for (const std::uint32_t c : piece.corners) {
-    if (side_of(c) != 0) continue;
-    met_vertices.push_back(c);
-    ends[count++] = spot_of_vertex(c);
-  }
-  if (below > 0) {
-    for (const std::uint32_t e : piece.edges) {
-      if (side_of(scene.edges[e].a) * side_of(scene.edges[e].b) < 0) ends[count++] = spot_of_edge(e);
+  // Where the corners, counter-clockwise about the piece's normal, come up through the plane, and where they go down.
+  int up = 0, down = 0, count = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::uint32_t c = piece.corners[i];
+    const int before = side_of(piece.corners[(i + 2) % 3]), here = side_of(c),
+              after = side_of(piece.corners[(i + 1) % 3]);
+    if (here == 0) {
+      met_vertices.push_back(c);
+      (after > 0 || before < 0 ? up : down) = spot_of_vertex(c);
+      ++count;
+    } else if (here * after < 0) {
+      (here < 0 ? up : down) = spot_of_edge(piece.edges[i]);
+      ++count;
     }
   }
   if (count != 2) return;  // touches the plane in one corner
-  const int s = ends[0] == center || ends[1] == center ? 0 : turn(ends[0], ends[1]);
+  const int s = down == center || up == center ? 0 : turn_of_trace(t, down, up);
   if (s == 0) {
-    add_radial(t, ends[0], ends[1]);
+    add_radial(t, down, up);
   } else if (s > 0) {
-    add_trace(t, ends[0], ends[1]);
+    add_trace(t, down, up);
   } else {
-    add_trace(t, ends[1], ends[0]);
+    add_trace(t, up, down);
   }
+}
+
+// Seen from the centre. With n the normal of the plane and m that of the piece the trace runs along n x m from where corners go down to where they come up, and the centre is left of it where
+// m . (centre - down) is negative: no point of the trace need be known for that. (Surfaces that are nearly flat have many traces which nearly run through a centre upon them.)
+int OnWedgeMaker::Work::turn_of_trace(std::uint32_t t, int down, int up) const {
+  const Spot &a = spots[static_cast<std::size_t>(down)], &b = spots[static_cast<std::size_t>(up)];
+  const int s = filtered_turn(a.d, b.d);
+  return s != kUnsure ? s : -scene.planes[t].side(*sector->center);
 }
 
 void OnWedgeMaker::Work::add_radial(std::uint32_t t, int u, int w) {

@@ -106,14 +106,26 @@ void PieceSet::clear() {
   batches_.clear();
 }
 
-void PieceSet::add(std::vector<ValidPiece> batch) {
+void PieceSet::add(std::vector<ValidPiece> batch, Workers& workers) {
+  constexpr std::size_t kAtOnce = 64;
   if (batch.empty()) return;
+  Batch made{pieces_.size(), {}, std::vector<std::vector<PieceBounds>>((batch.size() + kAtOnce - 1) / kAtOnce)};
   std::vector<IntervalBox> boxes;
-  for (const ValidPiece& p : batch) {
-    boxes.push_back(p.box);
-    bounds_.push_back(bounds_of(p));
+  boxes.reserve(batch.size());
+  for (const ValidPiece& p : batch) boxes.push_back(p.box);
+  workers.for_each(1 + made.bounds.size(), [&](std::size_t i, Workers::Worker&) {
+    if (i == 0) {
+      made.tree = BoxTree(std::move(boxes));
+      return;
+    }
+    const std::size_t first = (i - 1) * kAtOnce, end = std::min(i * kAtOnce, batch.size());
+    made.bounds[i - 1].reserve(end - first);
+    for (std::size_t k = first; k < end; ++k) made.bounds[i - 1].push_back(bounds_of(batch[k]));
+  });
+  for (const auto& some : made.bounds) {
+    for (const PieceBounds& bounds : some) bounds_.push_back(&bounds);
   }
-  batches_.push_back({pieces_.size(), BoxTree(boxes)});
+  batches_.push_back(std::move(made));
   pieces_.insert(pieces_.end(), batch.begin(), batch.end());
 }
 

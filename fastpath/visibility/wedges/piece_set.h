@@ -9,6 +9,7 @@
 #include "fastpath/visibility/wedges/on_wedge.h"
 #include "fastpath/visibility/wedges/piece_bounds.h"
 #include "fastpath/visibility/wedges/piece_kind.h"
+#include "fastpath/visibility/wedges/workers.h"
 
 namespace clues::fastpath {
 
@@ -34,10 +35,10 @@ Point far_end_estimate(const ValidPiece& piece, const ExactPoint* on_ray);
 class PieceSet {
  public:
   void clear();
-  // Adds and indexes a batch.
-  void add(std::vector<ValidPiece> batch);
+  // Adds and indexes a batch; with all threads.
+  void add(std::vector<ValidPiece> batch, Workers& workers);
   const std::vector<ValidPiece>& pieces() const { return pieces_; }
-  const PieceBounds& bounds(std::size_t i) const { return bounds_[i]; }
+  const PieceBounds& bounds(std::size_t i) const { return *bounds_[i]; }
 
   // Calls found(i) for every piece i whose box passes the test, until found returns true; then true.
   template <class Test, class Found>
@@ -59,7 +60,7 @@ class PieceSet {
     for (const Batch& b : batches_) {
       if (b.begin < first) continue;
       const bool found = b.tree.any(test, [&](std::uint32_t i) {
-        if (pieces_[b.begin + i].holds_cell || !bounds_[b.begin + i].may_touch(ends)) return false;
+        if (pieces_[b.begin + i].holds_cell || !bounds_[b.begin + i]->may_touch(ends)) return false;
         const Crossing c = crosses(pieces_[b.begin + i], m, p, starts_on, leaves_out);
         if (c == Crossing::touch) result = c;
         return c == Crossing::yes;
@@ -74,7 +75,7 @@ class PieceSet {
     const Ends ends{Around(m.approximate()), Around(p.approximate())};
     return any(SegmentTest(m, p), [&](std::size_t i) {
       const Plane& h = *pieces_[i].on->plane;
-      return !pieces_[i].holds_cell && bounds_[i].may_touch(ends) && h.side(m) > 0 && h.side(p) <= 0 &&
+      return !pieces_[i].holds_cell && bounds_[i]->may_touch(ends) && h.side(m) > 0 && h.side(p) <= 0 &&
              passes(pieces_[i], p, m) != Crossing::no;
     });
   }
@@ -87,7 +88,7 @@ class PieceSet {
     for (const Batch& batch : batches_) {
       if (batch.begin < first) continue;
       const bool found = batch.tree.any(test, [&](std::uint32_t i) {
-        if (!bounds_[batch.begin + i].may_touch(ends)) return false;
+        if (!bounds_[batch.begin + i]->may_touch(ends)) return false;
         const ValidPiece& piece = pieces_[batch.begin + i];
         const Plane& h = *piece.on->plane;
         if (leaves_out(h)) return false;
@@ -107,6 +108,7 @@ class PieceSet {
   struct Batch {
     std::size_t begin;
     BoxTree tree;
+    std::vector<std::vector<PieceBounds>> bounds;  // they are large: made in place, and never moved
   };
 
   template <class StartsOn, class LeavesOut>
@@ -129,7 +131,7 @@ class PieceSet {
   static Crossing passes(const ValidPiece& piece, const ExactPoint& a, const ExactPoint& b);
 
   std::vector<ValidPiece> pieces_;
-  std::vector<PieceBounds> bounds_;  // of each
+  std::vector<const PieceBounds*> bounds_;  // of each
   std::vector<Batch> batches_;
 };
 

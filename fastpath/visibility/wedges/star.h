@@ -108,14 +108,12 @@ class Star {
            1;
   }
 
-  // limit, moved so little that no arc's great circle lies between, and that it is `good`.
+  // limit, moved so little that no arc's great circle lies between (or, where intervals do not know, no arc), and that it is `good`.
   template <class Good>
   std::optional<V> moved_if_possible(const Beside<NT>& d, const Good& good) const {
     for (const int exponent : {2, 5, 10, 15, 20, 25, 30, 60, 120, 250, 500, 1000, 2000, 4000, 8000}) {
       const V m = moved_by<NT>(d.limit, d.aside, d.off, exponent);
-      if (std::all_of(arcs_.begin(), arcs_.end(),
-                      [&](const Arc& arc) { return sign_of(NT(dot(arc.normal, m))) == side_of(arc, d); }) &&
-          good(m))
+      if (std::all_of(arcs_.begin(), arcs_.end(), [&](const Arc& arc) { return is_beside(arc, d, m); }) && good(m))
         return m;
     }
     return std::nullopt;
@@ -207,12 +205,15 @@ class Star {
   // does not come so near. Both on it: not surely. (Opposite ends make y zero, which counts as on the arc.)
   bool free_between(const Beside<NT>& d0, const V& d1) const {
     for (const Arc& arc : arcs_) {
+      if constexpr (std::is_same_v<NT, Interval>) {
+        if (passes_beside(arc, d0.limit, height(arc, d0), d1, dot(arc.normal, d1))) continue;
+      }
       const int s0 = side_of(arc, d0), s1 = sign_of(NT(dot(arc.normal, d1)));
       if (s0 != 0 && s0 == s1) continue;
       if (s0 == 0 && s1 != 0) continue;
       if (s0 == 0) return false;
       if (s1 == 0 && in_arc(nodes_[idx(arc.a)], nodes_[idx(arc.b)], arc.normal, d1)) return false;
-      const NT l = is_on(arc, d0) ? NT(0) : NT(dot(arc.normal, d0.limit)), m = dot(arc.normal, d1);
+      const NT l = height(arc, d0), m = dot(arc.normal, d1);
       const NT at0 = sign_of(l) < 0 ? NT(-l) : l, at1 = sign_of(m) < 0 ? NT(-m) : m;
       const V y = sign_of(at0) == 0 ? d0.limit : V(at1 * d0.limit + at0 * d1);
       if (in_arc(nodes_[idx(arc.a)], nodes_[idx(arc.b)], arc.normal, y)) return false;
@@ -225,6 +226,9 @@ class Star {
     return std::none_of(arcs_.begin(), arcs_.end(), [&](const Arc& arc) {
       const V &a = nodes_[idx(arc.a)], &b = nodes_[idx(arc.b)];
       const NT at0 = dot(arc.normal, d0), at1 = dot(arc.normal, d1);
+      if constexpr (std::is_same_v<NT, Interval>) {
+        if (passes_beside(arc, d0, at0, d1, at1)) return false;
+      }
       const int s0 = sign_of(at0), s1 = sign_of(at1);
       if (s0 == 0 && in_arc(a, b, arc.normal, d0)) return true;
       if (s1 == 0 && in_arc(a, b, arc.normal, d1)) return true;
@@ -326,9 +330,31 @@ class Star {
     const auto& ids = d.at.kind == SpotName::Kind::vertex ? piece.corners : piece.edges;
     return d.at.kind != SpotName::Kind::none && std::find(ids.begin(), ids.end(), d.at.id) != ids.end();
   }
+  NT height(const Arc& arc, const Beside<NT>& d) const { return is_on(arc, d) ? NT(0) : NT(dot(arc.normal, d.limit)); }
   int side_of(const Arc& arc, const Beside<NT>& d) const {
     if (!is_on(arc, d)) return d.side_of(arc.normal);
     return leading(NT(0), NT(dot(arc.normal, d.aside)), NT(dot(arc.normal, d.off)));
+  }
+
+  // Intervals do not tell on which side of an arc's great circle something is that another arc, of a surface that is nearly flat, has in common with it. That need not matter: where
+  // the circle is met, the arc may be elsewhere. Surely; y holds the place.
+  static bool misses(const V& a, const V& b, const V& normal, const V& y) {
+    return filtered_sign(NT(dot(normal, cross(a, y)))) == -1 || filtered_sign(NT(dot(normal, cross(y, b)))) == -1;
+  }
+  // Of the way from d to e, with these heights over the arc's great circle, one of which is unsure.
+  bool passes_beside(const Arc& arc, const V& d, const Interval& at_d, const V& e, const Interval& at_e) const {
+    if ((filtered_sign(at_d) == kUnsure) == (filtered_sign(at_e) == kUnsure)) return false;
+    return misses(nodes_[idx(arc.a)], nodes_[idx(arc.b)], arc.normal, CGAL::abs(at_e) * d + CGAL::abs(at_d) * e);
+  }
+  // Whether m, moved from d, is where d is with respect to an arc.
+  bool is_beside(const Arc& arc, const Beside<NT>& d, const V& m) const {
+    const NT at = dot(arc.normal, m);
+    if constexpr (std::is_same_v<NT, Interval>) {
+      if ((filtered_sign(at) == kUnsure || filtered_sign(height(arc, d)) == kUnsure) &&
+          misses(nodes_[idx(arc.a)], nodes_[idx(arc.b)], arc.normal, d.limit + Interval(0, 1) * (m - d.limit)))
+        return true;
+    }
+    return sign_of(at) == side_of(arc, d);
   }
 
   static int root(const std::vector<int>& joined, int side) {
@@ -376,6 +402,9 @@ class Star {
         continue;  // in one great circle, which the way meets at its end
       const NT at_d = dot(arc.normal, d), at_target = i == aim_arc ? NT(0) : NT(dot(arc.normal, target));
       const int sd = filtered_sign(at_d), st = filtered_sign(at_target);
+      if constexpr (std::is_same_v<NT, Interval>) {
+        if (passes_beside(arc, d, at_d, target, at_target)) continue;
+      }
       if (sd == kUnsure || st == kUnsure || (sd == 0 && st == 0)) return -1;
       if (sd == 0 || sd == st) continue;
       const NT above = sd > 0 ? at_d : NT(-at_d), beyond = sd > 0 ? NT(-at_target) : at_target, below = above + beyond;

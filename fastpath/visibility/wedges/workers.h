@@ -27,6 +27,13 @@ class Workers {
   };
 
   explicit Workers(const LocalScene& scene) : workers_(std::cref(scene)) {}
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+  ~Workers() {
+    tbb::parallel_for(workers_.range(1), [](const auto& range) {
+      for (Worker& worker : range) worker.pool = {};
+    });
+  }
 
   // work(i, worker) for every i < count. Intervals are rounded in every thread; exact decisions are counted as the caller's.
   template <class Work>
