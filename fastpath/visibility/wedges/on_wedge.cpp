@@ -204,12 +204,11 @@ struct OnWedgeMaker::Work {
 
 void OnWedgeMaker::Work::add_piece(std::uint32_t t) {
   const LocalPiece& piece = scene.pieces[t];
-  int on = 0, above = 0, below = 0;
+  int on = 0, above = 0;
   for (const std::uint32_t c : piece.corners) {
     const int s = side_of(c);
     on += s == 0;
     above += s > 0;
-    below += s < 0;
   }
   if (on >= 2) {
     for (const std::uint32_t e : piece.edges) {

@@ -29,9 +29,12 @@ class Workers {
   explicit Workers(const LocalScene& scene) : workers_(std::cref(scene)) {}
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
+  // What the threads have made is given back by as many.
   ~Workers() {
-    tbb::parallel_for(workers_.range(1), [](const auto& range) {
-      for (Worker& worker : range) worker.pool = {};
+    tbb::this_task_arena::isolate([this] {
+      tbb::parallel_for(workers_.range(1), [](const auto& range) {
+        for (Worker& worker : range) worker.pool = {};
+      });
     });
   }
 
