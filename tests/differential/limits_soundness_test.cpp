@@ -65,6 +65,7 @@ TEST(LimitsSoundness, ATipThatOnlyWedgesLeftOutShowIsListed) {
   EXPECT_TRUE(std::binary_search(map.visible().begin(), map.visible().end(), 2U));
   const Answer closed = fast_answer(scene, {});
   EXPECT_TRUE(std::binary_search(closed.visible.begin(), closed.visible.end(), 2U));
+  EXPECT_FALSE(closed.in_doubt.empty());
   const Judged regions = judge_regions(judge, map.regions());
   EXPECT_EQ(regions.seen, 0U);
   exact::Dials from_nothing;
@@ -134,7 +135,10 @@ TEST(LimitsSoundness, NothingVisibleIsMissingWhateverIsLeftOut) {
   for (const auto& [by, known] : tally.known) {
     std::cout << by << ": " << known << " triangles known, " << tally.in_doubt[by] << " in doubt\n";
     EXPECT_GT(known, 0U) << by;
-    EXPECT_GT(tally.in_doubt[by], 0U) << by;
+    // The fast path passes over what was left out elsewhere, and so knows of all that these scenes list.
+    if (by != "fast") {
+      EXPECT_GT(tally.in_doubt[by], 0U) << by;
+    }
   }
   EXPECT_GT(tally.limited, 0U);
   EXPECT_GT(tally.points, 0U);
