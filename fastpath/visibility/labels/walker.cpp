@@ -21,17 +21,13 @@ constexpr auto kNothing = [](const Plane&) { return false; };
 }  // namespace
 
 bool keeps_out(const Walk& walk, const LeftOut& left_out) {
-  return std::all_of(walk.legs.begin(), walk.legs.end(), [&](const Leg& leg) {
-    const ExactPoint* from = leg.aside_from();
-    return !from || left_out.surely_misses(from->approximate(), leg.p->approximate());
-  });
+  return walk.all_ways_aside(
+      [&](const IntervalBox& from, const IntervalBox& to) { return left_out.surely_misses(from, to); });
 }
 
 bool keeps_out(const Walk& walk, const LeftOut& left_out, std::size_t i) {
-  return std::all_of(walk.legs.begin(), walk.legs.end(), [&](const Leg& leg) {
-    const ExactPoint* from = leg.aside_from();
-    return !from || left_out.surely_misses(i, from->approximate(), leg.p->approximate());
-  });
+  return walk.all_ways_aside(
+      [&](const IntervalBox& from, const IntervalBox& to) { return left_out.surely_misses(i, from, to); });
 }
 
 Walker::Walker(const LocalScene& scene, const PieceSet& pieces, std::int64_t longest)

@@ -4,6 +4,7 @@
 // A walk does not depend on the wedge pieces but for that; it is made once and looked at again when new pieces appear (D17a).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -42,6 +43,15 @@ struct Walk {
   bool has_places() const { return legs.size() > (end == End::surface ? 1 : 0); }
   // Its last leg comes out of a groove or a corner.
   bool ends_in_the_dark() const { return !legs.empty() && !legs.back().is_sight_line(); }
+
+  // Whether test(from, to) holds of the ends of all its ways that are beside a sight line or follow none.
+  template <class Test>
+  bool all_ways_aside(const Test& test) const {
+    return std::all_of(legs.begin(), legs.end(), [&](const Leg& leg) {
+      const ExactPoint* from = leg.aside_from();
+      return !from || test(from->approximate(), leg.p->approximate());
+    });
+  }
 };
 
 // Whether a walk surely keeps out of what was left out, of number `i` of that, where it follows no sight line. Needs RoundedUp in scope.

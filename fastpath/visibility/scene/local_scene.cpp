@@ -64,8 +64,7 @@ LocalScene::LocalScene(const exact::Complex& complex, const exact::ConvexCell& w
     cell.facet_planes.emplace_back(at(0), at(1), at(2));
   }
 
-  bounds = cell.vertices.front().approximate();
-  for (const ExactPoint& s : cell.vertices) bounds = hull(bounds, s.approximate());
+  bounds = cell.bounds();
   for (const ExactPoint& p : points) bounds = hull(bounds, p.approximate());
   std::vector<IntervalBox> boxes;
   for (std::uint32_t t = 0; t < pieces.size(); ++t) {

@@ -17,10 +17,10 @@ std::vector<DoubtfulSources::Placed> DoubtfulSources::placed() const {
   }
   for (Placed& s : found) {
     s.around = hull(hull(s.lo->approximate(), s.hi->approximate()), hull(s.y->approximate(), s.beside->approximate()));
-    for (const Leg& leg : s.walk->legs) {
-      if (const ExactPoint* from = leg.aside_from())
-        s.around = hull(s.around, hull(from->approximate(), leg.p->approximate()));
-    }
+    s.walk->all_ways_aside([&](const IntervalBox& from, const IntervalBox& to) {
+      s.around = hull(s.around, hull(from, to));
+      return true;
+    });
   }
   return found;
 }
