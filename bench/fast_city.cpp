@@ -79,7 +79,7 @@ void cities() {
     fmt::print("{:>10} {:>8.2f} {:>9.3f} {:>8} {:>8} {:>7} {:>7} {:>7} {:>9} {:>9} {:>10} {:>9.0f} {:>8}\n", n, tree,
                time,
                last_size > 0 ? fmt::format("n^{:.2f}", std::log(time / last_time) / std::log(n / last_size)) : "-",
-               fast.visible.size(), fast.part.size(), fast.closure.passes, fast.closure.boxes_opened,
+               fast.visible.size(), fast.closure.mapped, fast.closure.passes, fast.closure.boxes_opened,
                fast.counts.wedges, fast.counts.exact_decisions, fast.conservative_fallbacks,
                static_cast<double>(usage.ru_maxrss) / 1024, exact > 0 ? fmt::format("{:.0f}", exact / time) : "-");
     last_time = time;
@@ -123,7 +123,7 @@ void hidden_depth() {
     const double time = times.median();
     if (first == 0) first = time;
     fmt::print("{:>10} {:>9.3f} {:>8.2f} {:>8} {:>7} {:>8}\n", mesh.triangles.size(), time, time / first,
-               fast.visible.size(), fast.part.size(), fast.counts.wedges);
+               fast.visible.size(), fast.closure.mapped, fast.counts.wedges);
   }
 }
 

@@ -66,10 +66,10 @@ void measure(const clues::bench::WorldScene& scene, const Settings& settings) {
                             visible == fast.visible ? "same" : "DIFFERENT");
     }
     fmt::print("| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.3f} | {:.2f} |{}\n", scene.name,
-               scene.mesh.triangles.size(), fast.visible.size(), fast.part.size(), fast.closure.passes,
+               scene.mesh.triangles.size(), fast.visible.size(), fast.closure.mapped, fast.closure.passes,
                fast.counts.rounds, fast.counts.wedges, fast.counts.exact_decisions, fast.conservative_fallbacks,
-               medians.back(), 1000 * medians.back() / static_cast<double>(std::max<std::size_t>(1, fast.part.size())),
-               against);
+               medians.back(),
+               1000 * medians.back() / static_cast<double>(std::max<std::uint64_t>(1, fast.closure.mapped)), against);
   }
   if (medians.size() > 1)
     fmt::print("| {}: median, worst | | | | | | | | | {:.3f}, {:.3f} | |\n", scene.name, median_of(medians),

@@ -37,7 +37,7 @@ class FastMapper : public CellMapper {
     mapped.name = cell.name;
     const std::size_t triangles = bvh_.mesh().triangles.size();
     mapped.summary = fmt::format("{:>9}  {:>7}  {:>9}  {:>6}  {:>9}  {:>8}  {}\n", triangles, found.visible.size(),
-                                 triangles - found.visible.size(), found.part.size(), found.conservative_fallbacks,
+                                 triangles - found.visible.size(), found.closure.mapped, found.conservative_fallbacks,
                                  found.in_doubt.size(), cell.name);
     scene::Result result = to_result(found, cell);
     result.stats["in_doubt"] = static_cast<std::int64_t>(found.in_doubt.size());
@@ -114,7 +114,7 @@ class FastMapper : public CellMapper {
     put("csv", found.counts.csv);
     put("degenerate_triangles", bvh_.degenerate().size());
     put("exact_decisions", found.counts.exact_decisions);
-    put("mapped_triangles", found.part.size());
+    put("mapped_triangles", found.closure.mapped);
     put("passes", found.closure.passes);
     put("rounds", found.counts.rounds);
     put("walks", found.counts.walks);

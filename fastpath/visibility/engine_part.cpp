@@ -1,5 +1,6 @@
 #include "fastpath/visibility/engine_part.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -14,8 +15,8 @@ class EnginePart : public PartialMap {
   // What light meets, on either side: the closure asks for that in solid mode too.
   std::vector<std::uint32_t> visible() const override { return map_.lit(); }
   SetLabel label(const Box& box) const override { return map_.label(box); }
-  SetLabel label_of_inside(const Corners& triangle, const Box& about) const override {
-    return map_.label_of_inside(triangle, about);
+  SetLabel label_of_inside(std::span<const ExactPoint> polygon, const Box& about) const override {
+    return map_.label_of_inside(polygon, about);
   }
   SetLabel label_beside(const Corners& triangle, const Box& about) const override {
     return map_.label_beside(triangle, about);
@@ -55,9 +56,9 @@ ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, cons
                             std::span<const std::uint8_t> counting) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   std::optional<std::size_t> first;
-  const auto make_map = [&](const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids,
-                            PartStage stage) -> std::shared_ptr<const PartialMap> {
-    if (!first) first = ids.size();
+  const auto make_map = [&](const ScenePart& part, PartStage stage) -> std::shared_ptr<const PartialMap> {
+    const auto mapped = static_cast<std::size_t>(std::count(part.dark.begin(), part.dark.end(), 0));
+    if (!first) first = mapped;
     LocalMapOptions of_part = options;
     if (stage == PartStage::grown) {
       of_part.effort = effort_of_first_try(of_part.effort);
@@ -65,11 +66,12 @@ ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, cons
       of_part.effort = effort_of_next_try(of_part.effort);
     }
     if (stage == PartStage::grown || stage == PartStage::rest)
-      of_part.effort = effort_of_part(of_part.effort, ids.size(), *first);
+      of_part.effort = effort_of_part(of_part.effort, mapped, *first);
     // A map that leaves out many CSVs is better than none.
     of_part.csvs_by_effort = options.effort > 0 && stage != PartStage::least;
     try {
-      return std::make_shared<const EnginePart>(make_local_map({part, ids, memory}, exact_cell, of_part, &outside));
+      return std::make_shared<const EnginePart>(
+          make_local_map({part.mesh, part.ids, part.dark, memory}, exact_cell, of_part, &outside));
     } catch (const EffortSpent&) {
       return nullptr;
     }

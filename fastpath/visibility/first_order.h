@@ -13,7 +13,8 @@ namespace clues::fastpath {
 
 struct FirstOrder {
   std::vector<std::uint32_t> visible;  // the PVS (D15): ids of the scene, ascending
-  std::vector<std::uint32_t> part;  // ids of the triangles that were mapped, ascending; every visible one is among them
+  // Ids of the triangles that were mapped, and of dark ones beside them (closure.h), ascending; every visible one is among them.
+  std::vector<std::uint32_t> part;
   std::vector<LocalRegion> regions;  // of the part, with ids of the scene, when asked for; all else is hidden
   LocalMapCounts counts;             // of the last map
   ClosureCounts closure;

@@ -72,7 +72,7 @@ SeeThroughList list_in_range(const SeeThroughScene& scene, const std::vector<Poi
   for (const auto t : all) {
     if (in_bound(scene.passing_id(t))) list.passing.push_back(scene.passing_id(t));
   }
-  list.mapped = closed.closure.part.size();
+  list.mapped = closed.closure.counts.mapped;
   list.passes = closed.closure.counts.passes;
   list.walks = map ? map->counts().walks : 0;
   list.conservative_fallbacks = closed.fallbacks();

@@ -54,10 +54,16 @@ class ReferencePart : public fastpath::PartialMap {
     }
     return label_at(box, corners);
   }
-  SetLabel label_of_inside(const fastpath::Corners& t, const fastpath::Box& about) const override {
-    const std::vector<Point3> corners{exact::to_exact(t[0]), exact::to_exact(t[1]), exact::to_exact(t[2])};
-    const Triangle3 triangle(corners[0], corners[1], corners[2]);
-    if (touches(triangle.bbox(), triangle)) return SetLabel::visible;
+  SetLabel label_of_inside(std::span<const fastpath::ExactPoint> polygon, const fastpath::Box& about) const override {
+    std::vector<Point3> corners;
+    for (const fastpath::ExactPoint& p : polygon) {
+      const fastpath::Exact3& x = p.exact();
+      corners.emplace_back(exact::FT(x.x), exact::FT(x.y), exact::FT(x.z));
+    }
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const Triangle3 triangle(corners[0], corners[i - 1], corners[i]);
+      if (!triangle.is_degenerate() && touches(triangle.bbox(), triangle)) return SetLabel::visible;
+    }
     return wedge_may_touch(about) ? SetLabel::elsewhere : label_at(about, corners);
   }
   SetLabel label_beside(const fastpath::Corners& t, const fastpath::Box& about) const override {
@@ -118,8 +124,8 @@ class ReferencePart : public fastpath::PartialMap {
 }  // namespace
 
 fastpath::PartialMapMaker reference_parts(const exact::ConvexCell& cell, PartBug bug) {
-  return [&cell, bug](const scene::TriangleMesh& part, const std::vector<std::uint32_t>&, fastpath::PartStage) {
-    return std::make_shared<const ReferencePart>(part, cell, bug);
+  return [&cell, bug](const fastpath::ScenePart& part, fastpath::PartStage) {
+    return std::make_shared<const ReferencePart>(part.mesh, cell, bug);
   };
 }
 

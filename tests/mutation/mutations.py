@@ -61,7 +61,7 @@ MUTATIONS = [
     # The fast path, put to the suite with --kernel fast.
     ("fast-contour-wrong-side", "fastpath/contour.cpp", "in_h_plus &= side <= 0;", "in_h_plus &= side >= 0;"),
     ("fast-walk-notch-is-no-gap", "fastpath/grooves.cpp", "if (next == pieces.end()) return false;", "if (next == pieces.end()) return true;"),
-    ("fast-closure-floors-divide-nothing", "fastpath/darkness.cpp", "t) && is_edge_on(scene.corners(t), cell);", "t) && is_edge_on(scene.corners(t), cell) && false;"),
+    ("fast-closure-floors-divide-nothing", "fastpath/darkness.cpp", "t) && holds_all(scene.corners(t), cell);", "t) && holds_all(scene.corners(t), cell) && false;"),
     ("fast-contour-convex-only", "fastpath/contour.cpp", "if (!in_h_plus || (left && right)) continue;", "if (!in_h_plus || left || right) continue;"),
     ("fast-contour-one-plane-only", "fastpath/contour.cpp", "for (const int turn : {1, -1}) {", "for (const int turn : {1}) {"),
     ("fast-contour-right-of-the-edge-only", "fastpath/contour.cpp", "    if (!supports[k].left.empty()) contour.push_back({id, plane, supports[k].left, other, holds_cell});\n", ""),
@@ -86,7 +86,7 @@ MUTATIONS = [
     ("fast-pieces-bounds-turned-over", "fastpath/piece_set.cpp", "  bounds.add_side(n, *piece.ray1, c);\n", "  bounds.add_side(n, c, *piece.ray1);\n"),
     ("fast-scene-graze-does-not-block", "fastpath/local_scene.cpp", "return touch ? Crossing::touch : Crossing::yes;", "return touch ? Crossing::no : Crossing::yes;"),
     ("fast-scene-first-crossing", "fastpath/local_scene.cpp", "parameter.template operator()<NT>(*out.piece))) > 0;", "parameter.template operator()<NT>(*out.piece))) < 0;"),
-    ("fast-scene-blocks-inside-the-cell", "fastpath/local_scene.cpp", "    if (pieces[t].in_cell) continue;\n", ""),
+    ("fast-scene-blocks-inside-the-cell", "fastpath/local_scene.cpp", "    if (pieces[t].in_cell || pieces[t].dark) continue;\n", "    if (pieces[t].dark) continue;\n"),
     ("fast-sources-no-vertices", "fastpath/sources.cpp", "    if (is_vertex[v]) found[v]", "    if (is_vertex[v] && scene_.points.empty()) found[v]"),
     ("fast-sources-never-walk-again", "fastpath/sources.cpp", "if (s.stale || s.walk.end == Walk::End::crossed) walk_from_place", "if (s.stale) walk_from_place"),
     ("fast-sources-never-nearer", "fastpath/search.cpp", "    if (sources.ask_nearer(fresh_walker, all_still_there)) changed = true;\n", ""),

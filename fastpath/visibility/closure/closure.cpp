@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "fastpath/visibility/closure/darkness.h"
@@ -18,6 +19,15 @@ constexpr std::size_t kFailures = 512, kFailuresPerMapped = 2;
 // How many triangles may come to a part that already has as many: the map of a large level takes much longer than that of its half.
 constexpr std::size_t kMostMissing = 2048;
 
+// K of the closure's map, ascending.
+std::vector<std::uint32_t> mapped_of(const Closure& closure) {
+  std::vector<std::uint32_t> mapped;
+  for (std::size_t i = 0; i < closure.part.size(); ++i) {
+    if (closure.dark[i] == 0) mapped.push_back(closure.part[i]);
+  }
+  return mapped;
+}
+
 class Closer {
  public:
   Closer(const Bvh& bvh, const Cell& cell, std::size_t whole, const exact::Dials& dials,
@@ -30,6 +40,7 @@ class Closer {
         rays_(bvh, cell, dials.sight_rays),
         proved_(bvh),
         in_part_(bvh.mesh().triangles.size(), 0),
+        is_dark_(in_part_.size(), 0),
         seen_(in_part_.size(), 0),
         looked_into_(in_part_.size(), 0) {}
 
@@ -44,7 +55,8 @@ class Closer {
     part_.push_back(triangle);
     return true;
   }
-  const std::vector<std::uint32_t>& part() const { return part_; }
+  // Whether K is what it was in this closure.
+  bool is_part_of(const Closure& closure) const { return part_ == mapped_of(closure); }
   PartStage stage() const { return stage_; }
   std::uint64_t rays() const { return rays_.count(); }
   void add_all();
@@ -54,9 +66,9 @@ class Closer {
   // A part that holds half of what counts becomes all of that, and its map is made in the stage that follows the first.
   void begin_with_all_if_half();
 
-  // The scene of the part, ids ascending.
-  scene::TriangleMesh part_mesh();
-  // Tries to prove every triangle outside the part dark; adds what is in the way of that, and drops what light does not touch. False: it stays as it is, and all that count are dark.
+  // The part, with what is known to be dark and divides what is around its vertices.
+  ScenePart scene_part();
+  // Tries to prove every triangle outside the part dark; adds what is in the way of that, and drops what is dark. False: nothing is in the way, and another map would tell nothing new.
   bool add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible);
   // After a map is given up: on to the next stage (closure.h). False: there is none.
   bool begin_again(const Closure& closure);
@@ -78,7 +90,10 @@ class Closer {
   void add_seen_beside(std::vector<std::uint32_t> triangles);
   // Adds what sight lines to the triangles meet first; else the triangles themselves.
   void add_front_of(const std::vector<std::uint32_t>& triangles);
-  void drop_untouched(const Darkness& darkness, const std::vector<std::uint32_t>& visible);
+  // Takes hidden triangles out of the part, which are dark for good.
+  std::vector<std::uint32_t> taken_out(const Darkness& darkness, const std::vector<std::uint32_t>& visible);
+  // Of triangles that are dark, keeps those that wedges touch beside the part. False: no others than before.
+  bool keep_beside(const std::vector<std::uint32_t>& dark, const PartialMap& map);
 
   const Bvh& bvh_;
   const Cell& cell_;
@@ -87,7 +102,9 @@ class Closer {
   std::span<const std::uint8_t> counting_;  // none: all do
   SightRays rays_;
   ProvedDark proved_;
-  std::vector<std::uint8_t> in_part_, seen_, looked_into_;  // seen by a ray; as a listed triangle that none has seen
+  std::vector<std::uint8_t> in_part_;
+  std::vector<std::uint8_t> is_dark_;             // and next to the part, or was
+  std::vector<std::uint8_t> seen_, looked_into_;  // by a ray; as a listed triangle that none has seen
   std::vector<std::uint32_t> part_;
   std::vector<std::uint32_t> given_up_;  // the first whose map was, or that became all that counts before it was made
   PartStage stage_ = PartStage::grown;
@@ -157,27 +174,30 @@ void Closer::begin_with_all_if_half() {
   stage_ = PartStage::all;
 }
 
-scene::TriangleMesh Closer::part_mesh() {
+ScenePart Closer::scene_part() {
   std::sort(part_.begin(), part_.end());
-  scene::TriangleMesh mesh;
+  ScenePart part;
   std::vector<std::uint32_t> points;
-  for (const std::uint32_t t : part_) {
+  for (std::uint32_t t = 0; t < in_part_.size(); ++t) {
+    if (in_part_[t] == 0 && is_dark_[t] == 0) continue;
+    part.ids.push_back(t);
+    part.dark.push_back(in_part_[t] == 0 ? 1 : 0);
     const scene::Triangle& corners = bvh_.mesh().triangles[t];
     points.insert(points.end(), corners.begin(), corners.end());
   }
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
-  for (const std::uint32_t p : points) mesh.points.push_back(bvh_.mesh().points[p]);
-  for (const std::uint32_t t : part_) {
+  for (const std::uint32_t p : points) part.mesh.points.push_back(bvh_.mesh().points[p]);
+  for (const std::uint32_t t : part.ids) {
     scene::Triangle corners{};
     for (std::size_t i = 0; i < 3; ++i) {
       const auto at = std::lower_bound(points.begin(), points.end(), bvh_.mesh().triangles[t][i]);
       corners[i] = static_cast<std::uint32_t>(at - points.begin());
     }
-    mesh.triangles.push_back(corners);
-    mesh.face_of.push_back(static_cast<std::uint32_t>(mesh.face_of.size()));
+    part.mesh.triangles.push_back(corners);
+    part.mesh.face_of.push_back(static_cast<std::uint32_t>(part.mesh.face_of.size()));
   }
-  return mesh;
+  return part;
 }
 
 void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
@@ -197,25 +217,45 @@ void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
   add_seen_beside(std::move(added));
 }
 
-void Closer::drop_untouched(const Darkness& darkness, const std::vector<std::uint32_t>& visible) {
+std::vector<std::uint32_t> Closer::taken_out(const Darkness& darkness, const std::vector<std::uint32_t>& visible) {
+  std::vector<std::uint32_t> out;
   std::erase_if(part_, [&](std::uint32_t t) {
-    if (std::binary_search(visible.begin(), visible.end(), t) || !darkness.untouched(bvh_.corners(t))) return false;
+    if (std::binary_search(visible.begin(), visible.end(), t) || darkness.is_edge_on(bvh_.corners(t))) return false;
     in_part_[t] = 0;
     proved_.triangles[t] = 1;
+    out.push_back(t);
     return true;
   });
+  return out;
+}
+
+bool Closer::keep_beside(const std::vector<std::uint32_t>& dark, const PartialMap& map) {
+  bool others = false;
+  for (const std::uint32_t t : dark) {
+    if (is_dark_[t] != 0 || !map.piece_may_touch(bvh_.corners(t))) continue;
+    is_dark_[t] = 1;
+    others = true;
+  }
+  return others;
 }
 
 bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible) {
   const Darkness darkness(map, bvh_, part_, visible, cell_.vertices());
   const auto in_list = [this](std::uint32_t t) { return counts_in_list(t); };
   const std::size_t enough = failures_ > 0 ? failures_ : std::max(kFailures, kFailuresPerMapped * part_.size());
+  std::vector<std::uint32_t> dark;
   const std::vector<std::uint32_t> failed = darkness.not_proved(
-      bvh_, [&](std::uint32_t t) { return in_part_[t] != 0; }, in_list, enough, proved_, counts);
+      bvh_, [&](std::uint32_t t) { return in_part_[t] != 0 || is_dark_[t] != 0; }, in_list, enough, proved_, counts,
+      &dark);
   std::vector<std::uint32_t> open;
   std::copy_if(failed.begin(), failed.end(), std::back_inserter(open), in_list);
-  if (open.empty()) return false;
-  drop_untouched(darkness, visible);
+  const bool none_beside = std::find(is_dark_.begin(), is_dark_.end(), 1) == is_dark_.end();
+  const bool others_beside = keep_beside(dark, map);
+  keep_beside(taken_out(darkness, visible), map);
+  // Without what divides its vertices a map may have too much; where rays have seen all of it, it does not.
+  if (open.empty())
+    return none_beside && others_beside &&
+           std::any_of(visible.begin(), visible.end(), [this](std::uint32_t t) { return seen_[t] == 0; });
   if (open.size() < failed.size()) {
     std::vector<std::uint32_t> asked = open;
     for (const std::uint32_t t : visible) {
@@ -231,9 +271,14 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   if (failures_ > 0) open.resize(std::min(open.size(), failures_));
   add_front_of(open);
   if (failures_ > 0) return true;
-  // Most of what wedges end at is next to what is seen. In the part it costs little, as no light spreads from it; a proof that fails for it costs a pass.
-  add_those_that_count(neighbours_of(bvh_.mesh(), part_));
-  add_all_if_half();
+  for (const std::uint32_t t : open) add(t);
+  // Where all were asked about, all others are dark: those next to the part will be touched.
+  if (failed.size() < enough) {
+    const std::set<std::uint32_t> not_dark(failed.begin(), failed.end());
+    for (const std::uint32_t t : neighbours_of(bvh_.mesh(), part_)) {
+      if (!not_dark.contains(t) && !darkness.is_edge_on(bvh_.corners(t))) is_dark_[t] = 1;
+    }
+  }
   return true;
 }
 
@@ -251,7 +296,7 @@ bool Closer::begin_again(const Closure& closure) {
   }
   const bool all_count = std::find(counting_.begin(), counting_.end(), 0) == counting_.end();
   if (!all_may_come() || (stage_ == PartStage::again && closure.map && all_count)) return false;
-  std::vector<std::uint32_t> part = closure.map && !all_count ? closure.part : given_up_;
+  std::vector<std::uint32_t> part = closure.map && !all_count ? mapped_of(closure) : given_up_;
   if (!closure.map) std::erase_if(part, [this](std::uint32_t t) { return !counts_in_list(t); });
   set_part(std::move(part));
   stage_ = closure.map ? PartStage::rest : PartStage::least;
@@ -262,7 +307,7 @@ bool Closer::begin_again(const Closure& closure) {
 bool Closer::take_all_that_counts(const Closure& closure) {
   const std::size_t missing = count_missing();
   if (missing == 0 || missing > kAllForPart * std::max(part_.size(), kLeastAll)) return false;
-  if (closure.map) set_part(closure.part);
+  if (closure.map) set_part(mapped_of(closure));
   add_all_that_count();
   return true;
 }
@@ -333,23 +378,24 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
   Closure result;
   for (bool grown = true; grown;) {
     ++closer.counts.passes;
-    scene::TriangleMesh mesh = closer.part_mesh();
-    if (auto map = make_map(mesh, closer.part(), closer.stage())) {
-      result.part_mesh = std::move(mesh);
+    ScenePart part = closer.scene_part();
+    if (auto map = make_map(part, closer.stage())) {
       result.map = std::move(map);
-      result.part = closer.part();
+      result.part = std::move(part.ids);
+      result.dark = std::move(part.dark);
       result.visible.clear();
       for (const std::uint32_t i : result.map->visible()) result.visible.push_back(result.part[i]);
     } else if (!closer.begin_again(result)) {
       result.unproved = closer.unproved_by(result);
       break;
-    } else if (!result.map || closer.part() != result.part) {
+    } else if (!result.map || !closer.is_part_of(result)) {
       continue;
     }
     grown = result.part.size() < bvh.mesh().triangles.size() && !bvh.nodes().empty() &&
             closer.add_what_may_be_lit(*result.map, result.visible);
   }
   result.counts = closer.counts;
+  result.counts.mapped = mapped_of(result).size();
   result.counts.rays = closer.rays();
   return result;
 }

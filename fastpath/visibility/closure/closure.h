@@ -10,8 +10,11 @@
 // K is mapped next.
 //
 // So: guess K by sampled rays, map K, and then prove of every other triangle that it lies outside Omega(K). A box that no lit triangle of K, no edge-on one and no wedge of K touches is of one
-// label, so one point proves a whole subtree of the BVH dark. Where a proof fails K grows by what is in front. What light does not touch in K is dark and leaves it: no wedge ends there, so
-// the map is the same without it. Then the loop runs again with what is left. When nothing is, K is as the theorem wants it, as only what is dark is not in it; K may hold too much.
+// label, so one point proves a whole subtree of the BVH dark. Where a proof fails K grows by the triangle, and by what is in front. What light does not meet in K is dark and leaves it. Then the loop
+// runs again with what is left. When nothing is, K is as the theorem wants it, as only what is dark is not in it; K may hold too much.
+//
+// What is proved dark and next to K comes into the map all the same, marked (ScenePart::dark): not into K, as it stops no light, but the engine takes the wedges at a vertex by the faces that
+// all incident triangles make there, and without these its map may have too much (never too little).
 //
 // Where a map is given up, light came past what K lacks, which is what makes maps long: so K becomes all that counts, with what else it had in the map before, or has in this one if there was none.
 // If that is too much, too, or far more than K, K goes back to what it was, or, if there was no map, to what counts of the first one; and if some triangles do not count it grows again without any more of
@@ -34,6 +37,7 @@
 #include "fastpath/queries/bvh.h"
 #include "fastpath/visibility/labels/set_label.h"
 #include "fastpath/visibility/points/box.h"
+#include "fastpath/visibility/points/points.h"
 
 namespace clues::fastpath {
 
@@ -49,8 +53,8 @@ class PartialMap {
   virtual std::vector<std::uint32_t> visible() const = 0;
   // hidden only if all of the closed box is outside Omega, where no visible triangle touches it, nor one that is edge-on to the cell (darkness.h, Dividers); so below.
   virtual SetLabel label(const Box& box) const = 0;
-  // The same for the inside of a triangle that no visible one meets. It is asked at middle_of(about); `about` holds a point of the inside, and no visible triangle touches it.
-  virtual SetLabel label_of_inside(const Corners& triangle, const Box& about) const = 0;
+  // The same for the inside of a convex polygon that no visible triangle meets. It is asked at middle_of(about); `about` holds a point of the inside, and no visible triangle touches it.
+  virtual SetLabel label_of_inside(std::span<const ExactPoint> polygon, const Box& about) const = 0;
   // The same for what is right beside the inside of a triangle, on the side of middle_of(about), which is not in its plane. Visible ones may meet the inside, or touch `about`, only if they
   // lie in that plane.
   virtual SetLabel label_beside(const Corners& triangle, const Box& about) const = 0;
@@ -67,9 +71,16 @@ enum class PartStage : std::uint8_t {
   least,  // the same where there is no map yet: from what counts of that part
 };
 
-// Makes the map of a part of the scene, for the same cell. `ids` are those of the part's triangles in the scene, ascending. None: it is given up, as it takes too much effort.
-using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(
-    const scene::TriangleMesh& part, const std::vector<std::uint32_t>& ids, PartStage stage)>;
+// A part of the scene, as it is mapped.
+struct ScenePart {
+  scene::TriangleMesh mesh;
+  std::vector<std::uint32_t> ids;  // of its triangles in the scene, ascending
+  // Of each: whether it is known to be outside of Omega(S), and is there only for what it divides around vertices.
+  std::vector<std::uint8_t> dark;
+};
+
+// Makes the map of a part of the scene, for the same cell. None: it is given up, as it takes too much effort.
+using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(const ScenePart& part, PartStage stage)>;
 
 // Cheap figures about how the answer came about, over all passes.
 struct ClosureCounts {
@@ -78,15 +89,17 @@ struct ClosureCounts {
   std::uint64_t boxes_dark = 0;  // subtrees proved dark as a whole
   std::uint64_t boxes_opened = 0;
   std::uint64_t triangles_dark = 0;  // proved dark one by one
+  std::uint64_t mapped = 0;          // triangles of the last map, but for those known to be dark
 };
 
 struct Closure {
-  std::vector<std::uint32_t> part;  // K: ids of the scene, ascending; triangle i of the map is part[i]
+  // K, and what is known to be dark beside it: ids of the scene, ascending. Triangle i of the map is part[i].
+  std::vector<std::uint32_t> part;
+  std::vector<std::uint8_t> dark;  // of each: whether it is none of K
   std::vector<std::uint32_t>
       visible;  // of the part, what light meets: ids of the scene, ascending. With what follows it is the PVS.
   std::vector<std::uint32_t>
       unproved;  // where a map was given up: what is not in the part and not proved to be dark; ascending
-  scene::TriangleMesh part_mesh;
   std::shared_ptr<const PartialMap> map;  // none: all maps were given up, and all of the scene is unproved
   ClosureCounts counts;
 };

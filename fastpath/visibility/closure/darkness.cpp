@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "fastpath/predicates/estimated_vectors.h"
+#include "fastpath/visibility/scene/local_scene.h"
 #include "fastpath/visibility/wedges/contact.h"
 
 namespace clues::fastpath {
@@ -28,8 +29,7 @@ bool plane_may_touch(const Corners& t, const Box& b) {
   return negative && positive;
 }
 
-// Whether all of the cell is in the plane of the triangle.
-bool is_edge_on(const Corners& t, std::span<const Point> cell) {
+bool holds_all(const Corners& t, std::span<const Point> cell) {
   return std::all_of(cell.begin(), cell.end(), [&](const Point& v) { return side_of_plane(t, v) == 0; });
 }
 
@@ -37,9 +37,63 @@ std::vector<std::uint32_t> with_edge_on(const Bvh& scene, std::span<const std::u
                                         std::span<const std::uint32_t> visible, std::span<const Point> cell) {
   std::vector<std::uint32_t> all(visible.begin(), visible.end());
   std::copy_if(part.begin(), part.end(), std::back_inserter(all), [&](std::uint32_t t) {
-    return !std::binary_search(visible.begin(), visible.end(), t) && is_edge_on(scene.corners(t), cell);
+    return !std::binary_search(visible.begin(), visible.end(), t) && holds_all(scene.corners(t), cell);
   });
   return all;
+}
+
+// No more lit triangles than this may cut one that is proved to be dark part by part.
+constexpr std::size_t kMostCuts = 4;
+
+using Polygon = std::vector<ExactPoint>;
+
+// The parts of a convex polygon on either side of a plane.
+void cut_at(const Polygon& polygon, const Plane& plane, Pool& pool, std::vector<Polygon>& parts) {
+  std::vector<const ExactPoint*> corners;
+  std::vector<int> side;
+  for (const ExactPoint& p : polygon) {
+    corners.push_back(pool.keep(p));
+    side.push_back(plane.side(p));
+  }
+  for (const int way : {1, -1}) {
+    if (std::find(side.begin(), side.end(), way) == side.end()) continue;
+    Polygon& part = parts.emplace_back();
+    for (std::size_t i = 0; i < side.size(); ++i) {
+      const std::size_t j = (i + 1) % side.size();
+      if (side[i] != -way) part.push_back(*corners[i]);
+      if (side[i] * side[j] < 0) part.push_back(ExactPoint::on_plane(*corners[i], *corners[j], plane));
+    }
+  }
+}
+
+// The parts into which the planes of these triangles cut t. Points made on the way are kept in the pool.
+std::vector<Polygon> parts_of(const Corners& t, std::span<const Corners* const> cutting, Pool& pool) {
+  const RoundedUp rounded_up;
+  std::vector<Polygon> parts{{ExactPoint(t[0]), ExactPoint(t[1]), ExactPoint(t[2])}};
+  for (const Corners* c : cutting) {
+    const Plane* plane =
+        pool.plane(*pool.keep(ExactPoint((*c)[0])), *pool.keep(ExactPoint((*c)[1])), *pool.keep(ExactPoint((*c)[2])));
+    std::vector<Polygon> cut;
+    for (const Polygon& part : parts) cut_at(part, *plane, pool, cut);
+    parts = std::move(cut);
+  }
+  return parts;
+}
+
+// Boxes that contain a point of the inside of a convex polygon each, nearer to one corner than to the others.
+std::vector<Box> about_inside(const Polygon& polygon) {
+  const RoundedUp rounded_up;
+  // Weights whose sum is exactly 1.
+  const auto others = static_cast<double>(polygon.size() - 1), of_other = std::floor(32 / others) / 64,
+             of_first = 1 - others * of_other;
+  std::vector<Box> boxes;
+  for (std::size_t first = 0; first < polygon.size(); ++first) {
+    IntervalBox sum{Interval(0), Interval(0), Interval(0)};
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      sum = sum + Interval(i == first ? of_first : of_other) * polygon[i].approximate();
+    boxes.push_back({{sum.x.inf(), sum.y.inf(), sum.z.inf()}, {sum.x.sup(), sum.y.sup(), sum.z.sup()}});
+  }
+  return boxes;
 }
 
 constexpr std::array<std::array<double, 3>, 3> kInside{
@@ -71,14 +125,17 @@ bool Dividers::may_touch(const Corners& t) const {
   return false;
 }
 
-Dividers::Meets Dividers::may_meet_inside(const Corners& t) const {
-  Meets meets = Meets::nothing;
+Dividers::Meeting Dividers::may_meet_inside(const Corners& t) const {
+  Meeting meeting;
   for (const std::uint32_t i : near(scene::bounds_of(t))) {
     if (!may_meet_inside_conservative(t, corners_[i])) continue;
-    if (!in_plane_of(t, corners_[i])) return Meets::across;
-    meets = Meets::in_plane;
+    if (in_plane_of(t, corners_[i])) {
+      meeting.in_plane = true;
+    } else {
+      meeting.across.push_back(i);
+    }
   }
-  return meets;
+  return meeting;
 }
 
 std::vector<std::uint32_t> Dividers::near(const Box& box) const {
@@ -90,30 +147,38 @@ Darkness::Darkness(const PartialMap& map, const Bvh& scene, std::span<const std:
                    std::span<const std::uint32_t> visible, std::span<const Point> cell)
     : map_(map), dividers_(scene, with_edge_on(scene, part, visible, cell)), cell_(cell) {}
 
+bool Darkness::is_edge_on(const Corners& t) const { return holds_all(t, cell_); }
+
 bool Darkness::dark(const Corners& t) const {
-  if (is_edge_on(t, cell_) && !touch(scene::bounds_of(t), scene::bounds_of(cell_))) return true;
-  const Dividers::Meets meets = dividers_.may_meet_inside(t);
-  if (meets == Dividers::Meets::across) return false;
-  if (meets == Dividers::Meets::nothing && dark_inside(t)) return true;
-  return cell_on_one_side(t) && dark_beside(t, 1) && dark_beside(t, -1);
+  if (is_edge_on(t) && !touch(scene::bounds_of(t), scene::bounds_of(cell_))) return true;
+  const Dividers::Meeting meeting = dividers_.may_meet_inside(t);
+  if (meeting.across.size() > kMostCuts) return false;
+  if (!meeting.in_plane && dark_inside(t, meeting.across)) return true;
+  const int side = meeting.across.empty() ? side_of_cell(t) : 0;
+  return side != 0 && dark_beside(t, side);
 }
 
-// By a place about a point of the inside.
-bool Darkness::dark_inside(const Corners& t) const {
-  for (const std::array<double, 3>& weight : kInside) {
-    const Box about = about_inside(t, weight);
-    if (dividers_.may_touch(about)) continue;
-    const SetLabel label = map_.label_of_inside(t, about);
-    if (label != SetLabel::elsewhere) return label == SetLabel::hidden;
-  }
-  return false;
+// Of parts into which lit triangles cut t: no light is on any of them. (What of t lies in the planes of these has measure zero.)
+bool Darkness::dark_inside(const Corners& t, std::span<const std::uint32_t> across) const {
+  std::vector<const Corners*> cutting;
+  for (const std::uint32_t i : across) cutting.push_back(&dividers_.corners(i));
+  Pool pool;
+  const std::vector<Polygon> parts = parts_of(t, cutting, pool);
+  return std::all_of(parts.begin(), parts.end(), [this](const Polygon& part) {
+    // By a place about a point of the inside.
+    for (const Box& about : about_inside(part)) {
+      if (dividers_.may_touch(about)) continue;
+      const SetLabel label = map_.label_of_inside(part, about);
+      if (label != SetLabel::elsewhere) return label == SetLabel::hidden;
+    }
+    return false;
+  });
 }
 
 // What only grazes t, in its plane, is no light: a lit floor on which t stands flush, a wedge that runs along a row of fronts. Then what is right
-// beside the inside of t is cut by nothing and has one label on either side. Claim: if both are hidden and the cell is on one side of the plane of t, no
-// point x of the inside is in Omega(K). Proof: t is not in K. Were x in Omega(K) and on no triangle of K, its continuations in K would run on beyond it
-// and be in Omega(K): right beside t, away from the cell. Were it on one, that lies in the plane; light that meets x comes off the plane, as int V is,
-// so it has just been in what is right beside t.
+// beside the inside of t is cut by nothing and has one label on either side. Claim: if the cell is on one side of the plane of t, and what is right beside the inside of t
+// is hidden on that side, no point x of the inside is in Omega(K). Proof: int V is strictly on that side. If x is in V, so are points right beside it there. Else
+// x came into Omega(K) first by some C(y, v) with y not x (D9); this comes to x from the side of v, so what is right before x is in Omega(K), and right beside t on that side.
 // The place: in a box that holds a point of the inside, with the middle on the side asked about, which nothing touches that is not in the plane.
 bool Darkness::dark_beside(const Corners& t, int side) const {
   const Point n = cross_of(minus(t[1], t[0]), minus(t[2], t[0]));
@@ -139,19 +204,20 @@ bool Darkness::dark_beside(const Corners& t, int side) const {
   return false;
 }
 
-bool Darkness::cell_on_one_side(const Corners& t) const {
+int Darkness::side_of_cell(const Corners& t) const {
   bool negative = false, positive = false;
   for (const Point& v : cell_) {
     const int side = side_of_plane(t, v);
     negative |= side < 0;
     positive |= side > 0;
   }
-  return negative != positive;
+  return static_cast<int>(positive) - static_cast<int>(negative);
 }
 
 // One level of the tree after the other, each in parallel, answers in order: the same for any number of threads.
 std::vector<std::uint32_t> Darkness::not_proved(const Bvh& tree, const Which& skip, const Which& counts,
-                                                std::size_t enough, ProvedDark& proved, ClosureCounts& figures) const {
+                                                std::size_t enough, ProvedDark& proved, ClosureCounts& figures,
+                                                std::vector<std::uint32_t>* one_by_one) const {
   std::vector<std::uint32_t> failed, level;
   if (!tree.nodes().empty() && proved.nodes[0] == 0) level.push_back(0);
   for (bool any_counts = false; !level.empty() && !(any_counts && failed.size() >= enough);) {
@@ -191,6 +257,7 @@ std::vector<std::uint32_t> Darkness::not_proved(const Bvh& tree, const Which& sk
         ((child & BoxLanes::kLeaf) != 0 ? proved.blocks[child & ~BoxLanes::kLeaf] : proved.nodes[child]) = 1;
       }
       for (const std::uint32_t t : a.dark) proved.triangles[t] = 1;
+      if (one_by_one) one_by_one->insert(one_by_one->end(), a.dark.begin(), a.dark.end());
       figures.boxes_dark += a.dark_children.size();
       figures.triangles_dark += a.dark.size();
     }

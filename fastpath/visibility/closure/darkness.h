@@ -23,9 +23,13 @@ class Dividers {
   bool may_touch(const Box& box, const Corners* aside = nullptr) const;
   // Conservative: the boxes and the planes of two closed triangles.
   bool may_touch(const Corners& t) const;
-  // Whether one may have a point inside t, which is none of them: only some that lie in its plane, or others.
-  enum class Meets : std::uint8_t { nothing, in_plane, across };
-  Meets may_meet_inside(const Corners& t) const;
+  // Those that may have a point inside t, which is none of them: whether one lies in its plane, and all others.
+  struct Meeting {
+    bool in_plane = false;
+    std::vector<std::uint32_t> across;
+  };
+  Meeting may_meet_inside(const Corners& t) const;
+  const Corners& corners(std::uint32_t i) const { return corners_[i]; }
 
  private:
   std::vector<std::uint32_t> near(const Box& box) const;
@@ -50,19 +54,22 @@ class Darkness {
 
   using Which = std::function<bool(std::uint32_t triangle)>;
   // The triangles of the tree for which there is no proof, but for those that are skipped or proved before. No more levels of the tree are opened once there are `enough`, of which at
-  // least one counts. Marks what is proved.
+  // least one counts. Marks what is proved; `one_by_one` gets what was proved now, but for what a box was enough for.
   std::vector<std::uint32_t> not_proved(const Bvh& tree, const Which& skip, const Which& counts, std::size_t enough,
-                                        ProvedDark& proved, ClosureCounts& figures) const;
+                                        ProvedDark& proved, ClosureCounts& figures,
+                                        std::vector<std::uint32_t>* one_by_one = nullptr) const;
 
-  // Of a triangle of K that light does not meet: whether nothing that divides and no wedge piece touches the closed triangle either.
+  // Whether all of the cell is in the plane of the triangle.
+  bool is_edge_on(const Corners& t) const;
+  // Of a triangle that light does not meet: whether nothing that divides and no wedge piece touches the closed triangle either.
   bool untouched(const Corners& t) const { return !dividers_.may_touch(t) && !map_.piece_may_touch(t); }
 
  private:
   bool dark(const Box& box) const { return !dividers_.may_touch(box) && map_.label(box) == SetLabel::hidden; }
   bool dark(const Corners& t) const;
-  bool dark_inside(const Corners& t) const;
+  bool dark_inside(const Corners& t, std::span<const std::uint32_t> across) const;
   bool dark_beside(const Corners& t, int side) const;
-  bool cell_on_one_side(const Corners& t) const;
+  int side_of_cell(const Corners& t) const;  // 0: on both; or all of it is in the plane
 
   const PartialMap& map_;
   Dividers dividers_;

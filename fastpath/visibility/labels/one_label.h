@@ -44,8 +44,8 @@ class OneLabel {
 
   // Of a closed box that no surface touches which light meets, or which is edge-on to V (closure/darkness.h, Dividers). So below: "such surfaces" are these.
   SetLabel of_box(const Box& box) const;
-  // Of the inside of a triangle that no such surface meets, asked at the middle of `about`: a box that holds a point of the inside and that no such surface touches.
-  SetLabel of_inside(const Corners& triangle, const Box& about) const;
+  // Of the inside of a convex polygon that no such surface meets, asked at the middle of `about`: a box that holds a point of the inside and that no such surface touches.
+  SetLabel of_inside(std::span<const ExactPoint> polygon, const Box& about) const;
   // Of what is right beside the inside, on the side on which the middle of `about` is. Surfaces and pieces in the triangle's own plane do not cut that; other surfaces that light meets
   // must not meet the inside, nor touch the box.
   SetLabel of_beside(const Corners& triangle, const Box& about) const;
@@ -60,7 +60,13 @@ class OneLabel {
   std::uint64_t unresolved() const { return unresolved_; }
 
  private:
-  bool piece_in_plane(std::size_t piece, const Corners& triangle) const;
+  bool piece_in_plane(std::size_t piece, std::span<const ExactPoint> corners) const;
+  // Whether a piece that passes the test may touch the closed polygon with corners in these boxes.
+  template <class Test>
+  bool any_may_touch(std::span<const IntervalBox> polygon, const Test& test) const;
+  // Whether one that counts has a point inside the polygon, or may.
+  template <class Counts>
+  bool any_meets_inside(std::span<const ExactPoint> polygon, const Counts& counts) const;
 
   const Walker& walker_;
   const PieceSet& pieces_;

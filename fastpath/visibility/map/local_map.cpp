@@ -58,9 +58,10 @@ IntervalBox bounds_of_segments(const LocalScene& scene, const IntervalBox& given
 class LocalMap::Parts {
  public:
   Parts(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part,
-        const LocalMapOptions& o, const std::vector<bool>& w, const Box* outside)
+        const LocalMapOptions& o, const std::vector<bool>& w, const Box* outside,
+        std::span<const std::uint8_t> dark = {})
       : options(o),
-        scene(complex, whole, part),
+        scene(complex, whole, part, dark),
         wanted(w),
         bounds(fastpath::bounds_of(scene, outside)),
         workers(scene),
@@ -202,9 +203,9 @@ LocalMap::Label LocalMap::label(const Box& box) const {
   return parts_->one_label->of_box(box);
 }
 
-LocalMap::Label LocalMap::label_of_inside(const Corners& triangle, const Box& about) const {
+LocalMap::Label LocalMap::label_of_inside(std::span<const ExactPoint> polygon, const Box& about) const {
   const RoundedUp rounded_up;
-  return parts_->one_label->of_inside(triangle, about);
+  return parts_->one_label->of_inside(polygon, about);
 }
 
 LocalMap::Label LocalMap::label_beside(const Corners& triangle, const Box& about) const {
@@ -237,9 +238,10 @@ void require_standard_range(const scene::TriangleMesh& mesh) {
 }
 
 LocalMap map_of_all(const exact::Complex& complex, const exact::ConvexCell& cell, const LocalMapOptions& options,
-                    const Box* outside) {
-  const std::vector<bool> all(complex.input_triangles, true);
-  return LocalMap(std::make_shared<LocalMap::Parts>(complex, cell, cell, options, all, outside));
+                    const Box* outside, std::span<const std::uint8_t> dark = {}) {
+  std::vector<bool> wanted(complex.input_triangles, true);
+  for (std::size_t t = 0; t < dark.size(); ++t) wanted[t] = dark[t] == 0;
+  return LocalMap(std::make_shared<LocalMap::Parts>(complex, cell, cell, options, wanted, outside, dark));
 }
 
 }  // namespace
@@ -253,7 +255,7 @@ LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell
 LocalMap make_local_map(const PartOfScene& part, const exact::ConvexCell& cell, const LocalMapOptions& options,
                         const Box* outside) {
   require_standard_range(part.mesh);
-  return map_of_all(exact::build_complex(part.mesh, &cell, part.ids, part.memory), cell, options, outside);
+  return map_of_all(exact::build_complex(part.mesh, &cell, part.ids, part.memory), cell, options, outside, part.dark);
 }
 
 LocalMap make_local_map_in(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part,

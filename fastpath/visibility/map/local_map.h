@@ -15,6 +15,7 @@
 #include "fastpath/predicates/filter.h"
 #include "fastpath/visibility/labels/set_label.h"
 #include "fastpath/visibility/points/box.h"
+#include "fastpath/visibility/points/points.h"
 #include "fastpath/visibility/search/options.h"
 #include "fastpath/visibility/wedges/piece_kind.h"
 #include "scene/mesh/mesh.h"
@@ -54,12 +55,12 @@ class LocalMap {
   // The regions of all sides that count, made anew at each call. O(k^2) labels for k pieces that cross a triangle.
   std::vector<LocalRegion> regions() const;
 
-  // Of a point in free space, not on a surface; of a closed box; of the inside of a triangle, or what is right beside it, asked at the middle of a box about one of its points. No surface that light meets may touch the
+  // Of a point in free space, not on a surface; of a closed box; of the inside of a convex polygon, or what is right beside that of a triangle, asked at the middle of a box about one of its points. No surface that light meets may touch the
   // boxes or meet the inside (one_label.h). `hidden` is a proof; a case that stays undecided is called visible and counted in conservative_labels(). Any number of threads may
   // ask.
   Label label(const Point& p) const;
   Label label(const Box& box) const;
-  Label label_of_inside(const Corners& triangle, const Box& about) const;
+  Label label_of_inside(std::span<const ExactPoint> polygon, const Box& about) const;
   Label label_beside(const Corners& triangle, const Box& about) const;
   std::uint64_t conservative_labels() const;
 
@@ -87,10 +88,11 @@ LocalMap make_local_map(const scene::TriangleMesh& mesh, const exact::ConvexCell
                         const Box* outside = nullptr);
 
 // The same of a part of a scene, one of several that are mapped one after the other: `ids` are its triangles' ids in the scene, ascending,
-// and `memory` keeps what is found out about how they meet.
+// and `memory` keeps what is found out about how they meet. Those that are `dark` stop no light and are not listed: all that they do is to divide what is around vertices (LocalPiece::dark).
 struct PartOfScene {
   const scene::TriangleMesh& mesh;
   std::span<const std::uint32_t> ids;
+  std::span<const std::uint8_t> dark;  // by triangle
   exact::CutMemory& memory;
 };
 LocalMap make_local_map(const PartOfScene& part, const exact::ConvexCell& cell, const LocalMapOptions& options,

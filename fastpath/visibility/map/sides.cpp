@@ -74,8 +74,9 @@ void Sides::find_visible(Workers& workers) {
   const Cuts cut = cuts();
   // A piece of several triangles is looked at once, for all of them.
   std::vector<std::vector<std::uint32_t>> pieces_of(scene_.triangles);
-  for (std::uint32_t t = 0; t < scene_.pieces.size(); ++t)
-    pieces_of[scene_.pieces[t].origins.front().triangle].push_back(t);
+  for (std::uint32_t t = 0; t < scene_.pieces.size(); ++t) {
+    if (!scene_.pieces[t].dark) pieces_of[scene_.pieces[t].origins.front().triangle].push_back(t);
+  }
   std::vector<std::vector<Lit>> found(scene_.triangles);
   workers.for_each(scene_.triangles, [&](std::size_t i, Workers::Worker&) { found[i] = lit_of(pieces_of[i], cut); });
   std::vector<bool> seen(scene_.triangles, false), met(scene_.triangles, false);

@@ -1,5 +1,8 @@
 #include "fastpath/visibility/scene/local_scene.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "exact/complex/complex.h"
 #include "exact/kernel.h"
 #include "exact/sight/scene_query.h"
@@ -22,7 +25,8 @@ ExactPoint taken_over(const exact::Point3& p) {
 LocalScene::LocalScene(const scene::TriangleMesh& mesh, const exact::ConvexCell& given)
     : LocalScene(exact::build_complex(mesh, &given), given, given) {}
 
-LocalScene::LocalScene(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& given) {
+LocalScene::LocalScene(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& given,
+                       std::span<const std::uint8_t> dark) {
   const std::vector<exact::Point3>& cell_vertices = whole.vertices();
   std::vector<bool> meets(complex.pieces.size(), false);
   CGAL::Bbox_3 cell_box = cell_vertices.front().bbox();
@@ -45,13 +49,31 @@ LocalScene::LocalScene(const exact::Complex& complex, const exact::ConvexCell& w
     for (const exact::Origin& o : complex.pieces[t].origins) piece.origins.push_back({o.triangle, o.same_side});
     piece.in_cell = complex.in_cell[t];
     piece.meets_cell = meets[t];
+    piece.dark = !dark.empty() && !piece.in_cell &&
+                 std::all_of(piece.origins.begin(), piece.origins.end(),
+                             [&](const LocalOrigin& o) { return dark[o.triangle] != 0; });
     pieces.push_back(std::move(piece));
     const auto id = static_cast<std::uint32_t>(t);
     planes.emplace_back(corner(id, 0), corner(id, 1), corner(id, 2));
   }
-  for (const exact::Edge& e : complex.edges) edges.push_back({e.a, e.b, e.pieces});
-  point_pieces = complex.point_pieces;
-  point_edges = complex.point_edges;
+  // Those at an edge or a point: of the scene, and dark.
+  const auto divided = [&](const std::vector<std::uint32_t>& all) {
+    std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> parts;
+    for (const std::uint32_t t : all) (pieces[t].dark ? parts.second : parts.first).push_back(t);
+    return parts;
+  };
+  for (const exact::Edge& e : complex.edges) {
+    auto [of_scene, of_dark] = divided(e.pieces);
+    edges.push_back({e.a, e.b, std::move(of_scene)});
+    dark_at_edge.push_back(std::move(of_dark));
+  }
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    auto [of_scene, of_dark] = divided(complex.point_pieces[p]);
+    point_pieces.push_back(std::move(of_scene));
+    dark_at_point.push_back(std::move(of_dark));
+    point_edges.push_back(complex.point_edges[p]);
+    std::erase_if(point_edges.back(), [this](std::uint32_t e) { return edges[e].pieces.empty(); });
+  }
 
   cell.dimension = given.dimension();
   for (const exact::Point3& s : given.vertices()) cell.vertices.push_back(taken_over(s));
@@ -68,7 +90,7 @@ LocalScene::LocalScene(const exact::Complex& complex, const exact::ConvexCell& w
   for (const ExactPoint& p : points) bounds = hull(bounds, p.approximate());
   std::vector<IntervalBox> boxes;
   for (std::uint32_t t = 0; t < pieces.size(); ++t) {
-    if (pieces[t].in_cell) continue;
+    if (pieces[t].in_cell || pieces[t].dark) continue;
     occluders.push_back(t);
     boxes.push_back(hull(hull(corner(t, 0).approximate(), corner(t, 1).approximate()), corner(t, 2).approximate()));
   }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "exact/cell/convex_cell.h"
@@ -59,11 +60,14 @@ struct LocalPiece {
   std::vector<LocalOrigin> origins;
   bool in_cell = false;     // in int V: no occluder (D3)
   bool meets_cell = false;  // has a point in V: visible
+  // Known to be outside of Omega, with all that lies there: no occluder, and in none of the lists of edges and points but those of what is dark. Light never goes from one side of it to the
+  // other, so it divides what is around a vertex (Apex).
+  bool dark = false;
 };
 
 struct LocalEdge {
   std::uint32_t a = 0, b = 0;
-  std::vector<std::uint32_t> pieces;
+  std::vector<std::uint32_t> pieces;  // none: of dark ones only, no edge of the scene
 };
 
 enum class Crossing : std::uint8_t { no, yes, touch };
@@ -72,7 +76,9 @@ class LocalScene {
  public:
   LocalScene(const scene::TriangleMesh& mesh, const exact::ConvexCell& cell);
   // A part of a cell in a complex that was cut for the whole of it: what lies in the whole cell occludes for no part (D3, D21).
-  LocalScene(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part);
+  // Of which triangles are `dark` may be left out: none.
+  LocalScene(const exact::Complex& complex, const exact::ConvexCell& whole, const exact::ConvexCell& part,
+             std::span<const std::uint8_t> dark = {});
   LocalScene(const LocalScene&) = delete;
   LocalScene& operator=(const LocalScene&) = delete;
 
@@ -82,6 +88,7 @@ class LocalScene {
   std::deque<Plane> planes;  // per piece; positive side = front
   std::vector<LocalEdge> edges;
   std::vector<std::vector<std::uint32_t>> point_pieces, point_edges;
+  std::vector<std::vector<std::uint32_t>> dark_at_edge, dark_at_point;  // pieces
   std::uint64_t refined_triangles = 0;
   std::uint64_t triangles = 0;
   IntervalBox bounds{};  // of mesh and cell

@@ -4,14 +4,11 @@
 
 namespace clues::fastpath {
 
-Apex::Apex(const LocalScene& scene, Pool& pool, bool on_edge, std::uint32_t id, const ExactPoint* x)
-    : scene_(&scene), on_edge_(on_edge), id_(id), x_(x), arcs_(arcs_around(scene, on_edge, id)) {
-  find_sectors(pool);
-}
+namespace {
 
-std::vector<LocalArc> arcs_around(const LocalScene& scene, bool on_edge, std::uint32_t id) {
-  std::vector<LocalArc> arcs;
-  for (const std::uint32_t t : on_edge ? scene.edges[id].pieces : scene.point_pieces[id]) {
+void add_arcs(const LocalScene& scene, bool on_edge, std::uint32_t id, const std::vector<std::uint32_t>& pieces,
+              std::vector<LocalArc>& arcs) {
+  for (const std::uint32_t t : pieces) {
     const LocalPiece& piece = scene.pieces[t];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::uint32_t e = piece.edges[i], a = piece.corners[i], b = piece.corners[(i + 1) % 3];
@@ -19,6 +16,19 @@ std::vector<LocalArc> arcs_around(const LocalScene& scene, bool on_edge, std::ui
       arcs.push_back({a, b, e, t});
     }
   }
+}
+
+}  // namespace
+
+Apex::Apex(const LocalScene& scene, Pool& pool, bool on_edge, std::uint32_t id, const ExactPoint* x)
+    : scene_(&scene), on_edge_(on_edge), id_(id), x_(x), arcs_(arcs_around(scene, on_edge, id)) {
+  add_arcs(scene, on_edge, id, on_edge ? scene.dark_at_edge[id] : scene.dark_at_point[id], arcs_);
+  find_sectors(pool);
+}
+
+std::vector<LocalArc> arcs_around(const LocalScene& scene, bool on_edge, std::uint32_t id) {
+  std::vector<LocalArc> arcs;
+  add_arcs(scene, on_edge, id, on_edge ? scene.edges[id].pieces : scene.point_pieces[id], arcs);
   return arcs;
 }
 

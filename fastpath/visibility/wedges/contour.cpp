@@ -63,6 +63,7 @@ std::vector<Support> supporting_planes(const LocalScene& scene, Pool& pool, cons
 std::vector<ContourEdge> contours_of(const LocalScene& scene, std::uint32_t id, Pool& pool) {
   std::vector<ContourEdge> contour;
   const LocalEdge& edge = scene.edges[id];
+  if (edge.pieces.empty()) return contour;
   const ExactPoint &a = scene.points[edge.a], &b = scene.points[edge.b];
   const std::vector<Support> supports = supporting_planes(scene, pool, edge);
   for (std::size_t k = 0; k < supports.size(); ++k) {
