@@ -16,7 +16,7 @@ namespace {
 // How many triangles whose proof failed are looked at before the map is made anew: as many as this, or as the map has, times two. (Of a scene behind a hole in K all proofs
 // may fail.)
 constexpr std::size_t kFailures = 512, kFailuresPerMapped = 2;
-// How many triangles may come to a part that already has as many: the map of a large level takes much longer than that of its half.
+// How many triangles may come to a first part that already has as many: the map of a large level takes much longer than that of its half.
 constexpr std::size_t kMostMissing = 2048;
 
 // K of the closure's map, ascending.
@@ -84,7 +84,6 @@ class Closer {
   bool take_all_that_counts(const Closure& closure);
   std::size_t count_missing() const;  // of those that count
   void add_all_that_count();
-  void add_all_if_half();
   void add_those_that_count(const std::vector<std::uint32_t>& triangles);
   bool add_seen(std::uint32_t triangle);  // which a ray has met; as add()
   void add_seen_beside(std::vector<std::uint32_t> triangles);
@@ -161,16 +160,11 @@ void Closer::add_those_that_count(const std::vector<std::uint32_t>& triangles) {
   }
 }
 
-void Closer::add_all_if_half() {
-  const std::size_t missing = count_missing();
-  if (takes_halves_ && missing <= std::min(part_.size(), kMostMissing)) add_all_that_count();
-}
-
 void Closer::begin_with_all_if_half() {
-  const std::vector<std::uint32_t> guess = part_;
-  add_all_if_half();
-  if (part_.size() == guess.size()) return;
-  given_up_ = guess;
+  const std::size_t missing = count_missing();
+  if (!takes_halves_ || missing == 0 || missing > std::min(part_.size(), kMostMissing)) return;
+  given_up_ = part_;
+  add_all_that_count();
   stage_ = PartStage::all;
 }
 
@@ -269,9 +263,13 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
     }
   }
   if (failures_ > 0) open.resize(std::min(open.size(), failures_));
+  // What is in front may hide the others; where few failed another map to tell costs more than they do.
+  const bool few = failures_ == 0 && open.size() <= kFailuresPerMapped * part_.size();
   add_front_of(open);
   if (failures_ > 0) return true;
-  for (const std::uint32_t t : open) add(t);
+  if (few) {
+    for (const std::uint32_t t : open) add(t);
+  }
   // Where all were asked about, all others are dark: those next to the part will be touched.
   if (failed.size() < enough) {
     const std::set<std::uint32_t> not_dark(failed.begin(), failed.end());

@@ -121,7 +121,7 @@ std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& clo
                                            const Cell& cell);
 
 // Deterministic for any number of threads of the current arena. Scenes of up to `whole` triangles are mapped as they are, unless the first guess is on a dial; and so is, unless it is 0, all that counts
-// as soon as no more of that is missing than the part has, and not many are: another map costs more than what may be left out.
+// if rays see half of that, and what is missing is not much: another map costs more than what may be left out.
 // `guess`: triangles that are mapped from the start, for instance what a neighbour sees; whatever it is, the answer is a closed one.
 // `counting`: for each triangle whether it is asked about; none: all are. Of the others the list holds some that are dark, and not all that are lit.
 // O(passes * (map of K + boxes next to lit space)).

@@ -117,14 +117,6 @@ bool Dividers::may_touch(const Box& box, const Corners* aside) const {
   return false;
 }
 
-bool Dividers::may_touch(const Corners& t) const {
-  const Box box = scene::bounds_of(t);
-  for (const std::uint32_t i : near(box)) {
-    if (plane_may_touch(corners_[i], box) && plane_may_touch(t, scene::bounds_of(corners_[i]))) return true;
-  }
-  return false;
-}
-
 Dividers::Meeting Dividers::may_meet_inside(const Corners& t) const {
   Meeting meeting;
   for (const std::uint32_t i : near(scene::bounds_of(t))) {

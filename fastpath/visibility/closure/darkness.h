@@ -21,8 +21,6 @@ class Dividers {
 
   // Conservative: a box and the plane of a triangle beside it. Those in the plane of `aside` are not asked about.
   bool may_touch(const Box& box, const Corners* aside = nullptr) const;
-  // Conservative: the boxes and the planes of two closed triangles.
-  bool may_touch(const Corners& t) const;
   // Those that may have a point inside t, which is none of them: whether one lies in its plane, and all others.
   struct Meeting {
     bool in_plane = false;
@@ -61,8 +59,6 @@ class Darkness {
 
   // Whether all of the cell is in the plane of the triangle.
   bool is_edge_on(const Corners& t) const;
-  // Of a triangle that light does not meet: whether nothing that divides and no wedge piece touches the closed triangle either.
-  bool untouched(const Corners& t) const { return !dividers_.may_touch(t) && !map_.piece_may_touch(t); }
 
  private:
   bool dark(const Box& box) const { return !dividers_.may_touch(box) && map_.label(box) == SetLabel::hidden; }
