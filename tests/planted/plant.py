@@ -134,6 +134,16 @@ COPIES = {
          "                                             scene_.corner(t, 2).approximate()};\n",
          "    const std::array<IntervalBox, 1> corners{p->approximate()};\n")]),
 
+    # A wedge piece misses the inside of a triangle if one end of what its plane has there is beyond a side of it.
+    "pieces_pass_beside": ("fastpath/one_label.cpp", [
+        ("return first <= 0 && second <= 0 && first + second < 0;", "return first <= 0 || second <= 0;")]),
+    # Of a triangle that lit ones pierce the parts on one side of each are asked about.
+    "one_part_of_a_pierced_triangle": ("fastpath/darkness.cpp", [
+        ("for (const int way : {1, -1}) {", "for (const int way : {1}) {")]),
+    # What lies in the plane of a lit surface is asked about on the side that the cell is not on.
+    "asked_on_the_far_side": ("fastpath/darkness.cpp", [
+        ("dark_beside(t, side);", "dark_beside(t, -side);")]),
+
     # ---- refinement in the fast path
 
     # Hazard A-4: the raw adjusted wedge, which is the map of V+ without V-.
