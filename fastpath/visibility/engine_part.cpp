@@ -1,6 +1,5 @@
 #include "fastpath/visibility/engine_part.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -57,7 +56,7 @@ ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, cons
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   std::optional<std::size_t> first;
   const auto make_map = [&](const ScenePart& part, PartStage stage) -> std::shared_ptr<const PartialMap> {
-    const auto mapped = static_cast<std::size_t>(std::count(part.dark.begin(), part.dark.end(), 0));
+    const std::size_t mapped = mapped_of(part.ids, part.dark).size();
     if (!first) first = mapped;
     LocalMapOptions of_part = options;
     if (stage == PartStage::grown) {

@@ -24,14 +24,7 @@ struct SmallCity {
   fastpath::Bvh bvh{mesh};
 };
 
-// Without what is only known to be dark.
-std::vector<std::uint32_t> mapped(const fastpath::ScenePart& part) {
-  std::vector<std::uint32_t> ids;
-  for (std::size_t i = 0; i < part.ids.size(); ++i) {
-    if (part.dark[i] == 0) ids.push_back(part.ids[i]);
-  }
-  return ids;
-}
+std::vector<std::uint32_t> mapped(const fastpath::ScenePart& part) { return fastpath::mapped_of(part.ids, part.dark); }
 
 // Whichever map is given up: what is visible is listed, as light meets it in the map before or as there is no proof. And what is listed without need is no more than what lacks a proof.
 TEST(Closure, ListsWhatIsVisibleWhereAMapIsGivenUp) {

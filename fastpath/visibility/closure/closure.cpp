@@ -1,5 +1,7 @@
 #include "fastpath/visibility/closure/closure.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <iterator>
 #include <numeric>
@@ -9,6 +11,7 @@
 #include "fastpath/visibility/closure/darkness.h"
 #include "fastpath/visibility/closure/neighbours.h"
 #include "fastpath/visibility/closure/sight_rays.h"
+#include "fastpath/visibility/scene/mesh_part.h"
 
 namespace clues::fastpath {
 namespace {
@@ -19,14 +22,7 @@ constexpr std::size_t kFailures = 512, kFailuresPerMapped = 2;
 // How many triangles may come to a first part that already has as many: the map of a large level takes much longer than that of its half.
 constexpr std::size_t kMostMissing = 2048;
 
-// K of the closure's map, ascending.
-std::vector<std::uint32_t> mapped_of(const Closure& closure) {
-  std::vector<std::uint32_t> mapped;
-  for (std::size_t i = 0; i < closure.part.size(); ++i) {
-    if (closure.dark[i] == 0) mapped.push_back(closure.part[i]);
-  }
-  return mapped;
-}
+std::vector<std::uint32_t> mapped_of(const Closure& closure) { return fastpath::mapped_of(closure.part, closure.dark); }
 
 class Closer {
  public:
@@ -171,26 +167,12 @@ void Closer::begin_with_all_if_half() {
 ScenePart Closer::scene_part() {
   std::sort(part_.begin(), part_.end());
   ScenePart part;
-  std::vector<std::uint32_t> points;
   for (std::uint32_t t = 0; t < in_part_.size(); ++t) {
     if (in_part_[t] == 0 && is_dark_[t] == 0) continue;
     part.ids.push_back(t);
     part.dark.push_back(in_part_[t] == 0 ? 1 : 0);
-    const scene::Triangle& corners = bvh_.mesh().triangles[t];
-    points.insert(points.end(), corners.begin(), corners.end());
   }
-  std::sort(points.begin(), points.end());
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  for (const std::uint32_t p : points) part.mesh.points.push_back(bvh_.mesh().points[p]);
-  for (const std::uint32_t t : part.ids) {
-    scene::Triangle corners{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto at = std::lower_bound(points.begin(), points.end(), bvh_.mesh().triangles[t][i]);
-      corners[i] = static_cast<std::uint32_t>(at - points.begin());
-    }
-    part.mesh.triangles.push_back(corners);
-    part.mesh.face_of.push_back(static_cast<std::uint32_t>(part.mesh.face_of.size()));
-  }
+  part.mesh = mesh_of(bvh_.mesh(), part.ids);
   return part;
 }
 
@@ -224,13 +206,14 @@ std::vector<std::uint32_t> Closer::taken_out(const Darkness& darkness, const std
 }
 
 bool Closer::keep_beside(const std::vector<std::uint32_t>& dark, const PartialMap& map) {
-  bool others = false;
-  for (const std::uint32_t t : dark) {
-    if (is_dark_[t] != 0 || !map.piece_may_touch(bvh_.corners(t))) continue;
-    is_dark_[t] = 1;
-    others = true;
+  std::vector<std::uint8_t> is_other(dark.size(), 0);
+  tbb::parallel_for(std::size_t{0}, dark.size(), [&](std::size_t i) {
+    is_other[i] = is_dark_[dark[i]] == 0 && map.piece_may_touch(bvh_.corners(dark[i])) ? 1 : 0;
+  });
+  for (std::size_t i = 0; i < dark.size(); ++i) {
+    if (is_other[i] != 0) is_dark_[dark[i]] = 1;
   }
-  return others;
+  return std::find(is_other.begin(), is_other.end(), 1) != is_other.end();
 }
 
 bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible) {
@@ -354,6 +337,14 @@ std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& clo
   ProvedDark proved(others);
   return not_proved_by(
       closure, scene, cell, others, [](std::uint32_t) { return false; }, proved, uncounted);
+}
+
+std::vector<std::uint32_t> mapped_of(std::span<const std::uint32_t> ids, std::span<const std::uint8_t> dark) {
+  std::vector<std::uint32_t> mapped;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (dark[i] == 0) mapped.push_back(ids[i]);
+  }
+  return mapped;
 }
 
 Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map, std::size_t whole,

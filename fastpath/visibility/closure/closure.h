@@ -79,6 +79,9 @@ struct ScenePart {
   std::vector<std::uint8_t> dark;
 };
 
+// K of a part: the ids of those that are not dark.
+std::vector<std::uint32_t> mapped_of(std::span<const std::uint32_t> ids, std::span<const std::uint8_t> dark);
+
 // Makes the map of a part of the scene, for the same cell. None: it is given up, as it takes too much effort.
 using PartialMapMaker = std::function<std::shared_ptr<const PartialMap>(const ScenePart& part, PartStage stage)>;
 

@@ -29,6 +29,7 @@ bool plane_may_touch(const Corners& t, const Box& b) {
   return negative && positive;
 }
 
+// Whether all of the cell is in the plane of the triangle.
 bool holds_all(const Corners& t, std::span<const Point> cell) {
   return std::all_of(cell.begin(), cell.end(), [&](const Point& v) { return side_of_plane(t, v) == 0; });
 }

@@ -14,6 +14,7 @@
 #include "fastpath/visibility/refinement/adjusted_cut.h"
 #include "fastpath/visibility/refinement/area_bounds.h"
 #include "fastpath/visibility/refinement/sight_lines.h"
+#include "fastpath/visibility/scene/mesh_part.h"
 
 namespace clues::fastpath {
 namespace {
@@ -29,25 +30,6 @@ struct Part {
   std::vector<WedgePiece> wedges;    // for the choice of a plane; with backprojection only
   bool mapped = true;                // until then `seen` is what is to be asked about
 };
-
-scene::TriangleMesh part_of(const scene::TriangleMesh& mesh, const std::vector<std::uint32_t>& ids) {
-  scene::TriangleMesh part;
-  std::vector<std::uint32_t> used;
-  for (const std::uint32_t t : ids) used.insert(used.end(), mesh.triangles[t].begin(), mesh.triangles[t].end());
-  std::sort(used.begin(), used.end());
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (const std::uint32_t p : used) part.points.push_back(mesh.points[p]);
-  for (const std::uint32_t t : ids) {
-    scene::Triangle corners{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto at = std::lower_bound(used.begin(), used.end(), mesh.triangles[t][i]);
-      corners[i] = static_cast<std::uint32_t>(at - used.begin());
-    }
-    part.triangles.push_back(corners);
-    part.face_of.push_back(static_cast<std::uint32_t>(part.face_of.size()));
-  }
-  return part;
-}
 
 // Sight lines to each triangle, unless they are on a dial.
 int sight_tries(const LocalMapOptions& options, const RefinementOptions& refinement) {
@@ -70,7 +52,7 @@ class Refiner {
     result_.first_order = first_order_visibility(bvh, cell, options, {.regions = with_areas_});
     result_.visible = result_.first_order.visible;
     ids_ = result_.first_order.part;
-    mesh_ = part_of(bvh.mesh(), ids_);
+    mesh_ = mesh_of(bvh.mesh(), ids_);
     complex_ = exact::build_complex(mesh_, &whole_);
     listed_.assign(ids_.size(), false);
     for (const std::uint32_t t : result_.visible) listed_[index_of(t)] = true;
