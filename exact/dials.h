@@ -28,6 +28,8 @@ struct Dials {
 
   // So much at once: wedges before the next look at what they light, failed proofs before the next map. 0: as the engine has it.
   std::size_t batch = 0;
+  // What is open after a map of the fast path is mapped alone if that takes at most so many hundredths of the part (open_part.h). 0: never.
+  std::int64_t open_percent = kOwn;
   int threads = 0;  // 0: as many as the caller has given
 };
 

@@ -76,4 +76,11 @@ Cell::Span Cell::span_of(const Segment& s) const {
   return span;
 }
 
+bool Cell::surely_holds_inside(const Point& p) const {
+  return dimension_ == 3 && std::all_of(facets_.begin(), facets_.end(), [&p](const Corners& facet) {
+           const FilteredSign side = orient3d_filtered(facet[0], facet[1], facet[2], p);
+           return side.certain && side.sign == Sign::negative;
+         });
+}
+
 }  // namespace clues::fastpath

@@ -30,6 +30,8 @@ class Cell {
     Range outer{0, 1}, inner{1, 0};
   };
   Span span_of(const Segment& s) const;
+  // True only of points strictly inside a solid cell.
+  bool surely_holds_inside(const Point& p) const;
 
   const ExactCell& exact() const { return *exact_; }  // of a solid cell
 

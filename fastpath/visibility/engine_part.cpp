@@ -22,6 +22,7 @@ class EnginePart : public PartialMap {
   }
 
   bool piece_may_touch(const Corners& triangle) const override { return map_.piece_may_touch(triangle); }
+  bool has_fallbacks() const override { return map_.counts().conservative_fallbacks > 0; }
 
   const LocalMap& map() const { return map_; }
 
@@ -52,7 +53,7 @@ Box outside_of(const Bvh& bvh) {
 
 ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
                             const Box& outside, exact::CutMemory& memory, std::span<const std::uint32_t> guess,
-                            std::span<const std::uint8_t> counting) {
+                            std::span<const std::uint8_t> counting, Wanted wanted) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   std::optional<std::size_t> first;
   const auto make_map = [&](const ScenePart& part, PartStage stage) -> std::shared_ptr<const PartialMap> {
@@ -75,7 +76,7 @@ ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, cons
       return nullptr;
     }
   };
-  return {close_over_visible(bvh, Cell(exact_cell), make_map, kMappedWhole, options.dials, guess, counting)};
+  return {close_over_visible(bvh, Cell(exact_cell), make_map, kMappedWhole, options.dials, guess, counting, wanted)};
 }
 
 }  // namespace clues::fastpath

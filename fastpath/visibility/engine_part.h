@@ -24,6 +24,6 @@ Box outside_of(const Bvh& bvh);
 // `outside`: all places that the map will be asked about. `memory`: of the tree's scene, without a cell.
 ClosedScene close_by_engine(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
                             const Box& outside, exact::CutMemory& memory, std::span<const std::uint32_t> guess = {},
-                            std::span<const std::uint8_t> counting = {});
+                            std::span<const std::uint8_t> counting = {}, Wanted wanted = Wanted::map);
 
 }  // namespace clues::fastpath

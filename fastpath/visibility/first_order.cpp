@@ -17,10 +17,16 @@ FirstOrder by_closure(const Bvh& bvh, const std::vector<Point>& cell, const Loca
   LocalMapOptions without_end = options;
   without_end.effort = 0;  // there are regions of a map that is made to its end only
   exact::CutMemory memory;
-  ClosedScene closed = close_by_engine(bvh, cell, without_end, outside_of(bvh), memory);
+  // In solid mode what light meets is not listed where it meets backs alone, which the last map has to tell.
+  const Wanted wanted = asked.regions || options.mode == SideMode::solid ? Wanted::map : Wanted::list;
+  ClosedScene closed = close_by_engine(bvh, cell, without_end, outside_of(bvh), memory, {}, {}, wanted);
   LocalMap map = *closed.map();
   FirstOrder result;
-  for (const std::uint32_t t : map.visible()) result.visible.push_back(closed.closure.part[t]);
+  if (wanted == Wanted::list) {
+    result.visible = closed.closure.visible;
+  } else {
+    for (const std::uint32_t t : map.visible()) result.visible.push_back(closed.closure.part[t]);
+  }
   if (asked.regions) result.regions = map.regions();
   for (LocalRegion& region : result.regions) region.triangle = closed.closure.part[region.triangle];
   result.counts = map.counts();

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "fastpath/queries/bvh.h"
@@ -38,11 +39,12 @@ const exact::Dials kByProofsAlone = [] {
 
 fastpath::Closure close(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell, PartBug bug,
                         const exact::Dials& dials = {}, const std::vector<std::uint32_t>& guess = {},
-                        const std::vector<std::uint8_t>& counting = {}) {
+                        const std::vector<std::uint8_t>& counting = {},
+                        fastpath::Wanted wanted = fastpath::Wanted::map) {
   const auto exact_cell = exact::ConvexCell::from_doubles(cell);
   const fastpath::Bvh bvh(mesh);
   return fastpath::close_over_visible(bvh, fastpath::Cell(cell), reference_parts(exact_cell, bug), 0, dials, guess,
-                                      counting);
+                                      counting, wanted);
 }
 
 Both both(const scene::TriangleMesh& mesh, const std::vector<scene::Point>& cell) {
@@ -215,6 +217,59 @@ TEST(Closure, APartAndWhatIsDarkBesideItListWhatAllOfTheSceneDoes) {
   }
   EXPECT_GT(scenes, 20U);
   EXPECT_GT(beside, mapped / 20);
+}
+
+// Corners on a prism with eight sides about the first point of a cell: more than a box has.
+std::vector<scene::Point> prism_about(const scene::Point& p) {
+  std::vector<scene::Point> corners;
+  for (int i = 0; i < 16; ++i) {
+    const double angle = (i / 2 + 0.3) * 0.78539816339744831;
+    corners.push_back({p[0] + 0.75 * std::cos(angle), p[1] + 0.75 * std::sin(angle), p[2] + (i % 2 == 0 ? 0.5 : -0.5)});
+  }
+  return corners;
+}
+
+// What is open after the map of a part, mapped alone, gives the list that a map of all of it gives: with the reference, from half of what is visible, and with the engine.
+TEST(Closure, WhatIsOpenAloneListsWhatAllOfThePartDoes) {
+  std::size_t settled = 0;
+  for (const std::uint32_t size : {100U, 300U}) {
+    const auto mesh = fuzz::make_city(size, 1);
+    const auto cell = fuzz::street_cell(size, 1);
+    const auto whole = reference::first_order_visibility(mesh, exact::ConvexCell::from_doubles(cell), {}).visible;
+    std::vector<std::uint32_t> half;
+    for (std::size_t i = 0; i < whole.size(); i += 2) half.push_back(whole[i]);
+    exact::Dials dials;
+    dials.first_guess = exact::Dials::FirstGuess::nothing;
+    dials.open_percent = 100;
+    const auto closure = close(mesh, cell, PartBug::none, dials, half, {}, fastpath::Wanted::list);
+    EXPECT_EQ(closure.visible, whole);
+    settled += closure.counts.settled;
+  }
+  EXPECT_GT(settled, 20U);
+  std::size_t scenes = 0, alone = 0;
+  for (const auto kind : fuzz::all_kinds) {
+    for (std::uint64_t index = 0; index < 8; ++index) {
+      const auto scene = fuzz::generate(kind, 20261130, index);
+      SCOPED_TRACE(scene.name);
+      const fastpath::Bvh bvh(scene.mesh);
+      const auto cell = index % 4 == 3 ? prism_about(scene.cell[0]) : scene.cell;
+      const auto list = [&](std::int64_t percent) {
+        fastpath::LocalMapOptions options;
+        options.dials.first_guess = exact::Dials::FirstGuess::nothing;
+        options.dials.sight_rays = 100;
+        options.dials.open_percent = percent;
+        return fastpath::first_order_visibility(bvh, cell, options);
+      };
+      const auto all = list(0), open = list(100);
+      if (all.conservative_fallbacks > 0) continue;  // what is in doubt may be proved dark in a part
+      ++scenes;
+      EXPECT_EQ(open.visible, all.visible);
+      EXPECT_TRUE(std::includes(open.part.begin(), open.part.end(), open.visible.begin(), open.visible.end()));
+      alone += open.closure.settled > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(scenes, 40U);
+  EXPECT_GT(alone, 20U);
 }
 
 // All but one triangle are mapped from the start: most are dark, and leave with the first map.

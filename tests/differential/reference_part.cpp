@@ -83,6 +83,7 @@ class ReferencePart : public fastpath::PartialMap {
     const Triangle3 triangle(exact::to_exact(t[0]), exact::to_exact(t[1]), exact::to_exact(t[2]));
     return triangle.is_degenerate() || touches(triangle.bbox(), triangle);
   }
+  bool has_fallbacks() const override { return map_.statistics.conservative_fallbacks > 0; }
 
  private:
   // In the middle of the box, for all of the corners' hull.

@@ -143,6 +143,13 @@ COPIES = {
     # What lies in the plane of a lit surface is asked about on the side that the cell is not on.
     "asked_on_the_far_side": ("fastpath/darkness.cpp", [
         ("dark_beside(t, side);", "dark_beside(t, -side);")]),
+    # What is open is taken for all, whatever has not been asked about.
+    "open_without_the_rest": ("fastpath/closure.cpp", [
+        ("all_came_in_ = all_came_in_ && few;", "all_came_in_ = true;")]),
+    # Of what is on the way to an open triangle that is kept which one corner of the cell looks past.
+    "hull_of_one_corner": ("fastpath/open_part.cpp", [
+        ("const Shaft shaft(bvh.frame(), bvh.corners(to[i]), corners);",
+         "const Shaft shaft(bvh.frame(), bvh.corners(to[i]), std::span(corners).first(1));")]),
 
     # ---- refinement in the fast path
 

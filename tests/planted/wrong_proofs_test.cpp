@@ -24,6 +24,7 @@ bool loses_some(const scene::TriangleMesh& mesh, const std::vector<scene::Point>
   options.dials.first_guess = exact::Dials::FirstGuess::nothing;
   options.dials.sight_rays = 0;
   options.dials.batch = 1;
+  options.dials.open_percent = 100;
   const auto part = fastpath::first_order_visibility(bvh, cell, options);
   return !std::includes(part.visible.begin(), part.visible.end(), whole.visible.begin(), whole.visible.end());
 }

@@ -13,8 +13,8 @@
 #include "exact/cell/convex_cell.h"
 #include "exact/sight/witness.h"
 #include "fastpath/queries/segment_queries.h"
+#include "fastpath/visibility/closure/sight_lines.h"
 #include "fastpath/visibility/closure/sight_rays.h"
-#include "fastpath/visibility/refinement/sight_lines.h"
 #include "validate/cells/near_segment.h"
 
 namespace clues::validate {

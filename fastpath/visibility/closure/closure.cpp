@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "fastpath/visibility/closure/darkness.h"
 #include "fastpath/visibility/closure/neighbours.h"
+#include "fastpath/visibility/closure/open_part.h"
 #include "fastpath/visibility/closure/sight_rays.h"
-#include "fastpath/visibility/scene/mesh_part.h"
 
 namespace clues::fastpath {
 namespace {
@@ -19,19 +20,27 @@ namespace {
 // How many triangles whose proof failed are looked at before the map is made anew: as many as this, or as the map has, times two. (Of a scene behind a hole in K all proofs
 // may fail.)
 constexpr std::size_t kFailures = 512, kFailuresPerMapped = 2;
+// So many come into any part at once, small as it may be: another map takes longer than theirs.
+constexpr std::size_t kFewFailures = 128;
 // How many triangles may come to a first part that already has as many: the map of a large level takes much longer than that of its half.
 constexpr std::size_t kMostMissing = 2048;
+// What is open is mapped alone where that takes no more of K than this, in hundredths: its light, which less of K stops, goes astray.
+constexpr std::int64_t kOpenPercent = 60;
+constexpr std::int64_t kOpenTries = 32;  // sight lines to each triangle of K, which may tell that it is visible
 
 std::vector<std::uint32_t> mapped_of(const Closure& closure) { return fastpath::mapped_of(closure.part, closure.dark); }
 
 class Closer {
  public:
   Closer(const Bvh& bvh, const Cell& cell, std::size_t whole, const exact::Dials& dials,
-         std::span<const std::uint8_t> counting)
+         std::span<const std::uint8_t> counting, Wanted wanted)
       : bvh_(bvh),
         cell_(cell),
         takes_halves_(whole > 0),
         failures_(dials.batch),
+        open_percent_(dials.open_percent == exact::Dials::kOwn ? kOpenPercent : dials.open_percent),
+        open_tries_(dials.sight_rays == exact::Dials::kOwn ? kOpenTries : std::min(kOpenTries, dials.sight_rays)),
+        keeps_rays_(wanted == Wanted::list),
         counting_(counting),
         rays_(bvh, cell, dials.sight_rays),
         proved_(bvh),
@@ -64,6 +73,8 @@ class Closer {
 
   // The part, with what is known to be dark and divides what is around its vertices.
   ScenePart scene_part();
+  // After add_what_may_be_lit: what of K is open, where all that is not known to be dark is in the part now, and little of K is on the way there.
+  std::optional<OpenPart> open_part(const Closure& closure) const;
   // Tries to prove every triangle outside the part dark; adds what is in the way of that, and drops what is dark. False: nothing is in the way, and another map would tell nothing new.
   bool add_what_may_be_lit(const PartialMap& map, const std::vector<std::uint32_t>& visible);
   // After a map is given up: on to the next stage (closure.h). False: there is none.
@@ -81,7 +92,10 @@ class Closer {
   std::size_t count_missing() const;  // of those that count
   void add_all_that_count();
   void add_those_that_count(const std::vector<std::uint32_t>& triangles);
-  bool add_seen(std::uint32_t triangle);  // which a ray has met; as add()
+  // Which a ray has met; as add().
+  bool add_seen(std::uint32_t triangle);
+  template <class RayOf>
+  bool add_seen(std::uint32_t triangle, const RayOf& ray);
   void add_seen_beside(std::vector<std::uint32_t> triangles);
   // Adds what sight lines to the triangles meet first; else the triangles themselves.
   void add_front_of(const std::vector<std::uint32_t>& triangles);
@@ -93,16 +107,20 @@ class Closer {
   const Bvh& bvh_;
   const Cell& cell_;
   bool takes_halves_;
-  std::size_t failures_;                    // a dial; 0: our own number
+  std::size_t failures_;  // a dial; 0: our own number
+  std::int64_t open_percent_, open_tries_;
+  bool keeps_rays_;
   std::span<const std::uint8_t> counting_;  // none: all do
   SightRays rays_;
   ProvedDark proved_;
   std::vector<std::uint8_t> in_part_;
   std::vector<std::uint8_t> is_dark_;             // and next to the part, or was
   std::vector<std::uint8_t> seen_, looked_into_;  // by a ray; as a listed triangle that none has seen
+  FirstRays first_rays_;
   std::vector<std::uint32_t> part_;
   std::vector<std::uint32_t> given_up_;  // the first whose map was, or that became all that counts before it was made
   PartStage stage_ = PartStage::grown;
+  bool all_came_in_ = false;  // what the last map gave no proof of, if it counts
 };
 
 void Closer::add_all() {
@@ -133,16 +151,23 @@ void Closer::add_triangles_by_the_cell() {
 
 void Closer::add_seen_by_rays() {
   add_seen_beside(part_);
-  rays_.look_around([this](std::uint32_t t, const auto&) { return add_seen(t); });
+  rays_.look_around([this](std::uint32_t t, const auto& ray) { return add_seen(t, ray); });
 }
 
 void Closer::add_seen_beside(std::vector<std::uint32_t> triangles) {
-  rays_.look_beside(std::move(triangles), [this](std::uint32_t t, const auto&) { return add_seen(t); });
+  rays_.look_beside(std::move(triangles), [this](std::uint32_t t, const auto& ray) { return add_seen(t, ray); });
 }
 
 bool Closer::add_seen(std::uint32_t triangle) {
   seen_[triangle] = 1;
   return add(triangle);
+}
+
+template <class RayOf>
+bool Closer::add_seen(std::uint32_t triangle, const RayOf& ray) {
+  if (keeps_rays_ && !first_rays_.contains(triangle) && cell_.surely_holds_inside(ray().a))
+    first_rays_.emplace(triangle, ray());
+  return add_seen(triangle);
 }
 
 // They are seen as well, unless something is in front. Rays miss many of them where little can be seen of each.
@@ -166,14 +191,19 @@ void Closer::begin_with_all_if_half() {
 
 ScenePart Closer::scene_part() {
   std::sort(part_.begin(), part_.end());
-  ScenePart part;
-  for (std::uint32_t t = 0; t < in_part_.size(); ++t) {
-    if (in_part_[t] == 0 && is_dark_[t] == 0) continue;
-    part.ids.push_back(t);
-    part.dark.push_back(in_part_[t] == 0 ? 1 : 0);
-  }
-  part.mesh = mesh_of(bvh_.mesh(), part.ids);
-  return part;
+  return marked_part(bvh_, {in_part_, is_dark_});
+}
+
+std::optional<OpenPart> Closer::open_part(const Closure& closure) const {
+  if (!all_came_in_ || open_percent_ == 0 || closure.map->has_fallbacks()) return std::nullopt;
+  std::vector<std::uint32_t> asked = closure.visible;
+  std::copy_if(part_.begin(), part_.end(), std::back_inserter(asked), [&](std::uint32_t t) {
+    const auto before = std::lower_bound(closure.part.begin(), closure.part.end(), t);
+    return before == closure.part.end() || *before != t;
+  });
+  std::sort(asked.begin(), asked.end());
+  return fastpath::open_part(bvh_, cell_, {in_part_, is_dark_}, asked, first_rays_, static_cast<int>(open_tries_),
+                             part_.size() * static_cast<std::size_t>(open_percent_) / 100);
 }
 
 void Closer::add_front_of(const std::vector<std::uint32_t>& triangles) {
@@ -229,6 +259,7 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   const bool none_beside = std::find(is_dark_.begin(), is_dark_.end(), 1) == is_dark_.end();
   const bool others_beside = keep_beside(dark, map);
   keep_beside(taken_out(darkness, visible), map);
+  all_came_in_ = failures_ == 0 && failed.size() < enough;
   // Without what divides its vertices a map may have too much; where rays have seen all of it, it does not.
   if (open.empty())
     return none_beside && others_beside &&
@@ -247,7 +278,8 @@ bool Closer::add_what_may_be_lit(const PartialMap& map, const std::vector<std::u
   }
   if (failures_ > 0) open.resize(std::min(open.size(), failures_));
   // What is in front may hide the others; where few failed another map to tell costs more than they do.
-  const bool few = failures_ == 0 && open.size() <= kFailuresPerMapped * part_.size();
+  const bool few = failures_ == 0 && open.size() <= std::max(kFewFailures, kFailuresPerMapped * part_.size());
+  all_came_in_ = all_came_in_ && few;
   add_front_of(open);
   if (failures_ > 0) return true;
   if (few) {
@@ -329,6 +361,27 @@ std::vector<std::uint32_t> Closer::unproved_by(const Closure& closure) {
   return not_proved_by(closure, bvh_, cell_, bvh_, in_its_part, proved_, counts);
 }
 
+// Ends the loop by a map of what is open, if there is little of that. False: nothing has changed.
+bool settle_by_open_part(Closer& closer, const PartialMapMaker& make_map, Closure& result) {
+  auto open = closer.open_part(result);
+  if (!open) return false;
+  ++closer.counts.passes;
+  auto map = make_map(open->part, closer.stage());
+  if (!map || map->has_fallbacks()) return false;
+  closer.counts.settled = open->visible.size();
+  result.map = std::move(map);
+  result.visible = std::move(open->visible);
+  for (const std::uint32_t i : result.map->visible()) {
+    const std::uint32_t t = open->part.ids[i];
+    if (std::binary_search(open->open.begin(), open->open.end(), t)) result.visible.push_back(t);
+  }
+  std::sort(result.visible.begin(), result.visible.end());
+  ScenePart part = closer.scene_part();
+  result.part = std::move(part.ids);
+  result.dark = std::move(part.dark);
+  return true;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene,
@@ -349,9 +402,9 @@ std::vector<std::uint32_t> mapped_of(std::span<const std::uint32_t> ids, std::sp
 
 Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map, std::size_t whole,
                            const exact::Dials& dials, std::span<const std::uint32_t> guess,
-                           std::span<const std::uint8_t> counting) {
+                           std::span<const std::uint8_t> counting, Wanted wanted) {
   using FirstGuess = exact::Dials::FirstGuess;
-  Closer closer(bvh, cell, whole, dials, counting);
+  Closer closer(bvh, cell, whole, dials, counting, wanted);
   const bool small = dials.first_guess == FirstGuess::seen && bvh.mesh().triangles.size() <= whole;
   if (small || dials.first_guess == FirstGuess::everything) {
     closer.add_all();
@@ -382,6 +435,7 @@ Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMak
     }
     grown = result.part.size() < bvh.mesh().triangles.size() && !bvh.nodes().empty() &&
             closer.add_what_may_be_lit(*result.map, result.visible);
+    if (grown && wanted == Wanted::list) grown = !settle_by_open_part(closer, make_map, result);
   }
   result.counts = closer.counts;
   result.counts.mapped = mapped_of(result).size();

@@ -24,6 +24,8 @@
 // Where some triangles do not count (D22: the hulls of a level) nobody needs a proof about them: the loop ends when those that count are mapped or proved, and what light meets in
 // Omega(K) is listed, of which Omega(S) is a part. It may be more: light may come past what was left out. So that little does, K grows, too, by those without a proof that sight lines meet on
 // their way to what is asked about, or is listed and has been seen by no ray (once each).
+//
+// Where only a list is wanted, and little came into K after a map, not all of K is mapped again, but what is on the way from V to what is still open (open_part.h).
 #pragma once
 
 #include <cstdint>
@@ -60,6 +62,8 @@ class PartialMap {
   virtual SetLabel label_beside(const Corners& triangle, const Box& about) const = 0;
   // False only if no wedge piece touches the closed triangle.
   virtual bool piece_may_touch(const Corners& triangle) const = 0;
+  // Whether any of it counts as visible for want of a proof.
+  virtual bool has_fallbacks() const = 0;
 };
 
 // How a part came about. A map that is given up is made again, of another part, as long as there is a stage left:
@@ -92,15 +96,17 @@ struct ClosureCounts {
   std::uint64_t boxes_dark = 0;  // subtrees proved dark as a whole
   std::uint64_t boxes_opened = 0;
   std::uint64_t triangles_dark = 0;  // proved dark one by one
-  std::uint64_t mapped = 0;          // triangles of the last map, but for those known to be dark
+  std::uint64_t mapped = 0;          // triangles of K
+  std::uint64_t settled = 0;  // of these, visible by a free sight line where the last map was made of what was open
 };
 
 struct Closure {
-  // K, and what is known to be dark beside it: ids of the scene, ascending. Triangle i of the map is part[i].
+  // K, and what is known to be dark beside it: ids of the scene, ascending. Triangle i of the map is part[i], but where a list was wanted: then the last map may be one of
+  // a part of K.
   std::vector<std::uint32_t> part;
   std::vector<std::uint8_t> dark;  // of each: whether it is none of K
   std::vector<std::uint32_t>
-      visible;  // of the part, what light meets: ids of the scene, ascending. With what follows it is the PVS.
+      visible;  // of K, what light meets: ids of the scene, ascending. With what follows it is the PVS.
   std::vector<std::uint32_t>
       unproved;  // where a map was given up: what is not in the part and not proved to be dark; ascending
   std::shared_ptr<const PartialMap> map;  // none: all maps were given up, and all of the scene is unproved
@@ -123,13 +129,17 @@ inline constexpr std::size_t kAllForPart = 16, kLeastAll = 512;
 std::vector<std::uint32_t> not_proved_dark(const Bvh& others, const Closure& closure, const Bvh& scene,
                                            const Cell& cell);
 
+enum class Wanted : std::uint8_t { map, list };
+
 // Deterministic for any number of threads of the current arena. Scenes of up to `whole` triangles are mapped as they are, unless the first guess is on a dial; and so is, unless it is 0, all that counts
 // if rays see half of that, and what is missing is not much: another map costs more than what may be left out.
 // `guess`: triangles that are mapped from the start, for instance what a neighbour sees; whatever it is, the answer is a closed one.
 // `counting`: for each triangle whether it is asked about; none: all are. Of the others the list holds some that are dark, and not all that are lit.
+// `wanted`: see Closure::part.
 // O(passes * (map of K + boxes next to lit space)).
 Closure close_over_visible(const Bvh& bvh, const Cell& cell, const PartialMapMaker& make_map,
                            std::size_t whole = kMappedWhole, const exact::Dials& dials = {},
-                           std::span<const std::uint32_t> guess = {}, std::span<const std::uint8_t> counting = {});
+                           std::span<const std::uint32_t> guess = {}, std::span<const std::uint8_t> counting = {},
+                           Wanted wanted = Wanted::map);
 
 }  // namespace clues::fastpath

@@ -11,9 +11,9 @@
 #include "exact/sight/scene_query.h"
 #include "exact/threads.h"
 #include "fastpath/queries/segment_queries.h"
+#include "fastpath/visibility/closure/sight_lines.h"
 #include "fastpath/visibility/refinement/adjusted_cut.h"
 #include "fastpath/visibility/refinement/area_bounds.h"
-#include "fastpath/visibility/refinement/sight_lines.h"
 #include "fastpath/visibility/scene/mesh_part.h"
 
 namespace clues::fastpath {

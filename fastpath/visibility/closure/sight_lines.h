@@ -8,7 +8,8 @@
 #include "exact/cell/convex_cell.h"
 #include "fastpath/predicates/cell.h"
 #include "fastpath/queries/bvh.h"
-#include "fastpath/visibility/map/local_map.h"
+#include "fastpath/queries/segment_queries.h"
+#include "fastpath/visibility/search/options.h"
 
 namespace clues::fastpath {
 
@@ -25,11 +26,16 @@ class SightLines {
   // the current arena.
   std::vector<std::uint8_t> reach(const std::vector<std::uint32_t>& triangles, const std::vector<Point>& from,
                                   int tries) const;
+  // Whether this ray, from a point of int V, reaches the triangle: it is free that far.
+  bool reaches(SegmentQueries& queries, std::uint32_t triangle, const Segment& ray) const;
 
   const Cell& cell() const { return cell_; }
   const Bvh& bvh() const { return bvh_; }
 
  private:
+  // From v by p, a point of the triangle but for roundings.
+  bool reaches_by(SegmentQueries& queries, std::uint32_t triangle, const Point& v, Point p) const;
+
   const Bvh& bvh_;
   Cell cell_;
   const exact::ConvexCell& exact_cell_;

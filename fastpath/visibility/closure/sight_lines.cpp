@@ -1,12 +1,13 @@
-#include "fastpath/visibility/refinement/sight_lines.h"
+#include "fastpath/visibility/closure/sight_lines.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <bit>
+#include <cmath>
 #include <random>
 
-#include "fastpath/queries/segment_queries.h"
+#include "fastpath/predicates/estimated_vectors.h"
 
 namespace clues::fastpath {
 namespace {
@@ -65,6 +66,28 @@ std::vector<Point> SightLines::viewpoints(const exact::ConvexCell& part) const {
   return found;
 }
 
+bool SightLines::reaches_by(SegmentQueries& queries, std::uint32_t triangle, const Point& v, Point p) const {
+  const std::uint32_t itself[] = {triangle};
+  const Corners t = bvh_.corners(triangle);
+  // A little beyond the triangle, so that the line crosses it: from off its plane it can meet it in one way only.
+  for (std::size_t c = 0; c < 3; ++c) p[c] += (p[c] - v[c]) * 0x1p-20;
+  const FilteredSign side = orient3d_filtered(t[0], t[1], t[2], v);
+  if (!side.certain || side.sign == Sign::zero) return false;
+  if (mode_ == SideMode::solid && side.sign != kFront) return false;
+  const Segment s{v, p};
+  return !queries.any_hit(s, {itself, &cell_}) && queries.any_hit(s, {{}, &cell_});
+}
+
+bool SightLines::reaches(SegmentQueries& queries, std::uint32_t triangle, const Segment& ray) const {
+  const Corners t = bvh_.corners(triangle);
+  const Point n = cross_of(minus(t[1], t[0]), minus(t[2], t[0])), way = minus(ray.b, ray.a);
+  const double along = dot_of(n, minus(t[0], ray.a)) / dot_of(n, way);
+  Point p = ray.a;
+  for (std::size_t c = 0; c < 3; ++c) p[c] += along * way[c];
+  const bool is_finite = std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+  return is_finite && reaches_by(queries, triangle, ray.a, p);
+}
+
 std::vector<std::uint8_t> SightLines::reach(const std::vector<std::uint32_t>& triangles, const std::vector<Point>& from,
                                             int tries) const {
   std::vector<std::uint8_t> reached(triangles.size(), 0);
@@ -72,19 +95,11 @@ std::vector<std::uint8_t> SightLines::reach(const std::vector<std::uint32_t>& tr
   tbb::enumerable_thread_specific<SegmentQueries> all_queries(std::cref(bvh_));
   tbb::parallel_for(std::size_t{0}, triangles.size(), [&](std::size_t k) {
     SegmentQueries& queries = all_queries.local();
-    const std::uint32_t itself[] = {triangles[k]};
     const Corners t = bvh_.corners(triangles[k]);
     std::mt19937_64 random(seed_of(t));
     for (int i = 0; i < tries && reached[k] == 0; ++i) {
       const Point& v = from[random() % from.size()];
-      Point p = combination(t, weights(3, random));
-      // A little beyond the triangle, so that the line crosses it: from off its plane it can meet it in one way only.
-      for (std::size_t c = 0; c < 3; ++c) p[c] += (p[c] - v[c]) * 0x1p-20;
-      const FilteredSign side = orient3d_filtered(t[0], t[1], t[2], v);
-      if (!side.certain || side.sign == Sign::zero) continue;
-      if (mode_ == SideMode::solid && side.sign != kFront) continue;
-      const Segment s{v, p};
-      if (!queries.any_hit(s, {itself, &cell_}) && queries.any_hit(s, {{}, &cell_})) reached[k] = 1;
+      if (reaches_by(queries, triangles[k], v, combination(t, weights(3, random)))) reached[k] = 1;
     }
   });
   return reached;
