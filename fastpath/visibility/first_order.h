@@ -16,7 +16,7 @@ struct FirstOrder {
   // Ids of the triangles that were mapped, and of dark ones beside them (closure.h), ascending; every visible one is among them.
   std::vector<std::uint32_t> part;
   std::vector<LocalRegion> regions;  // of the part, with ids of the scene, when asked for; all else is hidden
-  LocalMapCounts counts;             // of the last map
+  LocalMapCounts counts;             // of the last map, which without regions may be one of a part of these
   ClosureCounts closure;
   std::uint64_t conservative_fallbacks = 0;
   std::vector<std::uint32_t>
