@@ -4,6 +4,7 @@
 // written where it is read.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -23,8 +24,11 @@ struct Dials {
   // The part of the scene that is mapped first, by the closure of the fast path and by the traversal of the reference.
   enum class FirstGuess : std::uint8_t { seen, nothing, everything };
   FirstGuess first_guess = FirstGuess::seen;
-  std::int64_t sight_rays =
-      kOwn;  // so many in all that look for more of it, and for witnesses in a refinement; 0: none
+  // So many in all that look for more of it, and no more than so many for each triangle that may be witnessed; 0: none.
+  std::int64_t sight_rays = kOwn;
+  int sight_tries(int own) const {
+    return sight_rays == kOwn ? own : static_cast<int>(std::min<std::int64_t>(own, sight_rays));
+  }
 
   // So much at once: wedges before the next look at what they light, failed proofs before the next map. 0: as the engine has it.
   std::size_t batch = 0;

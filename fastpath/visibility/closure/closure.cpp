@@ -26,7 +26,7 @@ constexpr std::size_t kFewFailures = 128;
 constexpr std::size_t kMostMissing = 2048;
 // What is open is mapped alone where that takes no more of K than this, in hundredths: its light, which less of K stops, goes astray.
 constexpr std::int64_t kOpenPercent = 60;
-constexpr std::int64_t kOpenTries = 32;  // sight lines to each triangle of K, which may tell that it is visible
+constexpr int kOpenTries = 32;  // sight lines to each triangle of K, which may tell that it is visible
 
 std::vector<std::uint32_t> mapped_of(const Closure& closure) { return fastpath::mapped_of(closure.part, closure.dark); }
 
@@ -39,7 +39,7 @@ class Closer {
         takes_halves_(whole > 0),
         failures_(dials.batch),
         open_percent_(dials.open_percent == exact::Dials::kOwn ? kOpenPercent : dials.open_percent),
-        open_tries_(dials.sight_rays == exact::Dials::kOwn ? kOpenTries : std::min(kOpenTries, dials.sight_rays)),
+        open_tries_(dials.sight_tries(kOpenTries)),
         keeps_rays_(wanted == Wanted::list),
         counting_(counting),
         rays_(bvh, cell, dials.sight_rays),
@@ -108,7 +108,8 @@ class Closer {
   const Cell& cell_;
   bool takes_halves_;
   std::size_t failures_;  // a dial; 0: our own number
-  std::int64_t open_percent_, open_tries_;
+  std::int64_t open_percent_;
+  int open_tries_;
   bool keeps_rays_;
   std::span<const std::uint8_t> counting_;  // none: all do
   SightRays rays_;
@@ -202,7 +203,7 @@ std::optional<OpenPart> Closer::open_part(const Closure& closure) const {
     return before == closure.part.end() || *before != t;
   });
   std::sort(asked.begin(), asked.end());
-  return fastpath::open_part(bvh_, cell_, {in_part_, is_dark_}, asked, first_rays_, static_cast<int>(open_tries_),
+  return fastpath::open_part(bvh_, cell_, {in_part_, is_dark_}, asked, first_rays_, open_tries_,
                              part_.size() * static_cast<std::size_t>(open_percent_) / 100);
 }
 

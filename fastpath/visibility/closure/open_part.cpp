@@ -8,6 +8,7 @@
 
 #include "exact/cell/convex_cell.h"
 #include "fastpath/queries/shaft.h"
+#include "fastpath/visibility/closure/marks.h"
 #include "fastpath/visibility/closure/sight_lines.h"
 #include "fastpath/visibility/scene/mesh_part.h"
 
@@ -28,19 +29,12 @@ std::vector<Point> corners_about(const Cell& cell) {
 
 // Those which the hull of the cell and of one of these may meet, and these.
 std::vector<std::uint8_t> on_the_way(const Bvh& bvh, const Cell& cell, const std::vector<std::uint32_t>& to) {
-  const std::size_t all = bvh.mesh().triangles.size();
   const std::vector<Point> corners = corners_about(cell);
-  tbb::enumerable_thread_specific<std::vector<std::uint8_t>> met(all, std::uint8_t{0});
-  tbb::parallel_for(std::size_t{0}, to.size(), [&](std::size_t i) {
-    std::vector<std::uint8_t>& mine = met.local();
-    mine[to[i]] = 1;
+  return marks(bvh.mesh().triangles.size(), to.size(), [&](std::size_t i, std::vector<std::uint8_t>& met) {
+    met[to[i]] = 1;
     const Shaft shaft(bvh.frame(), bvh.corners(to[i]), corners);
-    for (const std::uint32_t t : shaft_candidates_conservative(bvh, shaft)) mine[t] = 1;
+    for (const std::uint32_t t : shaft_candidates_conservative(bvh, shaft)) met[t] = 1;
   });
-  std::vector<std::uint8_t> by_any(all, 0);
-  for (const std::vector<std::uint8_t>& of_thread : met)
-    std::transform(by_any.begin(), by_any.end(), of_thread.begin(), by_any.begin(), std::bit_or<>());
-  return by_any;
 }
 
 // Those that a free sight line reaches, and those that are open. By the rays first: each of these says it all but for roundings and ties.

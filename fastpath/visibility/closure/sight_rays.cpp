@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "fastpath/queries/segment_queries.h"
+#include "fastpath/visibility/closure/marks.h"
 
 namespace clues::fastpath {
 
@@ -143,17 +144,11 @@ std::vector<std::uint32_t> SightRays::towards(std::span<const std::uint32_t> tri
 std::vector<std::uint8_t> SightRays::met_towards(std::span<const std::uint32_t> triangles) {
   const std::size_t count = within_budget(kMetTowards * triangles.size());
   tbb::enumerable_thread_specific<SegmentQueries> queries(std::cref(bvh_));
-  tbb::enumerable_thread_specific<std::vector<std::uint8_t>> met(bvh_.mesh().triangles.size(), 0);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  return marks(bvh_.mesh().triangles.size(), count, [&](std::size_t i, std::vector<std::uint8_t>& met) {
     const Segment ray = ray_towards(triangles[i / kMetTowards], i % kMetTowards, kMetTowards, 4);
     if (!is_finite(ray)) return;
-    std::vector<std::uint8_t>& mine = met.local();
-    for (const std::uint32_t t : queries.local().all_hits(ray)) mine[t] = 1;
+    for (const std::uint32_t t : queries.local().all_hits(ray)) met[t] = 1;
   });
-  std::vector<std::uint8_t> by_any(bvh_.mesh().triangles.size(), 0);
-  for (const std::vector<std::uint8_t>& of_thread : met)
-    std::transform(by_any.begin(), by_any.end(), of_thread.begin(), by_any.begin(), std::bit_or<>());
-  return by_any;
 }
 
 Sights sights_from(const Bvh& bvh, const Cell& cell) {

@@ -31,12 +31,6 @@ struct Part {
   bool mapped = true;                // until then `seen` is what is to be asked about
 };
 
-// Sight lines to each triangle, unless they are on a dial.
-int sight_tries(const LocalMapOptions& options, const RefinementOptions& refinement) {
-  if (options.dials.sight_rays == exact::Dials::kOwn) return refinement.sight_lines;
-  return static_cast<int>(std::min<std::int64_t>(refinement.sight_lines, options.dials.sight_rays));
-}
-
 class Refiner {
  public:
   Refiner(const Bvh& bvh, const std::vector<Point>& cell, const LocalMapOptions& options,
@@ -44,7 +38,7 @@ class Refiner {
       : bvh_(bvh),
         options_(options),
         refinement_(refinement),
-        sight_tries_(sight_tries(options, refinement)),
+        sight_tries_(options.dials.sight_tries(refinement.sight_lines)),
         with_areas_(refinement.regions || refinement.tolerance_area > 0),
         whole_(ConvexCell::from_doubles(cell)),
         viewpoints_to_ask_(whole_),
